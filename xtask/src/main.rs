@@ -1,1 +1,51 @@
-fn main() {}
+//! Builds, serves and tests Armill: the only tool a contributor needs.
+#![allow(clippy::print_stdout, reason = "a command-line tool speaks on its standard output")]
+
+mod workspace;
+mod site;
+mod server;
+mod browser;
+mod checks;
+
+use std::env;
+use std::process::ExitCode;
+
+use anyhow::{Result, bail};
+
+const USAGE: &str = "\
+usage: cargo xtask <command>
+
+  build            build the complete static site in target/site
+  serve            build it and serve it on this machine, from port 8080 on
+  test             check formatting and lints, run all tests: native, in the browser, through the page
+  test --native    only what needs no browser
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    match run(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &[String]) -> Result<()> {
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match words.as_slice() {
+        ["build"] => site::build().map(|_| ()),
+        ["serve"] => server::serve(&site::build()?),
+        ["test"] => checks::all(),
+        ["test", "--native"] => checks::native(),
+        // Called by cargo for `cargo test --target wasm32-unknown-unknown`, see .cargo/config.toml.
+        ["wasm-test-runner", rest @ ..] => checks::run_wasm(rest),
+        ["help" | "--help" | "-h"] => {
+            print!("{USAGE}");
+            Ok(())
+        }
+        [] => bail!("which command?\n\n{USAGE}"),
+        _ => bail!("cannot make sense of `{}`\n\n{USAGE}", words.join(" ")),
+    }
+}

@@ -1,0 +1,347 @@
+//! A page in a real browser, driven as a person would: real clicks, real keys.
+
+use std::cell::RefCell;
+use std::error::Error;
+use std::fmt::{Debug, Display};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+use std::{env, fs, thread};
+
+use fantoccini::elements::Element;
+use fantoccini::wd::WebDriverCompatibleCommand;
+use fantoccini::{Client, ClientBuilder, Locator};
+use hyper_util::client::legacy::connect::HttpConnector;
+use serde_json::{Value, json};
+use tokio::runtime::Runtime;
+use tokio::time::sleep;
+
+pub use fantoccini::key::Key;
+
+/// What a test ends with.
+pub type Result<T = ()> = std::result::Result<T, Box<dyn Error>>;
+
+/// Width and height of the visible part of a page [CSS px].
+pub type Size = (u32, u32);
+
+/// A laptop's.
+pub const DESKTOP: Size = (1280, 800);
+/// A phone's, held upright.
+pub const PHONE: Size = (390, 844);
+
+/// How the browser is started; wasm-bindgen's test runner reads the same file.
+const CAPABILITIES: &str = include_str!("../../.cargo/webdriver.json");
+
+/// How long a download may take.
+const DOWNLOAD: Duration = Duration::from_secs(10);
+
+/// Opens a page of the site, runs a test on it and closes it again. A test that fails leaves a picture
+/// `failed-<test>.png` among the screenshots, and what the console said in its output.
+///
+/// # Errors
+/// Those of the test, and those of [`Page::close`].
+pub fn visit(path: &str, size: Size, test: impl AsyncFnOnce(&Page) -> Result) -> Result {
+    let runtime = Runtime::new()?;
+    let page = runtime.block_on(Page::open(path, size))?;
+    let outcome = catch_unwind(AssertUnwindSafe(|| runtime.block_on(test(&page))));
+    if !matches!(outcome, Ok(Ok(()))) {
+        let name = thread::current().name().unwrap_or("test").replace("::", "-");
+        let picture = runtime.block_on(page.screenshot(&format!("failed-{name}.png")));
+        let console = runtime.block_on(page.console());
+        eprintln!("picture: {picture:?}\nconsole: {console:#?}");
+    }
+    let closed = runtime.block_on(page.close());
+    match outcome {
+        Ok(result) => result.and(closed),
+        Err(panic) => resume_unwind(panic),
+    }
+}
+
+/// An open page, in a browser of its own.
+pub struct Page {
+    client: Client,
+    /// Scheme, host and port of the site, with a slash at the end.
+    origin: String,
+    downloads: PathBuf,
+    /// What it has shown so far: the driver hands out every line once only.
+    console: RefCell<Vec<String>>,
+    /// Parts of error messages that the test brings about on purpose.
+    expected: RefCell<Vec<String>>,
+}
+
+impl Page {
+    /// Starts a browser and opens a page of the site.
+    ///
+    /// # Errors
+    /// If `cargo xtask test` has not started the site and the driver, or the browser does not start.
+    pub async fn open(path: &str, (width, height): Size) -> Result<Page> {
+        let origin = setting("ARMILL_SITE_URL")?;
+        let mut capabilities: serde_json::Map<String, Value> = serde_json::from_str(CAPABILITIES)?;
+        capabilities.insert("goog:loggingPrefs".into(), json!({ "browser": "ALL", "performance": "ALL" }));
+        let client = ClientBuilder::new(HttpConnector::new())
+            .capabilities(capabilities)
+            .connect(&setting("ARMILL_WEBDRIVER_URL")?)
+            .await?;
+        let session = client.session_id().await?.unwrap_or_default();
+        let downloads = scratch().join(format!("downloads-{session}"));
+        fs::create_dir_all(&downloads)?;
+        let page =
+            Page { client, origin, downloads, console: RefCell::default(), expected: RefCell::default() };
+        // A window cannot be as narrow as a phone, a device can.
+        let device = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+        page.devtools("Emulation.setDeviceMetricsOverride", device).await?;
+        let allow = json!({ "behavior": "allow", "downloadPath": page.downloads });
+        page.devtools("Browser.setDownloadBehavior", allow).await?;
+        page.goto(path).await?;
+        Ok(page)
+    }
+
+    /// Goes to a page of the site.
+    ///
+    /// # Errors
+    /// If it cannot be loaded.
+    pub async fn goto(&self, path: &str) -> Result {
+        let url = format!("{}{}", self.origin, path.trim_start_matches('/'));
+        Ok(self.client.goto(&url).await?)
+    }
+
+    /// Loads the page again.
+    ///
+    /// # Errors
+    /// If that fails.
+    pub async fn reload(&self) -> Result {
+        Ok(self.client.refresh().await?)
+    }
+
+    /// Shows the page as for somebody who prefers dark colours (or does not).
+    ///
+    /// # Errors
+    /// If the browser refuses.
+    pub async fn prefer_dark(&self, dark: bool) -> Result {
+        let value = if dark { "dark" } else { "light" };
+        let media = json!({ "features": [{ "name": "prefers-color-scheme", "value": value }] });
+        self.devtools("Emulation.setEmulatedMedia", media).await.map(|_| ())
+    }
+
+    /// The visible text of the first element that the CSS selector finds.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub async fn text(&self, css: &str) -> Result<String> {
+        Ok(self.element(css).await?.text().await?)
+    }
+
+    /// What a form field holds now.
+    ///
+    /// # Errors
+    /// If there is no such field.
+    pub async fn value(&self, css: &str) -> Result<String> {
+        Ok(self.element(css).await?.prop("value").await?.unwrap_or_default())
+    }
+
+    /// Clicks an element.
+    ///
+    /// # Errors
+    /// If there is none, or another one covers it.
+    pub async fn click(&self, css: &str) -> Result {
+        self.element(css).await?.click().await.map_err(|error| within(css, error))
+    }
+
+    /// Replaces what a form field holds, key by key.
+    ///
+    /// # Errors
+    /// If there is no such field, or it cannot be typed into.
+    pub async fn type_into(&self, css: &str, text: &str) -> Result {
+        let select_all = format!("{}a{}", Key::Control, Key::Null);
+        let keys = select_all + if text.is_empty() { "\u{e003}" } else { text };
+        self.element(css).await?.send_keys(&keys).await.map_err(|error| within(css, error))
+    }
+
+    /// Chooses an option of a `<select>` by its value.
+    ///
+    /// # Errors
+    /// If there is no such option.
+    pub async fn choose(&self, css: &str, value: &str) -> Result {
+        self.element(css).await?.select_by_value(value).await.map_err(|error| within(css, error))
+    }
+
+    /// Presses keys, one after the other, wherever the focus is: text, [`Key`]s, or both by `format!`.
+    ///
+    /// # Errors
+    /// If nothing has the focus.
+    pub async fn press(&self, keys: impl Display) -> Result {
+        Ok(self.client.active_element().await?.send_keys(&keys.to_string()).await?)
+    }
+
+    /// Runs the body of a JavaScript function in the page and tells what it returned; promises are awaited.
+    ///
+    /// # Errors
+    /// If it throws.
+    pub async fn js(&self, body: &str) -> Result<Value> {
+        self.client.execute(body, Vec::new()).await.map_err(|error| within(body, error))
+    }
+
+    /// Waits until a JavaScript expression is true; one that throws is not true yet.
+    ///
+    /// # Errors
+    /// If it does not become true in time.
+    pub async fn wait_for(&self, condition: &str, seconds: f64) -> Result {
+        let start = Instant::now();
+        loop {
+            let answer = self.js(&format!("return Boolean({condition})")).await;
+            match answer {
+                Ok(Value::Bool(true)) => return Ok(()),
+                _ if start.elapsed().as_secs_f64() < seconds => sleep(Duration::from_millis(50)).await,
+                Ok(_) => return Err(format!("not true within {seconds} s: {condition}").into()),
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    /// Takes a picture of what is visible and tells where it is: in `target/screenshots`.
+    ///
+    /// # Errors
+    /// If it cannot be taken or stored.
+    pub async fn screenshot(&self, file: &str) -> Result<PathBuf> {
+        let folder = scratch().with_file_name("screenshots");
+        fs::create_dir_all(&folder)?;
+        let path = folder.join(file);
+        fs::write(&path, self.client.screenshot().await?)?;
+        Ok(path)
+    }
+
+    /// Waits for a download to be complete and tells its content.
+    ///
+    /// # Errors
+    /// If no file of this name arrives in time, or it is no text.
+    pub async fn downloaded(&self, file: &str) -> Result<String> {
+        let path = self.downloads.join(file);
+        let start = Instant::now();
+        // The browser writes under another name until the file is complete.
+        while !path.exists() {
+            if start.elapsed() > DOWNLOAD {
+                let present: Vec<_> =
+                    fs::read_dir(&self.downloads)?.flatten().map(|entry| entry.file_name()).collect();
+                return Err(format!("no download named {file}, only {present:?}").into());
+            }
+            sleep(Duration::from_millis(50)).await;
+        }
+        Ok(fs::read_to_string(path)?)
+    }
+
+    /// Everything the console has shown since the page was opened, each line after its level.
+    ///
+    /// # Errors
+    /// If the browser has gone.
+    pub async fn console(&self) -> Result<Vec<String>> {
+        let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+        let entries = self.log("browser").await?;
+        let lines =
+            entries.iter().map(|entry| format!("{}: {}", text(&entry["level"]), text(&entry["message"])));
+        self.console.borrow_mut().extend(lines);
+        Ok(self.console.borrow().clone())
+    }
+
+    /// Errors on the console with this text in them are meant to happen: [`Page::close`] lets them pass.
+    pub fn expect_error(&self, part: &str) {
+        self.expected.borrow_mut().push(part.to_owned());
+    }
+
+    /// Closes the browser.
+    ///
+    /// # Errors
+    /// If the console has shown an error, or a request has left the site.
+    pub async fn close(self) -> Result {
+        let faults = self.faults().await;
+        self.client.close().await?;
+        fs::remove_dir_all(&self.downloads)?;
+        match faults?.as_slice() {
+            [] => Ok(()),
+            faults => Err(faults.join("\n").into()),
+        }
+    }
+
+    /// Errors on the console, and requests that went elsewhere. (A worker's requests are not in the log;
+    /// the site's policy makes those that leave it errors on the console.)
+    async fn faults(&self) -> Result<Vec<String>> {
+        let mut faults = self.console().await?;
+        let expected = self.expected.take();
+        faults.retain(|line| line.starts_with("SEVERE") && !expected.iter().any(|part| line.contains(part)));
+        for entry in self.log("performance").await? {
+            let event: Value = serde_json::from_str(entry["message"].as_str().unwrap_or_default())?;
+            if let Some(url) = requested(&event["message"]).filter(|url| !self.is_own(url)) {
+                faults.push(format!("a request left the site: {url}"));
+            }
+        }
+        Ok(faults)
+    }
+
+    /// Whether an address is the site's, or inside the page itself.
+    fn is_own(&self, url: &str) -> bool {
+        url.starts_with(&self.origin)
+            || ["data:", "blob:", "about:"].iter().any(|scheme| url.starts_with(scheme))
+    }
+
+    async fn element(&self, css: &str) -> Result<Element> {
+        self.client.find(Locator::Css(css)).await.map_err(|error| within(css, error))
+    }
+
+    /// What a log of the driver has gathered since it was read last.
+    async fn log(&self, kind: &str) -> Result<Vec<Value>> {
+        let entries =
+            self.client.issue_cmd(Post { endpoint: "se/log", body: json!({ "type": kind }) }).await?;
+        Ok(serde_json::from_value(entries)?)
+    }
+
+    /// A command of the Chrome DevTools protocol.
+    async fn devtools(&self, command: &str, parameters: Value) -> Result<Value> {
+        let body = json!({ "cmd": command, "params": parameters });
+        Ok(self.client.issue_cmd(Post { endpoint: "goog/cdp/execute", body }).await?)
+    }
+}
+
+/// A command that only ChromeDriver knows.
+#[derive(Debug)]
+struct Post {
+    /// Under the session's address.
+    endpoint: &'static str,
+    body: Value,
+}
+
+impl WebDriverCompatibleCommand for Post {
+    fn endpoint(
+        &self,
+        base: &url::Url,
+        session: Option<&str>,
+    ) -> std::result::Result<url::Url, url::ParseError> {
+        base.join(&format!("session/{}/{}", session.unwrap_or_default(), self.endpoint))
+    }
+
+    fn method_and_body(&self, _: &url::Url) -> (http::Method, Option<String>) {
+        (http::Method::POST, Some(self.body.to_string()))
+    }
+}
+
+/// The address that an event of the network asks for, if it is about a request.
+fn requested(event: &Value) -> Option<&str> {
+    match event["method"].as_str()? {
+        "Network.requestWillBeSent" => event["params"]["request"]["url"].as_str(),
+        "Network.webSocketCreated" => event["params"]["url"].as_str(),
+        _ => None,
+    }
+}
+
+/// A folder of our own in `target`.
+fn scratch() -> &'static Path {
+    Path::new(env!("CARGO_TARGET_TMPDIR"))
+}
+
+fn setting(name: &str) -> Result<String> {
+    env::var(name)
+        .map_err(|_| format!("{name} is not set: these tests are started by `cargo xtask test`").into())
+}
+
+/// An error that tells where it came from.
+fn within(place: &str, error: impl Display) -> Box<dyn Error> {
+    format!("{place}: {error}").into()
+}

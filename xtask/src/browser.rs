@@ -1,0 +1,144 @@
+//! Chromium and the program that drives it.
+
+use std::env;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{Ipv4Addr, TcpStream};
+use std::path::PathBuf;
+use std::process::{Child, ChildStdout, Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, bail};
+
+use crate::workspace::{output, program, run};
+
+/// What Debian calls the browser and its driver.
+const PACKAGES: [&str; 2] = ["chromium", "chromium-driver"];
+
+/// Names under which the browser may be on the search path.
+const BROWSERS: [&str; 5] =
+    ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome"];
+
+/// The driver, after both it and a browser have been made sure of: found, or installed where that can be done.
+///
+/// # Errors
+/// If something is missing and cannot be installed from here; names the packages to install.
+pub(crate) fn driver() -> Result<PathBuf> {
+    if let Some(path) = find() {
+        return Ok(path);
+    }
+    if program("apt-get").is_some() && output("id", &["-u"]).as_deref() == Some("0") {
+        let apt = || Command::new("apt-get");
+        run(apt().arg("update")).and_then(|()| {
+            let quietly = ["install", "-y", "--no-install-recommends"];
+            run(apt().env("DEBIAN_FRONTEND", "noninteractive").args(quietly).args(PACKAGES))
+        })?;
+    }
+    find().with_context(|| {
+        let [browser, driver] = PACKAGES;
+        format!(
+            "the browser tests need Chromium and its driver: install `{browser}` and `{driver}` (Debian's names), \
+             or run `cargo xtask test --native`"
+        )
+    })
+}
+
+/// The driver, if there is a browser for it.
+fn find() -> Option<PathBuf> {
+    // Elsewhere browsers are not on the search path, and the driver knows where they are.
+    let browser = !cfg!(target_os = "linux") || BROWSERS.iter().any(|name| program(name).is_some());
+    let driver = env::var_os("CHROMEDRIVER").map(PathBuf::from).or_else(|| program("chromedriver"));
+    driver.filter(|_| browser)
+}
+
+/// A running driver; stops, and its browsers with it, when dropped.
+pub(crate) struct Driver {
+    process: Child,
+    port: u16,
+}
+
+impl Driver {
+    /// Starts the driver on a port of its own choice.
+    ///
+    /// # Errors
+    /// If there is none, or it does not start.
+    pub(crate) fn start() -> Result<Driver> {
+        let mut process = Command::new(driver()?)
+            .args(["--port=0", "--log-level=SEVERE"])
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .spawn()
+            .context("cannot start chromedriver")?;
+        let mut lines = BufReader::new(process.stdout.take().context("chromedriver has no output")?);
+        // From here on, an early return stops the process too.
+        let mut driver = Driver { process, port: 0 };
+        driver.port = announced_port(&mut lines)?;
+        // A full pipe would stop it.
+        thread::spawn(move || std::io::copy(&mut lines, &mut std::io::sink()));
+        Ok(driver)
+    }
+
+    /// Where it listens.
+    pub(crate) fn url(&self) -> String {
+        format!("http://127.0.0.1:{}", self.port)
+    }
+
+    /// Asks it to quit, which closes the browsers that a failed test has left open.
+    fn quit(&self) -> std::io::Result<()> {
+        let mut stream = TcpStream::connect((Ipv4Addr::LOCALHOST, self.port))?;
+        stream.set_read_timeout(Some(Duration::from_secs(5)))?;
+        write!(stream, "GET /shutdown HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n")?;
+        stream.read_to_end(&mut Vec::new()).map(|_| ())
+    }
+
+    fn has_ended_within(&mut self, limit: Duration) -> bool {
+        let start = Instant::now();
+        while start.elapsed() < limit {
+            if !matches!(self.process.try_wait(), Ok(None)) {
+                return true;
+            }
+            thread::sleep(Duration::from_millis(20));
+        }
+        false
+    }
+}
+
+impl Drop for Driver {
+    fn drop(&mut self) {
+        if self.quit().is_err() || !self.has_ended_within(Duration::from_secs(5)) {
+            // It may have ended just now: then there is nothing left to stop.
+            let _ = self.process.kill();
+            let _ = self.process.wait();
+        }
+    }
+}
+
+/// Reads until the driver tells its port.
+fn announced_port(lines: &mut BufReader<ChildStdout>) -> Result<u16> {
+    let mut line = String::new();
+    while lines.read_line(&mut line)? > 0 {
+        if let Some(port) = port_in(&line) {
+            return Ok(port);
+        }
+        line.clear();
+    }
+    bail!("chromedriver ended before it listened")
+}
+
+/// The port in "ChromeDriver was started successfully on port 39151."
+fn port_in(line: &str) -> Option<u16> {
+    let (_, port) = line.split_once("started successfully on port ")?;
+    port.trim_end().trim_end_matches('.').parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::port_in;
+
+    #[test]
+    fn the_port_is_read_from_the_drivers_greeting() {
+        assert_eq!(port_in("ChromeDriver was started successfully on port 39151.\n"), Some(39151));
+        assert_eq!(port_in("Starting ChromeDriver 156.0.8078.79 on port 0\n"), None);
+        assert_eq!(port_in(""), None);
+    }
+}

@@ -1,0 +1,93 @@
+//! Every check that a change has to pass.
+
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+
+use crate::browser::{self, Driver};
+use crate::server::Server;
+use crate::site;
+use crate::workspace::{self, WASM, cargo, run};
+
+/// All checks; the first that fails ends them.
+///
+/// # Errors
+/// If a check fails, or a tool is missing and cannot be installed.
+pub(crate) fn all() -> Result<()> {
+    native()?;
+    step("tests in the browser", || {
+        browser::driver()?;
+        run(&mut cargo(&["test", "--locked", "--target", WASM, "--test", "web"])?)
+    })?;
+    step("tests of the page", || {
+        let server = Server::start_anywhere(&site::build()?)?;
+        let driver = Driver::start()?;
+        run(cargo(&["test", "--locked", "--features", "page", "--test", "page"])?
+            .env("ARMILL_SITE_URL", &server.url)
+            .env("ARMILL_WEBDRIVER_URL", driver.url()))
+    })
+}
+
+/// The checks that need no browser.
+///
+/// # Errors
+/// As for [`all`].
+pub(crate) fn native() -> Result<()> {
+    step("formatting", || {
+        workspace::add_linters()?;
+        run(&mut cargo(&["fmt", "--all", "--check"])?)
+    })?;
+    step("lints, native", || lint(&["--workspace", "--all-targets", "--features", "page"]))?;
+    step("lints, WebAssembly", || {
+        workspace::add_wasm_target()?;
+        lint(&["--target", WASM, "--package", "armill", "--lib", "--test", "web"])
+    })?;
+    step("native tests", || run(&mut cargo(&["test", "--locked"])?))?;
+    step("tests of this tool", || run(&mut cargo(&["test", "--locked", "--package", "xtask"])?))
+}
+
+/// Runs one compiled WebAssembly test binary in a headless browser. The words are the file and what
+/// `cargo test` adds to it; .cargo/config.toml holds the settings.
+///
+/// # Errors
+/// If a test fails, or there is no browser.
+pub(crate) fn run_wasm(words: &[&str]) -> Result<()> {
+    browser::driver()?;
+    let words = words.iter().copied().filter(|word| !is_foreign(word));
+    wasm_bindgen_cli::wasm_bindgen_test_runner::run_cli_with_args(
+        ["wasm-bindgen-test-runner"].into_iter().chain(words),
+    )
+}
+
+/// Options of the native test harness that only change its output, and that wasm-bindgen's refuses.
+fn is_foreign(word: &str) -> bool {
+    matches!(word, "--quiet" | "-q" | "--show-output")
+        || word.starts_with("--color=")
+        || word.starts_with("--test-threads=")
+}
+
+fn lint(what: &[&str]) -> Result<()> {
+    run(cargo(&["clippy", "--locked"])?.args(what).args(["--", "--deny", "warnings"]))
+}
+
+/// Runs one check under a heading and prints the time it took.
+fn step(heading: &str, check: impl FnOnce() -> Result<()>) -> Result<()> {
+    println!("\n=== {heading}");
+    let start = Instant::now();
+    check().with_context(|| heading.to_owned())?;
+    println!("=== {heading}: passed in {:.1} s", start.elapsed().as_secs_f64());
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_foreign;
+
+    #[test]
+    fn only_options_about_output_are_dropped() {
+        assert!(["--quiet", "-q", "--show-output", "--color=always"].into_iter().all(is_foreign));
+        assert!(
+            !["target/a.wasm", "a_filter", "--ignored", "--exact", "--nocapture"].into_iter().any(is_foreign)
+        );
+    }
+}

@@ -1,0 +1,174 @@
+//! The static site: the core as WebAssembly, and the files of `web/` around it.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use anyhow::{Context, Result};
+
+use crate::workspace::{self, WASM};
+
+/// Folder of the site that the compiled core lives in.
+const CORE: &str = "pkg";
+
+/// Makes the site in `target/site` and returns that folder. What is up to date stays untouched.
+///
+/// # Errors
+/// If the core does not compile, a tool is missing, or a file cannot be read or written.
+pub(crate) fn build() -> Result<PathBuf> {
+    let root = workspace::root()?;
+    let site = root.join("target/site");
+    workspace::add_wasm_target()?;
+    let wasm = compile(&root)?;
+    bind(&wasm, &site.join(CORE)).context("wasm-bindgen failed")?;
+    mirror(&root.join("web"), &site, Some(OsStr::new(CORE)))?;
+    println!("The site is in target/site");
+    Ok(site)
+}
+
+/// Compiles the core and returns the raw module.
+fn compile(root: &Path) -> Result<PathBuf> {
+    // An explicit folder, because the site has to be found in `target` whatever the environment says.
+    let arguments = ["build", "--release", "--locked", "--target", WASM, "--package", "armill", "--lib"];
+    workspace::run(workspace::cargo(&arguments)?.arg("--target-dir").arg("target"))?;
+    Ok(root.join("target").join(WASM).join("release/armill.wasm"))
+}
+
+/// Turns the raw module into one with a JavaScript interface, in `folder`.
+fn bind(wasm: &Path, folder: &Path) -> Result<()> {
+    let outputs = ["armill.js", "armill_bg.wasm", "armill.d.ts"].map(|name| folder.join(name));
+    // This program is an input too: it holds wasm-bindgen and the options below.
+    let inputs = [wasm.to_path_buf(), std::env::current_exe()?];
+    if is_newer(&outputs, &inputs)? {
+        return Ok(());
+    }
+    let options =
+        ["--target", "web", "--out-name", "armill", "--remove-name-section", "--remove-producers-section"];
+    let mut words = vec![OsStr::new("wasm-bindgen"), wasm.as_os_str()];
+    words.extend(options.map(OsStr::new));
+    words.extend([OsStr::new("--out-dir"), folder.as_os_str()]);
+    wasm_bindgen_cli::wasm_bindgen::run_cli_with_args(words)
+}
+
+/// Whether every output exists and is at least as new as every input.
+fn is_newer(outputs: &[PathBuf], inputs: &[PathBuf]) -> Result<bool> {
+    let changed = |path: &PathBuf| -> Result<SystemTime> {
+        let metadata = fs::metadata(path).with_context(|| format!("cannot read {}", path.display()))?;
+        Ok(metadata.modified()?)
+    };
+    let newest = inputs.iter().map(changed).collect::<Result<Vec<_>>>()?.into_iter().max();
+    Ok(outputs.iter().all(|output| changed(output).ok() >= newest))
+}
+
+/// Makes `copy` hold the same files as `original`, but for the entry `besides`, which is left alone.
+fn mirror(original: &Path, copy: &Path, besides: Option<&OsStr>) -> Result<()> {
+    fs::create_dir_all(copy).with_context(|| format!("cannot create {}", copy.display()))?;
+    for entry in entries(copy)? {
+        let twin = original.join(entry.file_name().unwrap_or_default());
+        let stale = twin.is_dir() != entry.is_dir() || !twin.exists();
+        if stale && entry.file_name() != besides {
+            remove(&entry).with_context(|| format!("cannot remove {}", entry.display()))?;
+        }
+    }
+    for entry in entries(original)? {
+        let twin = copy.join(entry.file_name().unwrap_or_default());
+        if entry.is_dir() {
+            mirror(&entry, &twin, None)?;
+        } else {
+            update(&entry, &twin).with_context(|| format!("cannot copy {}", entry.display()))?;
+        }
+    }
+    Ok(())
+}
+
+fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
+    let list = fs::read_dir(folder).with_context(|| format!("cannot list {}", folder.display()))?;
+    list.map(|entry| Ok(entry?.path())).collect()
+}
+
+fn remove(path: &Path) -> std::io::Result<()> {
+    if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) }
+}
+
+/// Copies a file, unless the copy has the same content already.
+fn update(original: &Path, copy: &Path) -> std::io::Result<()> {
+    let wanted = fs::read(original)?;
+    match fs::read(copy) {
+        Ok(present) if present == wanted => Ok(()),
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+        _ => fs::write(copy, wanted),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    fn write(folder: &Path, file: &str, content: &str) {
+        let path = folder.join(file);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, content).unwrap();
+    }
+
+    fn age(path: &Path, seconds: u64) {
+        let file = fs::File::options().write(true).open(path).unwrap();
+        file.set_modified(SystemTime::now() - Duration::from_secs(seconds)).unwrap();
+    }
+
+    #[test]
+    fn the_mirror_follows_changes_and_keeps_what_it_must() {
+        let folder = tempfile::tempdir().unwrap();
+        let (web, site) = (folder.path().join("web"), folder.path().join("site"));
+        write(&web, "index.html", "one");
+        write(&web, "css/page.css", "p {}");
+        write(&web, "becomes/folder.txt", "x");
+        write(&site, "pkg/armill.js", "made");
+        write(&site, "vanished.js", "old");
+        write(&site, "gone/away.js", "old");
+        write(&site, "css/vanished.css", "old");
+        write(&site, "becomes", "a file");
+        mirror(&web, &site, Some(OsStr::new("pkg"))).unwrap();
+
+        let read = |file: &str| fs::read_to_string(site.join(file)).ok();
+        assert_eq!(read("index.html").as_deref(), Some("one"));
+        assert_eq!(read("css/page.css").as_deref(), Some("p {}"));
+        assert_eq!(read("becomes/folder.txt").as_deref(), Some("x"));
+        assert_eq!(read("pkg/armill.js").as_deref(), Some("made"), "the core is not the mirror's");
+        for stale in ["vanished.js", "gone", "css/vanished.css"] {
+            assert!(!site.join(stale).exists(), "{stale} is not in web/ any more");
+        }
+    }
+
+    #[test]
+    fn an_unchanged_file_is_not_written_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let (original, copy) = (folder.path().join("a"), folder.path().join("b"));
+        fs::write(&original, "same").unwrap();
+        fs::write(&copy, "same").unwrap();
+        age(&copy, 1000);
+        let before = fs::metadata(&copy).unwrap().modified().unwrap();
+        update(&original, &copy).unwrap();
+        assert_eq!(fs::metadata(&copy).unwrap().modified().unwrap(), before);
+        fs::write(&original, "other").unwrap();
+        update(&original, &copy).unwrap();
+        assert_eq!(fs::read_to_string(&copy).unwrap(), "other");
+    }
+
+    #[test]
+    fn outputs_are_stale_if_one_is_older_or_missing() {
+        let folder = tempfile::tempdir().unwrap();
+        let [input, old, new, missing] =
+            ["input", "old", "new", "missing"].map(|name| folder.path().join(name));
+        for (path, seconds) in [(&old, 30), (&input, 20), (&new, 10)] {
+            fs::write(path, "").unwrap();
+            age(path, seconds);
+        }
+        let newer = |outputs: &[PathBuf]| is_newer(outputs, std::slice::from_ref(&input)).unwrap();
+        assert!(newer(std::slice::from_ref(&new)));
+        assert!(!newer(&[new.clone(), old]));
+        assert!(!newer(&[new, missing]));
+    }
+}
