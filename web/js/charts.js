@@ -1,0 +1,181 @@
+// Draws the charts of one panel: SVG text from the core, legend and readout in HTML around it.
+
+import * as core from "./core.js";
+import { debounced, make } from "./dom.js";
+
+const SVG = "http://www.w3.org/2000/svg";
+const SPATIAL = new Set(["path"]);
+
+let available = []; // { name, title, view, figure } of the shown result
+let panel = null;
+let turn = 0; // drawing that is no longer the latest one stops
+const figures = new Map(); // chart name -> Figure
+
+/** Takes over the charts of a new result. */
+export function setCharts(list) {
+  available = list;
+  draw();
+}
+
+/** Draws the charts of `shown`, and again whenever its width changes. */
+export function showPanel(shown) {
+  if (panel) resized.unobserve(panel);
+  panel = shown;
+  resized.observe(panel);
+  draw();
+}
+
+const redraw = debounced(() => draw(), 120);
+let width = 0;
+const resized = new ResizeObserver(([entry]) => {
+  const now = Math.round(entry.contentRect.width);
+  if (now > 0 && now !== width) redraw();
+  width = now;
+});
+
+async function draw() {
+  const mine = ++turn;
+  const view = panel.id.replace("panel-", "");
+  const wanted = available.filter((chart) => chart.view === view);
+  const shown = wanted.map((chart) => figures.get(chart.name) ?? new Figure(chart));
+  wanted.forEach((chart, i) => figures.set(chart.name, shown[i]));
+  const place = panel.querySelector(".charts");
+  if (shown.some((figure, i) => place.children[i] !== figure.node) || place.children.length !== shown.length) {
+    place.replaceChildren(...shown.map((figure) => figure.node));
+  }
+  for (const figure of shown) {
+    const size = figure.size();
+    if (size.width < 1) return;
+    try {
+      const chart = await core.chart(figure.name, size);
+      if (mine !== turn) return;
+      figure.show(chart);
+    } catch {
+      return; // a newer result, or a recovery, draws again
+    }
+  }
+}
+
+class Figure {
+  #plot = make("div", { className: "plot" });
+  #legend = make("ul", { className: "legend" });
+  #caption = make("figcaption");
+  #readout = make("p", { className: "readout" });
+  #cursor = make("input", { type: "range", className: "cursor", min: "0", max: "400", step: "1" });
+  #mark = make("div", { className: "mark" });
+  #title;
+  #chart;
+  #lines = [];
+
+  constructor({ name, title, figure, view }) {
+    this.name = name;
+    this.spatial = SPATIAL.has(view) && !/time|coordinate/i.test(name);
+    this.#title = make("h3", {}, title);
+    const source = make("span", { className: "source" }, figure ? `Thesis fig. ${figure}` : "");
+    this.node = make("figure", { className: "chart-figure", id: `chart-${name}` },
+      make("header", {}, this.#title, source), this.#legend, this.#plot, make("div", { className: "below" }, this.#readout, this.#caption));
+    this.#plot.style.setProperty("min-height", "15rem");
+    this.#cursor.setAttribute("aria-label", `Read values off: ${title}`);
+    this.#cursor.addEventListener("input", () => this.#read(Number(this.#cursor.value) / 400));
+    this.#cursor.addEventListener("focus", () => this.#read(Number(this.#cursor.value) / 400));
+    this.#cursor.addEventListener("blur", () => this.#leave());
+    this.#plot.addEventListener("pointermove", (event) => this.#point(event));
+    this.#plot.addEventListener("pointerdown", (event) => this.#point(event));
+    this.#plot.addEventListener("pointerleave", (event) => event.pointerType === "touch" || this.#leave());
+  }
+
+  /** The size to draw at [px]. */
+  size() {
+    const width = Math.round(this.#plot.clientWidth);
+    const height = this.spatial ? Math.min(560, Math.max(300, width * 0.6)) : Math.min(300, Math.max(220, width * 0.38));
+    return { width, height: Math.round(height) };
+  }
+
+  show(chart) {
+    this.#chart = chart;
+    const parsed = new DOMParser().parseFromString(chart.svg, "image/svg+xml");
+    const svg = document.importNode(parsed.documentElement, true);
+    svg.setAttribute("aria-hidden", "true");
+    const readable = chart.x?.label && !this.spatial;
+    this.#plot.style.setProperty("min-height", `${chart.height}px`);
+    this.#plot.replaceChildren(svg, ...(readable ? [this.#mark, this.#cursor] : []));
+    this.#title.textContent = chart.title;
+    this.#caption.textContent = chart.description;
+    this.#legend.replaceChildren(...chart.series.map(legendItem));
+    this.#lines = readable ? chart.series.map((series) => ({ ...series, points: pointsOf(svg, series.class) })) : [];
+    this.#leave();
+    this.#place();
+  }
+
+  #place() {
+    const { left, top, width, height } = this.#chart.plot;
+    for (const [name, value] of Object.entries({ left, top, width, height })) {
+      this.#cursor.style.setProperty(name, `${value}px`);
+      if (name === "top" || name === "height") this.#mark.style.setProperty(name, `${value}px`);
+    }
+  }
+
+  #point(event) {
+    if (!this.#lines.length) return;
+    const { left, width } = this.#chart.plot;
+    const across = (event.clientX - this.#plot.getBoundingClientRect().left - left) / width;
+    if (across < 0 || across > 1) return this.#leave();
+    this.#cursor.value = String(Math.round(across * 400));
+    this.#read(across);
+  }
+
+  /** Shows the values at a fraction of the plot's width, as exactly as the drawing has them. */
+  #read(across) {
+    const { plot, x, y } = this.#chart;
+    const at = plot.left + across * plot.width;
+    const toX = (px) => x.min + ((px - plot.left) / plot.width) * (x.max - x.min);
+    const toY = (py) => y.max - ((py - plot.top) / plot.height) * (y.max - y.min);
+    const parts = this.#lines.flatMap(({ label, points }) => {
+      const nearest = nearestTo(points, at);
+      return nearest ? [`${label} ${rounded(toY(nearest[1]), (y.max - y.min) / plot.height)}`] : [];
+    });
+    const text = `${x.label} ${rounded(toX(at), (x.max - x.min) / plot.width)} ${x.unit}: ${parts.join(", ")} ${y.unit}`;
+    this.#readout.textContent = text;
+    this.#cursor.setAttribute("aria-valuetext", text);
+    this.#mark.style.setProperty("left", `${at}px`);
+    this.#mark.classList.add("on");
+  }
+
+  #leave() {
+    if (document.activeElement === this.#cursor) return;
+    this.#readout.textContent = "";
+    this.#mark.classList.remove("on");
+  }
+}
+
+function legendItem({ label, class: name }) {
+  const sample = document.createElementNS(SVG, "svg");
+  sample.setAttribute("viewBox", "0 0 28 8");
+  sample.setAttribute("class", "sample");
+  sample.setAttribute("aria-hidden", "true");
+  const group = document.createElementNS(SVG, "g");
+  group.setAttribute("class", `series ${name}`);
+  const line = document.createElementNS(SVG, "path");
+  line.setAttribute("d", "M0 4H28");
+  group.append(line);
+  sample.append(group);
+  return make("li", {}, sample, label);
+}
+
+/** The drawn points [x, y] of a series, in the SVG's own units. */
+function pointsOf(svg, name) {
+  const shapes = svg.querySelectorAll(`.series.${CSS.escape(name)} :is(polyline, path)`);
+  return [...shapes].flatMap((shape) => {
+    const numbers = (shape.getAttribute("points") ?? shape.getAttribute("d")).match(/-?\d+(\.\d+)?/g) ?? [];
+    return numbers.flatMap((x, i) => (i % 2 ? [] : [[Number(x), Number(numbers[i + 1])]]));
+  });
+}
+
+const nearestTo = (points, x) =>
+  points.reduce((best, point) => (!best || Math.abs(point[0] - x) < Math.abs(best[0] - x) ? point : best), null);
+
+/** `value` with as many decimals as one pixel can tell. */
+function rounded(value, pixel) {
+  const decimals = Math.min(8, Math.max(0, Math.ceil(-Math.log10(pixel))));
+  return value.toFixed(decimals).replace("-", "\u2212");
+}

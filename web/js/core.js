@@ -1,0 +1,137 @@
+// The page's side of the WebAssembly core.
+//
+// Two Workers take turns: one holds the result that the page shows and draws its charts, the other computes the
+// next one. A run that is invalid, cancelled or trapped therefore never takes the shown result away.
+
+const SUPERSEDE_MS = 400; // a run older than this is cut off when a newer job arrives; a younger one may finish
+const CANCELLED = { code: "cancelled", message: "Cancelled." };
+
+let events; // { onstart, onprogress, onresult, onerror, oncancel, ontrap }, given to start()
+let shown = null; // Worker with the shown result
+let spare = null; // Worker to compute in
+let since = null; // when the run in progress began
+let next = null; // the job to compute next: only the latest counts
+let good = null; // the job of the shown result
+let lost = false; // the shown result was lost to a trap and is being computed again
+
+/** Starts the core. Returns its version, default job, fields and presets; rejects if the browser cannot run it. */
+export function start(handlers) {
+  events = handlers;
+  spare = spawn();
+  return spare.ask("hello");
+}
+
+/** Computes `json`; what is being computed or waits is superseded. Events tell the rest. */
+export function run(json) {
+  lost = false;
+  next = json;
+  if (since === null) compute();
+  else if (performance.now() - since > SUPERSEDE_MS) cutOff(CANCELLED);
+}
+
+/** Stops the run in progress, at once. */
+export function cancel() {
+  next = null;
+  if (since !== null) cutOff(CANCELLED);
+}
+
+/** Resolves if `json` is a valid job, else rejects with the error. */
+export const check = (json) => (spare ??= spawn()).ask("check", json);
+
+/** One chart of the shown result, drawn at `options.width` pixels. */
+export const chart = (name, options) => askShown("chart", name, options);
+
+/** One column of the shown result, as a Float64Array. */
+export const column = (key) => askShown("column", key);
+
+/** The shown result as text, "columns-csv" or "compensated-csv". */
+export const exported = (format) => askShown("export", format);
+
+/** Makes the core trap on purpose, so that a test can see the page recover. */
+export const trap = () => askShown("trap").catch(() => {});
+
+async function compute() {
+  while (next !== null) {
+    const json = next;
+    const worker = (spare ??= spawn());
+    next = null;
+    since = performance.now();
+    events.onstart();
+    try {
+      const result = await worker.ask("run", json);
+      [shown, spare] = [worker, shown ?? spawn()];
+      spare.ask("release").catch(() => {});
+      good = json;
+      events.onresult(result, performance.now() - since);
+    } catch (error) {
+      if (error.fatal) retire(worker);
+      if (error.fatal) events.ontrap(error);
+      else if (next === null) (error === CANCELLED ? events.oncancel : events.onerror)(error);
+    }
+    since = null;
+  }
+}
+
+async function askShown(kind, ...args) {
+  const worker = shown;
+  if (!worker) throw { code: "empty", message: "There is no result yet." };
+  try {
+    return await worker.ask(kind, ...args);
+  } catch (error) {
+    if (error.fatal && worker === shown) recover(error);
+    throw error;
+  }
+}
+
+/** The shown result died with its Worker: says so and computes it again, but only once for the same job. */
+function recover(error) {
+  retire(shown);
+  events.ontrap(error);
+  if (lost) return;
+  lost = true;
+  next ??= good;
+  if (since === null) compute();
+}
+
+function cutOff(reason) {
+  const worker = spare;
+  spare = spawn();
+  worker.stop(reason);
+}
+
+function retire(worker) {
+  worker.stop(CANCELLED);
+  if (worker === shown) shown = null;
+  if (worker === spare) spare = spawn();
+}
+
+/** A Worker that answers `ask(kind, ...args)` with a promise. */
+function spawn() {
+  const worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module", name: "armill" });
+  const waiting = new Map();
+  let count = 0;
+  const stop = (reason) => {
+    worker.terminate();
+    for (const { reject } of waiting.values()) reject(reason);
+    waiting.clear();
+  };
+  worker.addEventListener("message", ({ data: { id, value, error, progress } }) => {
+    if (progress) return events.onprogress(progress);
+    const question = waiting.get(id);
+    waiting.delete(id);
+    if (error) question?.reject(error);
+    else question?.resolve(value);
+  });
+  worker.addEventListener("error", (event) => {
+    event.preventDefault();
+    stop({ code: "load", message: event.message || "The core could not be loaded.", fatal: true });
+  });
+  return {
+    stop,
+    ask: (kind, ...args) =>
+      new Promise((resolve, reject) => {
+        waiting.set(++count, { resolve, reject });
+        worker.postMessage({ id: count, kind, args });
+      }),
+  };
+}

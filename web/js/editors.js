@@ -1,0 +1,183 @@
+// One editor per kind of field. An editor is
+//   { node, inputs, read(), write(value), at(rest) }
+// read() gives the value or throws a Mistake; at(rest) gives the input that an error path such as "[1].a_mm" means.
+
+import { make } from "./dom.js";
+import { parseNumber, plainNumber, stepped } from "./number.js";
+import { WORDS } from "./job.js";
+
+/** What is wrong with what was typed, and in which input. */
+export class Mistake extends Error {
+  constructor(message, input) {
+    super(message);
+    this.input = input;
+  }
+}
+
+export const idOf = (path) => path.replaceAll(".", "-");
+
+export function editorFor(field) {
+  if (WORDS[field.path]) return numberOrWord(field, WORDS[field.path]);
+  if (field.path.endsWith("points_mm")) return points(field);
+  if (field.kind === "choice") return Array.isArray(field.default) ? checkboxes(field) : choice(field);
+  if (field.kind === "switch") return toggle(field);
+  if (field.kind === "vector") return vector(field);
+  if (field.kind === "table") return table(field);
+  if (field.kind === "text") return text(field);
+  return number(field);
+}
+
+function single(field, input, read, write) {
+  return { node: input, inputs: [input], read, write, at: () => input };
+}
+
+function number(field) {
+  const input = numberInput(idOf(field.path), field.kind === "integer");
+  return single(field, input, () => typedNumber(input, field.kind === "integer"), (value) => (input.value = plainNumber(value)));
+}
+
+function numberInput(id, whole = false) {
+  const input = make("input", { id, type: "text", inputMode: whole ? "numeric" : "decimal", className: "value" });
+  input.addEventListener("keydown", (event) => {
+    const direction = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    const value = parseNumber(input.value);
+    if (!direction || event.altKey || event.ctrlKey || event.metaKey || Number.isNaN(value)) return;
+    event.preventDefault();
+    input.value = plainNumber(stepped(value, direction, whole));
+    input.dispatchEvent(new Event("input", { bubbles: true }));
+  });
+  return input;
+}
+
+function typedNumber(input, whole = false) {
+  const value = parseNumber(input.value);
+  if (input.value.trim() === "") throw new Mistake("A number is needed here.", input);
+  if (Number.isNaN(value)) throw new Mistake(`“${input.value.trim()}” is not a number.`, input);
+  if (!Number.isFinite(value)) throw new Mistake(`“${input.value.trim()}” is too large.`, input);
+  if (whole && !Number.isInteger(value)) throw new Mistake("A whole number is needed here.", input);
+  return value;
+}
+
+function numberOrWord(field, { word, label }) {
+  const input = numberInput(idOf(field.path), false);
+  const box = make("input", { type: "checkbox", id: `${idOf(field.path)}-${word}` });
+  const node = make("div", { className: "number-or-word" }, input, make("label", { className: "check", for: box.id }, box, label));
+  box.addEventListener("input", () => {
+    input.disabled = box.checked;
+    if (!box.checked && input.value === "") input.value = plainNumber(typeof field.default === "number" ? field.default : field.min ?? 0);
+  });
+  return {
+    node,
+    inputs: [input, box],
+    read: () => (box.checked ? word : typedNumber(input)),
+    write(value) {
+      box.checked = value === word;
+      input.disabled = box.checked;
+      if (!box.checked) input.value = plainNumber(value);
+    },
+    at: () => input,
+  };
+}
+
+function choice(field) {
+  const options = field.choices.map(({ value, label }) => make("option", { value }, label));
+  const input = make("select", { id: idOf(field.path) }, ...options);
+  return single(field, input, () => input.value, (value) => (input.value = value));
+}
+
+function toggle(field) {
+  const input = make("input", { id: idOf(field.path), type: "checkbox" });
+  return single(field, input, () => input.checked, (value) => (input.checked = value));
+}
+
+function checkboxes(field) {
+  const inputs = field.choices.map(({ value }) => make("input", { type: "checkbox", value, id: `${idOf(field.path)}-${value}` }));
+  const labels = field.choices.map(({ label }, i) => make("label", { className: "check", for: inputs[i].id }, inputs[i], label));
+  return {
+    node: make("div", { id: idOf(field.path), className: "checks", role: "group" }, ...labels),
+    inputs,
+    read: () => inputs.filter((input) => input.checked).map((input) => input.value),
+    write: (values) => inputs.forEach((input) => (input.checked = values.includes(input.value))),
+    at: () => inputs[0],
+  };
+}
+
+function vector(field) {
+  const names = field.path.endsWith("rpy_deg") ? ["roll", "pitch", "yaw"] : ["x", "y", "z"];
+  const id = idOf(field.path);
+  const inputs = names.map((name) => numberInput(`${id}-${name}`));
+  const parts = names.map((name, i) => make("label", { className: "part", for: inputs[i].id }, make("span", {}, name), inputs[i]));
+  return {
+    node: make("div", { id, className: "vector", role: "group" }, ...parts),
+    inputs,
+    read: () => inputs.map((input) => typedNumber(input)),
+    write: (values) => inputs.forEach((input, i) => (input.value = plainNumber(values[i]))),
+    at: (rest) => inputs[indexIn(rest)] ?? inputs[0],
+  };
+}
+
+/** A table with as many rows as its default: rows of named numbers, of numbers, or single numbers. */
+function table(field) {
+  const id = idOf(field.path);
+  const sample = field.default[0];
+  const columns = typeof sample !== "object" ? [null] : Object.keys(sample);
+  const heads = columns[0] === null ? [""] : columns.length === 2 ? ["lowest", "highest"] : columns.map(heading);
+  const rowName = (row) => (field.path.startsWith("robot.") ? `J${row + 1}` : `${row + 1}`);
+  const cells = field.default.map((_, row) =>
+    columns.map((key, column) => {
+      const input = numberInput(`${id}-${row}${key === null ? "" : `-${key}`}`);
+      input.setAttribute("aria-label", [rowName(row), heads[column]].filter(Boolean).join(", "));
+      return input;
+    }),
+  );
+  const body = cells.map((row, i) =>
+    make("tr", {}, make("th", { scope: "row" }, rowName(i)), ...row.map((input) => make("td", {}, input))),
+  );
+  const head = columns[0] === null ? "" : make("thead", {}, make("tr", {}, make("td"), ...heads.map((name) => make("th", { scope: "col" }, name))));
+  return {
+    node: make("table", { id, className: "cells" }, head, make("tbody", {}, ...body)),
+    inputs: cells.flat(),
+    read: () =>
+      cells.map((row) => {
+        const values = row.map((input) => typedNumber(input));
+        if (columns[0] === null) return values[0];
+        return Array.isArray(sample) ? values : Object.fromEntries(columns.map((key, i) => [key, values[i]]));
+      }),
+    write: (rows) =>
+      cells.forEach((row, i) => row.forEach((input, c) => (input.value = plainNumber(columns[c] === null ? rows[i] : rows[i]?.[columns[c]])))),
+    at(rest) {
+      const row = cells[indexIn(rest)] ?? cells[0];
+      const column = columns.findIndex((key) => key !== null && (rest.endsWith(`.${key}`) || rest.endsWith(`][${key}]`)));
+      return row[Math.max(0, column)];
+    },
+  };
+}
+
+function text(field) {
+  const long = field.path.endsWith("text");
+  const props = { id: idOf(field.path), spellcheck: false };
+  const input = long ? make("textarea", { ...props, rows: 8 }) : make("input", { ...props, type: "text" });
+  return single(field, input, () => input.value, (value) => (input.value = value));
+}
+
+/** Points as lines of "x, y, z". */
+function points(field) {
+  const input = make("textarea", { id: idOf(field.path), rows: 8, spellcheck: false });
+  const read = () => {
+    const lines = input.value.split("\n").map((line, i) => ({ line: line.trim(), number: i + 1 })).filter(({ line }) => line);
+    return lines.map(({ line, number }) => {
+      const values = line.split(line.includes(";") ? ";" : /[,\s]+/).map((part) => parseNumber(part));
+      if (values.length !== 3 || values.some(Number.isNaN)) throw new Mistake(`Line ${number}: three numbers x, y, z are needed.`, input);
+      return values;
+    });
+  };
+  return single(field, input, read, (rows) => (input.value = rows.map((row) => row.join(", ")).join("\n")));
+}
+
+const indexIn = (rest) => Number(/^\[(\d+)\]/.exec(rest)?.[1] ?? 0);
+
+/** "theta_offset_deg" as a column heading: "theta offset, deg". */
+function heading(key) {
+  const at = key.lastIndexOf("_");
+  return `${key.slice(0, at).replaceAll("_", " ")}, ${key.slice(at + 1)}`;
+}

@@ -1,0 +1,222 @@
+// Builds the inputs from the core's list of fields and keeps them and the job in step.
+
+import { byId, make } from "./dom.js";
+import { editorFor, idOf, Mistake } from "./editors.js";
+import { plainNumber } from "./number.js";
+
+const GROUPS = {
+  robot: "Robot",
+  frames: "Frames",
+  path: "Path",
+  motion: "Motion",
+  tool: "Tool",
+  material: "Material",
+  cutting: "Cutting",
+  shaper: "Vibration",
+  compensation: "Compensation",
+};
+const OPEN = ["path", "motion"]; // the groups that most visits change
+
+export class Form {
+  #job;
+  #onchange;
+  #rows = [];
+  #groups = new Map();
+
+  /** Fills `parent`; `onchange` is called after every edit that changed the job or what is wrong with the inputs. */
+  constructor(parent, job, fields, presets, onchange) {
+    this.#job = job;
+    this.#onchange = onchange;
+    const notes = Object.fromEntries([...presets.robots, ...presets.materials].map(({ id, note }) => [id, note]));
+    for (const field of fields) {
+      if (!this.#groups.has(field.group)) this.#addGroup(parent, field.group);
+      const row = this.#row(field, notes);
+      this.#groups.get(field.group).body.append(row.node);
+      this.#rows.push(row);
+    }
+    this.refresh();
+  }
+
+  /** Whether something typed is not a value. */
+  get flawed() {
+    return this.#rows.some((row) => row.mistake);
+  }
+
+  /** The first message beside a field, with its field; undefined if there is none. */
+  get problem() {
+    const row = this.#rows.find((candidate) => candidate.error.textContent);
+    return row && { label: row.field.label, message: row.error.textContent, go: () => this.#go(row) };
+  }
+
+  /** Shows another job: whatever was wrong before is forgotten. */
+  reload() {
+    for (const row of this.#rows) this.#setError(row, "");
+    this.refresh();
+  }
+
+  /** Shows the job: values, which fields exist, digests. */
+  refresh() {
+    for (const row of this.#rows) {
+      row.node.hidden = !this.#job.shows(row.field);
+      if (row.node.hidden) this.#setError(row, "");
+      if (row.mistake && !row.node.hidden) continue;
+      if (!row.editor.inputs.includes(document.activeElement) || !this.#says(row)) row.editor.write(this.#job.get(row.field));
+      this.#decorate(row);
+    }
+    this.#digest();
+  }
+
+  /** Puts an error of the core beside its field. False if it has none here. */
+  showError({ field: path, message, line, column }) {
+    this.clearErrors();
+    const row = path && this.#rows.find(({ field, node }) => !node.hidden && belongs(path, field.path));
+    if (!row) return false;
+    const where = line && !/\bline\b/i.test(message) ? `Line ${line}${column ? `, column ${column}` : ""}: ` : "";
+    this.#setError(row, where + message, row.editor.at(path.slice(row.field.path.length)));
+    this.#digest();
+    return true;
+  }
+
+  /** Takes back what the core said; what was typed wrong stays marked. */
+  clearErrors() {
+    for (const row of this.#rows) if (!row.mistake) this.#setError(row, "");
+    this.#digest();
+  }
+
+  #addGroup(parent, name) {
+    const digest = make("span", { className: "digest" });
+    const title = GROUPS[name] ?? name;
+    const body = make("fieldset", {}, make("legend", { className: "hidden-text" }, title));
+    const details = make("details", { className: "group", id: `group-${name}`, open: OPEN.includes(name) });
+    details.append(make("summary", {}, make("span", { className: "group-title" }, title), digest), body);
+    parent.append(details);
+    this.#groups.set(name, { details, digest, body });
+  }
+
+  #row(field, notes) {
+    const id = idOf(field.path);
+    const editor = editorFor(field);
+    const grouped = editor.node.getAttribute("role") === "group" || editor.node.tagName === "TABLE";
+    const title = make(grouped ? "span" : "label", { className: "label", id: `${id}-label` }, field.label);
+    if (grouped) editor.node.setAttribute("aria-labelledby", title.id);
+    else title.htmlFor = id;
+    const unit = this.#job.otherUnit(field) ? this.#unitButton(field) : make("span", { className: "unit" }, field.unit);
+    if (field.unit) title.append(" ", unit);
+    const reset = make("button", { type: "button", className: "reset", title: `Back to ${asText(field)}` }, "↺");
+    reset.setAttribute("aria-label", `Reset ${field.label} to ${asText(field)}`);
+    const help = make("p", { className: "help", id: `${id}-help` }, helpText(field));
+    const note = make("p", { className: "note", id: `${id}-note` });
+    const error = make("p", { className: "error", id: `${id}-error` });
+    for (const input of editor.inputs) input.setAttribute("aria-describedby", `${id}-error ${id}-help`);
+    const wide = grouped || editor.inputs[0].tagName === "TEXTAREA" || field.kind === "text";
+    const node = make("div", { className: wide ? "field wide" : "field" }, title, editor.node, reset, error, help, note);
+    const row = { field, editor, node, reset, error, note, notes, mistake: false };
+    node.addEventListener("input", () => this.#edited(row));
+    reset.addEventListener("click", () => {
+      this.#setError(row, "");
+      this.#job.set(field, structuredClone(field.default));
+      this.#changed();
+      editor.inputs[0].focus();
+    });
+    return row;
+  }
+
+  #unitButton(field) {
+    const other = this.#job.otherUnit(field);
+    const button = make("button", { type: "button", className: "unit", title: `Give it in ${other.unit}` }, field.unit);
+    button.setAttribute("aria-label", `${field.unit}; give it in ${other.unit} instead`);
+    button.addEventListener("click", () => {
+      this.#job.swapUnit(field);
+      this.#changed();
+      byId(idOf(other.path)).focus();
+    });
+    return button;
+  }
+
+  #edited(row) {
+    try {
+      this.#job.set(row.field, row.editor.read());
+      this.#setError(row, "");
+    } catch (error) {
+      if (!(error instanceof Mistake)) throw error;
+      this.#setError(row, error.message, error.input);
+      row.mistake = true;
+    }
+    this.#changed();
+  }
+
+  #changed() {
+    this.refresh();
+    this.#onchange();
+  }
+
+  #says(row) {
+    try {
+      return JSON.stringify(row.editor.read()) === JSON.stringify(this.#job.get(row.field));
+    } catch {
+      return false;
+    }
+  }
+
+  #setError(row, message, input) {
+    row.mistake = false;
+    row.error.textContent = message;
+    for (const each of row.editor.inputs) {
+      if (message && (each === input || !input)) each.setAttribute("aria-invalid", "true");
+      else each.removeAttribute("aria-invalid");
+    }
+  }
+
+  #decorate(row) {
+    row.reset.classList.toggle("idle", !this.#job.changed(row.field));
+    row.note.textContent = row.field.kind === "choice" ? (row.notes[this.#job.get(row.field)] ?? "") : "";
+  }
+
+  /** What a folded group holds, in a few words. */
+  #digest() {
+    for (const [name, { details, digest }] of this.#groups) {
+      const rows = this.#rows.filter(({ field, node }) => field.group === name && !node.hidden);
+      const broken = rows.some((row) => row.error.textContent);
+      details.classList.toggle("broken", broken);
+      const telling = rows.filter(({ field }, i) => i === 0 || (i === 1 && !field.choices) || (i === 2 && rows[1].field.kind === "vector"));
+      digest.textContent = broken ? "needs a look" : telling.map(({ field }) => brief(field, this.#job.get(field))).filter(Boolean).join(", ");
+    }
+  }
+
+  #go(row) {
+    row.node.closest("details").open = true;
+    const input = row.editor.inputs.find((each) => each.getAttribute("aria-invalid")) ?? row.editor.inputs[0];
+    input.focus();
+    input.scrollIntoView({ block: "center" });
+  }
+}
+
+/** Whether an error path such as "path.points_mm[3]" is about the field `own`. */
+const belongs = (path, own) => path === own || (path.startsWith(own) && "[.".includes(path[own.length]));
+
+const choiceLabel = (field, value) => field.choices.find((choice) => choice.value === value)?.label ?? String(value);
+
+function brief(field, value) {
+  if (Array.isArray(value)) return field.choices ? value.map((one) => choiceLabel(field, one)).join(" + ") : "";
+  if (field.choices) return choiceLabel(field, value);
+  if (typeof value !== "number") return "";
+  return field.unit ? `${plainNumber(value)} ${field.unit}` : `${plainNumber(value)} ${field.label.toLowerCase()}`;
+}
+
+/** The default in words. */
+function asText(field) {
+  const value = field.default;
+  if (field.choices) return Array.isArray(value) ? value.map((one) => choiceLabel(field, one)).join(" + ") : choiceLabel(field, value);
+  if (typeof value === "number") return [plainNumber(value), field.unit].filter(Boolean).join(" ");
+  if (field.kind === "vector") return value.join(", ");
+  return "its default";
+}
+
+function helpText(field) {
+  const { min, max, kind } = field;
+  const range =
+    min != null && max != null ? `${plainNumber(min)} to ${plainNumber(max)}` : min != null ? `At least ${plainNumber(min)}` : max != null ? `At most ${plainNumber(max)}` : "";
+  const standard = typeof field.default === "number" || kind === "vector" ? `default ${Array.isArray(field.default) ? field.default.join(", ") : plainNumber(field.default)}` : "";
+  const hint = [range, standard].filter(Boolean).join(", ");
+  return [field.help, hint && `${hint[0].toUpperCase()}${hint.slice(1)}.`].filter(Boolean).join(" ");
+}

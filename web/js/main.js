@@ -1,0 +1,173 @@
+// Wires the page: the form edits the job, the core computes it, results and charts show it.
+
+import * as core from "./core.js";
+import { setCharts, showPanel } from "./charts.js";
+import { byId, debounced, make } from "./dom.js";
+import { download } from "./download.js";
+import { Form } from "./form.js";
+import { Job } from "./job.js";
+import { formatNumber } from "./number.js";
+import { showSummary } from "./results.js";
+import { makeTabs } from "./tabs.js";
+
+const TYPING_MS = 150; // results follow this long after the last key
+const PATIENCE_MS = 150; // a run that takes longer shows its progress
+
+const results = byId("results");
+let job;
+let form;
+let standard; // the default job
+let hasResult = false;
+let slow; // timer that shows the progress
+
+const state = (name) => (results.dataset.state = name);
+const say = (text) => (byId("status").textContent = text);
+const lastValid = () => (hasResult ? " Showing the last valid result." : "");
+
+const compute = debounced(() => form.flawed || core.run(job.json), TYPING_MS);
+
+/** After every edit: compute, or say what is wrong and keep the last result. */
+function edited() {
+  alertOff();
+  if (form.flawed) {
+    core.cancel();
+    return stale();
+  }
+  form.clearErrors();
+  state("computing");
+  compute();
+}
+
+function stale() {
+  state("stale");
+  const problem = form.problem;
+  if (problem) alertOn(`${problem.label}: ${problem.message}`, "Show the field", problem.go);
+  say(lastValid().trim() || "No result yet.");
+}
+
+function alertOn(message, action, go) {
+  const box = byId("alert");
+  box.replaceChildren(make("p", {}, message));
+  if (action) {
+    const button = make("button", { type: "button" }, action);
+    button.addEventListener("click", go);
+    box.append(button);
+  }
+}
+
+const alertOff = () => byId("alert").replaceChildren();
+
+const events = {
+  onstart() {
+    state("computing");
+    byId("progress").value = 0;
+    clearTimeout(slow);
+    slow = setTimeout(() => {
+      say("Computing…");
+      results.classList.add("slow");
+    }, PATIENCE_MS);
+  },
+  onprogress({ fraction, stage }) {
+    byId("progress").value = fraction;
+    if (results.classList.contains("slow")) say(`Computing: ${stage}`);
+  },
+  onresult({ summary, charts }, took) {
+    idle();
+    hasResult = true;
+    showSummary(summary);
+    setCharts(charts);
+    for (const id of ["download-compensated", "download-columns"]) byId(id).disabled = false;
+    if (form.flawed) return stale();
+    state("current");
+    say(`${formatNumber(summary.samples, 1)} samples in ${formatNumber(took / 1000, 2)} s`);
+  },
+  onerror(error) {
+    idle();
+    if (form.showError(error)) return stale();
+    state("stale");
+    const where = error.line ? ` (line ${error.line}, column ${error.column})` : "";
+    alertOn(`${error.message}${where}`);
+    say(lastValid().trim() || "No result yet.");
+  },
+  oncancel() {
+    idle();
+    if (form.flawed) return stale();
+    state("stale");
+    say(`Cancelled.${lastValid()}`);
+  },
+  ontrap(error) {
+    idle();
+    state("stale");
+    alertOn(`The core stopped unexpectedly and was started again; your inputs are kept. (${error.message})`, "Compute again", () => {
+      alertOff();
+      core.run(job.json);
+    });
+    say("The core was restarted.");
+  },
+};
+
+function idle() {
+  clearTimeout(slow);
+  results.classList.remove("slow");
+}
+
+function load(data) {
+  job.load(data);
+  form.reload();
+  edited();
+}
+
+async function openJob(file) {
+  byId("job-file").value = "";
+  if (!file) return;
+  const text = await file.text();
+  core.cancel();
+  try {
+    await core.check(text);
+    load(JSON.parse(text));
+  } catch ({ message, line, column }) {
+    alertOn(`${file.name} was not opened: ${message}${line ? ` (line ${line}, column ${column})` : ""}`);
+  }
+}
+
+async function save(format, name) {
+  try {
+    download(name, "text/csv", await core.exported(format));
+  } catch (error) {
+    if (!error.fatal) alertOn(`The file could not be made: ${error.message}`);
+  }
+}
+
+function wire() {
+  byId("cancel").addEventListener("click", () => core.cancel());
+  byId("reset").addEventListener("click", () => load(standard));
+  byId("open-job").addEventListener("click", () => byId("job-file").click());
+  byId("job-file").addEventListener("change", ({ target }) => openJob(target.files[0]));
+  byId("download-job").addEventListener("click", () => download("armill-job.json", "application/json", `${job.json}\n`));
+  byId("download-columns").addEventListener("click", () => save("columns-csv", "armill-columns.csv"));
+  byId("download-compensated").addEventListener("click", () => save("compensated-csv", "armill-compensated-path.csv"));
+  byId("inputs-toggle").addEventListener("click", ({ target }) => {
+    const open = byId("inputs").classList.toggle("open");
+    target.setAttribute("aria-expanded", String(open));
+    target.textContent = open ? "Hide" : "Show";
+  });
+  byId("form").addEventListener("submit", (event) => event.preventDefault());
+  const tabs = makeTabs(document.querySelector("[role=tablist]"), showPanel);
+  showPanel(tabs.current());
+}
+
+try {
+  wire();
+  const hello = await core.start(events);
+  standard = hello.job;
+  job = new Job(standard, hello.fields, hello.presets);
+  byId("version").textContent = `v${hello.version}`;
+  form = new Form(byId("form"), job, hello.fields, hello.presets, edited);
+  core.run(job.json);
+  byId("download-job").disabled = false;
+} catch (error) {
+  state("stale");
+  byId("verdict").textContent = "The calculator could not start.";
+  alertOn(`The core could not be loaded: ${error.message ?? error}. Armill needs a browser with WebAssembly and module workers.`);
+  say("");
+}

@@ -1,0 +1,47 @@
+// Numbers as people type and read them.
+
+const GROUP = "\u202f"; // narrow no-break space between thousands
+
+/** The number that `text` stands for: "1.5", "1,5" and "1.5e3" are numbers, "1,000.5" is not. NaN if it is none. */
+export function parseNumber(text) {
+  const plain = text.replace(/[\s\u00a0\u2009\u202f]/g, "").replace(/\u2212/g, "-");
+  const dotted = plain.includes(".") ? plain : plain.replace(",", ".");
+  return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(dotted) ? Number(dotted) : NaN;
+}
+
+/** `value` to `digits` significant digits, never fewer than its whole digits. */
+export function formatNumber(value, digits = 3) {
+  if (!Number.isFinite(value)) return "–";
+  if (Number.isInteger(value) && Math.abs(value) < 1e9) return minus(group(String(value)));
+  const size = Math.abs(value);
+  if (size < 1e-4 || size >= 1e9) {
+    const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
+    return `${minus(mantissa)}·10${superscript(Number(exponent))}`;
+  }
+  const text = size >= 10 ** digits ? value.toFixed(0) : value.toPrecision(digits);
+  return minus(group(text));
+}
+
+/** `value` as an input field shows it: all its digits, nothing added. */
+export function plainNumber(value) {
+  if (typeof value !== "number" || !Number.isFinite(value)) return "";
+  return value !== 0 && Math.abs(value) < 1e-4 ? value.toExponential() : String(value);
+}
+
+/** The next value for an arrow key: one step in the second digit, or 1 for whole numbers. */
+export function stepped(value, direction, whole) {
+  if (whole || value === 0) return value + direction;
+  const step = 10 ** (Math.floor(Math.log10(Math.abs(value)) + 1e-9) - 1);
+  return Number((value + direction * step).toPrecision(12));
+}
+
+const minus = (text) => text.replace("-", "\u2212");
+
+const group = (text) => {
+  const [whole, rest] = text.split(".");
+  if (whole.replace("-", "").length < 5) return text;
+  return whole.replace(/\B(?=(\d{3})+$)/g, GROUP) + (rest ? `.${rest}` : "");
+};
+
+const superscript = (exponent) =>
+  String(exponent).replace(/./g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]));

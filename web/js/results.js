@@ -1,0 +1,77 @@
+// Writes a summary into the page: verdict, large numbers, warnings, tables.
+
+import { byId, make } from "./dom.js";
+import { formatNumber, plainNumber } from "./number.js";
+
+/** Puts a number on the page: rounded to read, in full in `data-value`. */
+function put(id, value, digits = 3) {
+  const element = byId(id);
+  element.textContent = formatNumber(value, digits);
+  element.dataset.value = String(value);
+}
+
+export function showSummary(summary) {
+  const { before_mm: before, after_mm: after } = summary;
+  byId("verdict").textContent = summary.verdict;
+  put("before-mean", before.both.mean);
+  put("before-max", before.both.max);
+  put("after-mean", after.mean);
+  put("after-max", after.max);
+  put("passes", summary.passes);
+  put("force", Math.hypot(...summary.mean_force_n), 4);
+  put("duration", summary.duration_s);
+  byId("force-parts").textContent = summary.mean_force_n.map((part) => formatNumber(part, 4)).join(", ");
+  byId("force-parts").title = "x, y, z in the tool frame";
+  byId("length").textContent = `path length ${formatNumber(summary.path_length_mm, 4)} mm`;
+  showTolerance(summary);
+  showErrors(before, after);
+  byId("fact-tolerance").textContent = plainNumber(summary.tolerance_mm);
+  put("samples", summary.samples);
+  byId("history").textContent = summary.history_max_mm.map((value) => formatNumber(value)).join(" → ");
+  byId("branch").textContent = summary.branch;
+  byId("fingerprint").textContent = summary.fingerprint;
+  showWarnings(summary.warnings);
+  showThesis(summary.thesis);
+}
+
+function showTolerance({ converged, tolerance_mm, after_mm }) {
+  const met = after_mm.max <= tolerance_mm;
+  const line = byId("tolerance-met");
+  line.textContent = `${met ? "✓ within" : "✗ above"} ${plainNumber(tolerance_mm)} mm`;
+  line.classList.toggle("bad", !met);
+  line.dataset.converged = String(converged);
+}
+
+function showErrors(before, after) {
+  const rows = { deflection: before.deflection, shaping: before.shaping, both: before.both, compensated: after };
+  for (const [name, { mean, max }] of Object.entries(rows)) {
+    put(`${name}-mean`, mean);
+    put(`${name}-max`, max);
+  }
+}
+
+function showWarnings(warnings) {
+  const count = warnings.length;
+  const box = byId("warnings");
+  byId("warnings-count").textContent =
+    count === 0 ? "No warnings" : `${count} ${count === 1 ? "warning" : "warnings"}: ${warnings[0].message}`;
+  box.classList.toggle("none", count === 0);
+  if (count === 0) box.open = false;
+  byId("warnings-list").replaceChildren(...warnings.map(warningItem));
+}
+
+function warningItem({ code, message, from_s, to_s }) {
+  const when = from_s == null ? "" : from_s === to_s ? ` At ${formatNumber(from_s)} s.` : ` From ${formatNumber(from_s)} s to ${formatNumber(to_s)} s.`;
+  const item = make("li", {}, message + when);
+  item.dataset.code = code;
+  return item;
+}
+
+function showThesis(rows) {
+  const cells = rows.map(({ quantity, source, printed, ours, reason }) =>
+    make("tr", { className: reason ? "differs" : "" },
+      make("th", { scope: "row" }, quantity), make("td", {}, source), make("td", { className: "digits" }, printed),
+      make("td", { className: "digits" }, ours), make("td", {}, reason || "They agree.")),
+  );
+  byId("thesis").tBodies[0].replaceChildren(...cells);
+}

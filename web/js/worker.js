@@ -1,0 +1,60 @@
+// The Worker's side of core.js: owns one Run of the WebAssembly core and answers questions about it.
+
+import init, * as armill from "../pkg/armill.js";
+
+const PROGRESS_MS = 40;
+const ready = init();
+ready.catch(() => {}); // told to whoever asks first
+let run = null;
+
+const answers = {
+  hello: () => ({
+    version: armill.version(),
+    job: JSON.parse(armill.default_job()),
+    fields: armill.fields(),
+    presets: armill.presets(),
+  }),
+  check: (json) => void armill.check(json),
+  run(json) {
+    let last = 0;
+    const fresh = armill.run(json, (fraction, stage) => {
+      const now = performance.now();
+      if (now - last < PROGRESS_MS) return;
+      last = now;
+      postMessage({ progress: { fraction, stage } });
+    });
+    release();
+    run = fresh;
+    return { summary: run.summary(), columns: run.columns(), charts: run.charts() };
+  },
+  column: (key) => run.column(key),
+  chart: (name, options) => run.chart(name, options),
+  export: (format) => run.export(format),
+  release,
+  trap: () => armill.trap(),
+};
+
+function release() {
+  run?.free();
+  run = null;
+}
+
+/** An error as data: Errors lose their extra properties on the way through postMessage. */
+function plain(error) {
+  const { code, message, field, line, column } = error;
+  return { code, message: message ?? String(error), field, line, column, fatal: error instanceof WebAssembly.RuntimeError };
+}
+
+addEventListener("message", async ({ data: { id, kind, args } }) => {
+  try {
+    await ready;
+  } catch (error) {
+    return postMessage({ id, error: { ...plain(error), code: "load", fatal: true } });
+  }
+  try {
+    const value = answers[kind](...args);
+    postMessage({ id, value }, value instanceof Float64Array ? [value.buffer] : []);
+  } catch (error) {
+    postMessage({ id, error: plain(error) });
+  }
+});
