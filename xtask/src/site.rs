@@ -30,9 +30,16 @@ pub(crate) fn build() -> Result<PathBuf> {
 
 /// Compiles the core and returns the raw module.
 fn compile(root: &Path) -> Result<PathBuf> {
-    // An explicit folder, because the site has to be found in `target` whatever the environment says.
     let arguments = ["build", "--release", "--locked", "--target", WASM, "--package", "armill", "--lib"];
-    workspace::run(workspace::cargo(&arguments)?.arg("--target-dir").arg("target"))?;
+    let mut command = workspace::cargo(&arguments)?;
+    // An explicit folder, because the site has to be found in `target` whatever the environment says.
+    command.args(["--target-dir", "target"]);
+    if let Some(home) = workspace::cargo_home() {
+        // Panic messages name source files: without the home folder of whoever builds it, the site is the same everywhere.
+        let flag = format!("--remap-path-prefix={}=cargo", home.display());
+        command.args(["--config", &format!("target.{WASM}.rustflags=['{flag}']")]);
+    }
+    workspace::run(&mut command)?;
     Ok(root.join("target").join(WASM).join("release/armill.wasm"))
 }
 
