@@ -1,0 +1,173 @@
+//! The frame round a plot: axes, ticks, grid and bands by plotters, and the curves inside.
+
+use plotters::chart::{ChartBuilder, LabelAreaPosition};
+use plotters::style::BLACK;
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::plot::{Axis, AxisInfo, Band, Caption, Chart, Legend, Options, PlotArea, Series};
+use super::scale::Scale;
+use super::svg::{FONT_SIZE, Layer, Sheet, TENTHS};
+use super::trace::{Point, Window, lines};
+
+/// Room above the plot area, for the name of the y axis [SVG units].
+pub(super) const TOP: f64 = 26.0;
+/// Room below, for ticks and the name of the x axis [SVG units].
+pub(super) const BOTTOM: f64 = 42.0;
+/// Room at the left where it cannot follow the labels [SVG units].
+pub(super) const LEFT: f64 = 54.0;
+/// Length of a tick mark; plotters puts its label as far again from its end [SVG units].
+const TICK: f64 = 4.0;
+/// Radius of the dot at a marked point [SVG units].
+const DOT: f64 = 3.5;
+
+/// The size as whole SVG units.
+pub(super) fn size(options: &Options) -> Result<(u32, u32), String> {
+    let whole = |name: &str, value: f64| {
+        if (120.0..=8000.0).contains(&value) {
+            Ok(value as u32)
+        } else {
+            Err(format!("A chart's {name} must be between 120 and 8000 px, not {value}."))
+        }
+    };
+    Ok((whole("width", options.width)?, whole("height", options.height)?))
+}
+
+/// The smallest ranges around these that fill the plot area with units as long upwards as sideways.
+pub(super) fn equal_aspect(x: (f64, f64), y: (f64, f64), plot: &PlotArea) -> ((f64, f64), (f64, f64)) {
+    let unit = ((x.1 - x.0) / plot.width).max((y.1 - y.0) / plot.height);
+    let around = |range: (f64, f64), length: f64| {
+        let (middle, half) = ((range.0 + range.1) / 2.0, unit * length / 2.0);
+        (middle - half, middle + half)
+    };
+    (around(x, plot.width), around(y, plot.height))
+}
+
+/// A chart whose size and scales are settled.
+pub(super) struct Frame {
+    /// Width of the chart [SVG units].
+    pub(super) width: u32,
+    /// Height of the chart [SVG units].
+    pub(super) height: u32,
+    /// Where the data goes.
+    pub(super) plot: PlotArea,
+    /// From left to right.
+    pub(super) x: Scale,
+    /// From bottom to top.
+    pub(super) y: Scale,
+    /// Whether the grid has upright lines too.
+    pub(super) upright_grid: bool,
+}
+
+impl Frame {
+    /// Draws bands, grid, curves and axes, in this order.
+    pub(super) fn draw(
+        &self,
+        caption: Caption,
+        x: &Axis,
+        y: &Axis,
+        series: &[Series],
+        bands: &[Band],
+    ) -> Result<Chart, String> {
+        let sheet = Sheet::new(self.width, self.height);
+        for band in bands {
+            sheet.layer(Layer::Band, || self.band(&sheet, band))?;
+        }
+        sheet.layer(Layer::Grid, || self.mesh(&sheet, x, true))?;
+        for one in series {
+            sheet.layer(Layer::Series { class: one.class, key: one.key }, || self.series(&sheet, one))?;
+        }
+        sheet.layer(Layer::Axis, || {
+            self.mesh(&sheet, x, false)?;
+            bands.iter().try_for_each(|band| self.band_name(&sheet, band))?;
+            sheet.text(&y.text(), (0.0, 2.0), HPos::Left, VPos::Top)
+        })?;
+        let legend = |s: &Series| Legend { key: s.key.into(), label: s.label.into(), class: s.class.into() };
+        Ok(Chart {
+            name: caption.name.into(),
+            title: caption.title.into(),
+            description: caption.description.into(),
+            svg: sheet.finish(caption.title, caption.description),
+            width: f64::from(self.width),
+            height: f64::from(self.height),
+            plot: self.plot,
+            x: info(x, &self.x),
+            y: info(y, &self.y),
+            series: series.iter().map(legend).collect(),
+        })
+    }
+
+    /// Where a pair of values stands on the sheet; not a number where a scale has no place for it.
+    fn place(&self, x: f64, y: f64) -> Point {
+        let PlotArea { left, top, width, height } = self.plot;
+        (left + width * self.x.position(x), top + height * (1.0 - self.y.position(y)))
+    }
+
+    /// plotters' mesh: the grid alone, or axes with ticks and the name of x alone.
+    fn mesh(&self, sheet: &Sheet, x: &Axis, grid: bool) -> Result<(), String> {
+        let PlotArea { left, top, width, height } = self.plot;
+        let pixels = |units: f64| (units * TENTHS).round() as u32;
+        let mut chart = ChartBuilder::on(&sheet.area)
+            .margin_top(pixels(top))
+            .margin_right(pixels(f64::from(self.width) - left - width))
+            .set_label_area_size(LabelAreaPosition::Left, pixels(left))
+            .set_label_area_size(LabelAreaPosition::Bottom, pixels(f64::from(self.height) - top - height))
+            .build_cartesian_2d(self.x.clone(), self.y.clone())
+            .map_err(|e| e.to_string())?;
+        let mut mesh = chart.configure_mesh();
+        mesh.bold_line_style(BLACK).label_style(sheet.text.clone());
+        mesh.set_all_tick_mark_size(TICK * TENTHS);
+        if grid {
+            mesh.disable_axes();
+            if !self.upright_grid {
+                mesh.disable_x_mesh();
+            }
+        } else {
+            mesh.disable_mesh().axis_style(BLACK).x_desc(x.text());
+        }
+        mesh.draw().map_err(|e| e.to_string())
+    }
+
+    /// The part of the plot that a band covers, as its upper and lower edge: at least one unit high.
+    fn covered(&self, band: &Band) -> Option<(f64, f64)> {
+        let Window { top, bottom, .. } = self.plot.window();
+        let (from, to) = (band.from.min(band.to), band.from.max(band.to));
+        let edge = |value: f64| {
+            let y = self.place(self.x.min, value).1;
+            if y.is_nan() { bottom } else { y.clamp(top, bottom) }
+        };
+        (from <= self.y.max && to >= self.y.min).then(|| (edge(to).min(edge(from) - 1.0), edge(from)))
+    }
+
+    fn band(&self, sheet: &Sheet, band: &Band) -> Result<(), String> {
+        let Window { left, right, .. } = self.plot.window();
+        self.covered(band).map_or(Ok(()), |(high, low)| sheet.rectangle((left, high), (right, low)))
+    }
+
+    /// A band's name at the left: inside if the band is high enough, else on it.
+    fn band_name(&self, sheet: &Sheet, band: &Band) -> Result<(), String> {
+        let Some((high, low)) = self.covered(band) else { return Ok(()) };
+        let inside = low - high > 1.5 * FONT_SIZE;
+        let (anchor, gap) = if inside { (VPos::Top, 4.0) } else { (VPos::Bottom, -1.0) };
+        sheet.text(band.label, (self.plot.left + 6.0, high + gap), HPos::Left, anchor)
+    }
+
+    fn series(&self, sheet: &Sheet, series: &Series) -> Result<(), String> {
+        let window = self.plot.window();
+        let points = || series.x.iter().zip(series.y).map(|(&x, &y)| self.place(x, y));
+        lines(points(), window).iter().try_for_each(|line| sheet.line(line))?;
+        if series.markers {
+            points().filter(|&p| window.contains(p)).try_for_each(|p| sheet.dot(p, DOT))?;
+        }
+        Ok(())
+    }
+}
+
+fn info(axis: &Axis, scale: &Scale) -> AxisInfo {
+    AxisInfo {
+        label: axis.label.into(),
+        unit: axis.unit.into(),
+        min: scale.min,
+        max: scale.max,
+        log: scale.log,
+    }
+}

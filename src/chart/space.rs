@@ -1,0 +1,366 @@
+//! Paths in space: seen from afar (orthographic, equal in all directions) in a box with a floor and scales.
+
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::frame::{TOP, equal_aspect, size};
+use super::plot::{Axis, AxisInfo, Caption, Chart, Legend, Options, PlotArea, valid};
+use super::scale::{Tick, extent, linear_ticks, widened};
+use super::svg::{FONT_SIZE, Layer, Sheet, text_width};
+use super::trace::{Point, lines};
+use crate::math;
+use crate::units::DEG;
+
+/// One path in space.
+#[derive(Clone, Copy, Debug)]
+pub struct SpaceSeries<'a> {
+    /// Stable name.
+    pub key: &'a str,
+    /// What the legend says.
+    pub label: &'a str,
+    /// How it looks: a class of the page's style sheet.
+    pub class: &'static str,
+    /// x, y and z [mm]; a point that is not finite leaves a gap.
+    pub points: &'a [[f64; 3]],
+}
+
+/// Where the reader stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Direction towards the reader about z, from x to y [deg].
+    pub azimuth_deg: f64,
+    /// Height above the horizon [deg].
+    pub elevation_deg: f64,
+}
+
+impl Default for View {
+    /// From the front right and above: x runs to the right, y away, z up.
+    fn default() -> Self {
+        Self { azimuth_deg: -60.0, elevation_deg: 25.0 }
+    }
+}
+
+/// Room at the sides for labels [SVG units].
+const SIDE: f64 = 44.0;
+/// Room below for labels [SVG units].
+const BELOW: f64 = 40.0;
+/// An axis seen so short says nothing [SVG units].
+const SHORT: f64 = 14.0;
+/// Least size of the box in a direction, as a share of its greatest.
+const FLATTEST: f64 = 0.15;
+
+/// Paths in millimetres in a box; zoom counts in millimetres of the picture. The first path casts a shadow on the floor.
+///
+/// # Errors
+/// A sentence if the size, the view or a range makes no chart.
+pub fn space_chart(
+    caption: Caption,
+    paths: &[SpaceSeries],
+    view: View,
+    options: &Options,
+) -> Result<Chart, String> {
+    let (width, height) = size(options)?;
+    if !(view.azimuth_deg.is_finite() && view.elevation_deg.is_finite()) {
+        return Err("The direction of view must be a number of degrees.".into());
+    }
+    let camera = Camera::new(view);
+    let room = Room::around(paths);
+    let plot = PlotArea {
+        left: SIDE,
+        top: TOP,
+        width: f64::from(width) - 2.0 * SIDE,
+        height: f64::from(height) - TOP - BELOW,
+    };
+    let axis = Axis { label: "", unit: "mm", ..Axis::default() };
+    let shown: Vec<Point> = paths
+        .iter()
+        .flat_map(|path| path.points.iter().copied())
+        .chain(room.frame(&camera))
+        .map(|point| camera.project(point))
+        .collect();
+    let range = |side: fn(&Point) -> f64, zoom: Option<(f64, f64)>| match zoom {
+        Some(range) => valid(&axis, range),
+        None => Ok(widened(extent(shown.iter().map(side), false).unwrap_or((0.0, 1.0)))),
+    };
+    let (across, up) =
+        equal_aspect(range(|p| p.0, options.x_range)?, range(|p| p.1, options.y_range)?, &plot);
+    let scene =
+        Scene { camera, room, plot, origin: (across.0, up.1), scale: plot.width / (across.1 - across.0) };
+
+    let sheet = Sheet::new(width, height);
+    sheet.layer(Layer::Floor, || scene.floor(&sheet))?;
+    if let Some(first) = paths.first() {
+        let floor = scene.room.min[2];
+        let shadow =
+            first.points.iter().map(|&[x, y, z]| scene.place([x, y, if z.is_finite() { floor } else { z }]));
+        sheet.layer(Layer::Shadow, || scene.lines(&sheet, shadow))?;
+    }
+    sheet.layer(Layer::Axis, || scene.axes(&sheet))?;
+    for path in paths {
+        let layer = Layer::Series { class: path.class, key: path.key };
+        sheet.layer(layer, || scene.lines(&sheet, path.points.iter().map(|&p| scene.place(p))))?;
+    }
+    let info = |(min, max)| AxisInfo { label: String::new(), unit: "mm".into(), min, max, log: false };
+    let legend = |s: &SpaceSeries| Legend { key: s.key.into(), label: s.label.into(), class: s.class.into() };
+    Ok(Chart {
+        name: caption.name.into(),
+        title: caption.title.into(),
+        description: caption.description.into(),
+        svg: sheet.finish(caption.title, caption.description),
+        width: f64::from(width),
+        height: f64::from(height),
+        plot,
+        x: info(across),
+        y: info(up),
+        series: paths.iter().map(legend).collect(),
+    })
+}
+
+/// Unit vectors of the picture.
+struct Camera {
+    /// To the right of the picture.
+    right: [f64; 3],
+    /// Up in the picture.
+    up: [f64; 3],
+    /// Out of the picture, towards the reader.
+    out: [f64; 3],
+}
+
+impl Camera {
+    fn new(view: View) -> Self {
+        let (sin_a, cos_a) = math::sin_cos(view.azimuth_deg * DEG);
+        let (sin_e, cos_e) = math::sin_cos(view.elevation_deg * DEG);
+        Self {
+            right: [-sin_a, cos_a, 0.0],
+            up: [-sin_e * cos_a, -sin_e * sin_a, cos_e],
+            out: [cos_e * cos_a, cos_e * sin_a, sin_e],
+        }
+    }
+
+    /// Right and up in the picture, in the unit of the point.
+    fn project(&self, point: [f64; 3]) -> Point {
+        let dot = |axis: [f64; 3]| axis[0] * point[0] + axis[1] * point[1] + axis[2] * point[2];
+        (dot(self.right), dot(self.up))
+    }
+}
+
+/// The box round all paths, with a little air [mm].
+struct Room {
+    min: [f64; 3],
+    max: [f64; 3],
+}
+
+impl Room {
+    fn around(paths: &[SpaceSeries]) -> Self {
+        let range = |axis: usize| {
+            let values = paths.iter().flat_map(|path| path.points.iter().map(move |p| p[axis]));
+            extent(values, false).unwrap_or((0.0, 0.0))
+        };
+        let ranges = [range(0), range(1), range(2)];
+        let greatest = ranges.iter().map(|(min, max)| max - min).fold(1e-6, f64::max);
+        let roomy = ranges.map(|(min, max)| {
+            let air = (0.04 * greatest).max((FLATTEST * greatest - (max - min)) / 2.0);
+            (min - air, max + air)
+        });
+        Self { min: roomy.map(|r| r.0), max: roomy.map(|r| r.1) }
+    }
+
+    /// Corners of the floor on the two sides next to the reader (x, y), and on the two others.
+    fn sides(&self, camera: &Camera) -> ([f64; 2], [f64; 2]) {
+        let near = [0, 1].map(|i| if camera.out[i] > 0.0 { self.max[i] } else { self.min[i] });
+        (near, [0, 1].map(|i| self.min[i] + self.max[i] - near[i]))
+    }
+
+    /// Where the axis of z stands: the leftmost corner of the floor as seen.
+    fn post(&self, camera: &Camera) -> [f64; 3] {
+        let (near, far) = self.sides(camera);
+        let (a, b) = ([near[0], far[1], self.min[2]], [far[0], near[1], self.min[2]]);
+        if camera.project(a).0 < camera.project(b).0 { a } else { b }
+    }
+
+    /// The points that hold the floor and the axes.
+    fn frame(&self, camera: &Camera) -> [[f64; 3]; 5] {
+        let (low, high, post) = (self.min, self.max, self.post(camera));
+        let floor = |x: f64, y: f64| [x, y, low[2]];
+        [
+            floor(low[0], low[1]),
+            floor(high[0], low[1]),
+            floor(high[0], high[1]),
+            floor(low[0], high[1]),
+            [post[0], post[1], high[2]],
+        ]
+    }
+
+    fn middle(&self) -> [f64; 3] {
+        [0, 1, 2].map(|axis| (self.min[axis] + self.max[axis]) / 2.0)
+    }
+}
+
+/// A room seen on a sheet.
+struct Scene {
+    camera: Camera,
+    room: Room,
+    plot: PlotArea,
+    /// Upper left corner of the plot area in the picture [mm].
+    origin: Point,
+    /// SVG units in a millimetre.
+    scale: f64,
+}
+
+impl Scene {
+    /// Where a point in space stands on the sheet.
+    fn place(&self, point: [f64; 3]) -> Point {
+        let (u, v) = self.camera.project(point);
+        (self.plot.left + (u - self.origin.0) * self.scale, self.plot.top + (self.origin.1 - v) * self.scale)
+    }
+
+    fn lines(&self, sheet: &Sheet, points: impl Iterator<Item = Point>) -> Result<(), String> {
+        lines(points, self.plot.window()).iter().try_for_each(|line| sheet.line(line))
+    }
+
+    /// Ticks along an axis: about one every fifty units as seen.
+    fn ticks(&self, axis: usize) -> Vec<Tick> {
+        let (min, max) = (self.room.min[axis], self.room.max[axis]);
+        let greatest = (0..3).map(|i| self.room.max[i] - self.room.min[i]).fold(0.0, f64::max);
+        let whole = self.plot.width.min(self.plot.height) / 45.0;
+        linear_ticks(min, max, (whole * (max - min) / greatest).clamp(2.0, 7.0) as usize, false)
+    }
+
+    /// The floor's outline and its lines at the ticks of x and y.
+    fn floor(&self, sheet: &Sheet) -> Result<(), String> {
+        let Room { min, max } = self.room;
+        let lines_at = |axis: usize| {
+            let ticks = self.ticks(axis).into_iter().map(|tick| tick.value);
+            ticks.chain([min[axis], max[axis]]).collect::<Vec<f64>>()
+        };
+        let along_y = lines_at(0).into_iter().map(|x| [[x, min[1], min[2]], [x, max[1], min[2]]]);
+        let along_x = lines_at(1).into_iter().map(|y| [[min[0], y, min[2]], [max[0], y, min[2]]]);
+        along_y.chain(along_x).try_for_each(|ends| self.lines(sheet, ends.into_iter().map(|p| self.place(p))))
+    }
+
+    /// x and y along the floor's edges next to the reader, z at the floor's leftmost corner.
+    fn axes(&self, sheet: &Sheet) -> Result<(), String> {
+        let low = self.room.min;
+        let (near, _) = self.room.sides(&self.camera);
+        self.axis(sheet, 0, "x, mm", [low[0], near[1], low[2]])?;
+        self.axis(sheet, 1, "y, mm", [near[0], low[1], low[2]])?;
+        self.axis(sheet, 2, "z, mm", self.room.post(&self.camera))
+    }
+
+    /// One axis as an arrow from `start` to the end of the room, with ticks and name on its outer side.
+    fn axis(&self, sheet: &Sheet, axis: usize, name: &str, start: [f64; 3]) -> Result<(), String> {
+        let along = |value: f64| {
+            let mut point = start;
+            point[axis] = value;
+            self.place(point)
+        };
+        let (foot, tip) = (along(start[axis]), along(self.room.max[axis]));
+        let length = distance(foot, tip);
+        if length < SHORT {
+            return Ok(());
+        }
+        let (dx, dy) = ((tip.0 - foot.0) / length, (tip.1 - foot.1) / length);
+        let middle = self.place(self.room.middle());
+        let side = if (middle.0 - foot.0) * dy > (middle.1 - foot.1) * dx { 1.0 } else { -1.0 };
+        // Square to the axis, away from the room.
+        let (nx, ny) = (-dy * side, dx * side);
+        // Ends on the border are inside whatever the rounding.
+        let window = self.plot.window().grown(0.1);
+        let label = |text: &str, at: Point, gap: f64| {
+            let reach = gap + nx.abs() * text_width(text) / 2.0 + ny.abs() * FONT_SIZE / 2.0;
+            sheet.text(text, (at.0 + nx * reach, at.1 + ny * reach), HPos::Center, VPos::Center)
+        };
+        let apart = |text: &str| text_width(text) * dx.abs() + FONT_SIZE * dy.abs();
+
+        lines([foot, tip], window).iter().try_for_each(|line| sheet.line(line))?;
+        if window.contains(tip) {
+            let barb = |s: f64| (tip.0 - 9.0 * dx + 3.0 * s * dy, tip.1 - 9.0 * dy - 3.0 * s * dx);
+            sheet.polygon(&[tip, barb(1.0), barb(-1.0)])?;
+        }
+        // The name stands short of the tip, where the tip of another axis may be.
+        let back = (apart(name) / 2.0 + 6.0).min(length);
+        let named = (tip.0 - dx * back, tip.1 - dy * back);
+        if window.contains(named) {
+            label(name, named, 8.0)?;
+        }
+        // The name keeps its place; ticks are labelled as far as there is room beside it and each other.
+        let mut last: Option<Point> = None;
+        for tick in self.ticks(axis) {
+            let at = along(tick.value);
+            if !window.contains(at) {
+                continue;
+            }
+            sheet.line(&[at, (at.0 + 4.0 * nx, at.1 + 4.0 * ny)])?;
+            let room = apart(&tick.label) + 4.0;
+            let crowded = distance(at, named) < (room + apart(name)) / 2.0
+                || last.is_some_and(|last| distance(at, last) < room);
+            if !crowded {
+                label(&tick.label, at, 7.0)?;
+                last = Some(at);
+            }
+        }
+        Ok(())
+    }
+}
+
+fn distance(a: Point, b: Point) -> f64 {
+    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+    (dx * dx + dy * dy).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CAPTION: Caption = Caption { name: "n", title: "t", description: "d" };
+    const OPTIONS: Options = Options { width: 860.0, height: 420.0, x_range: None, y_range: None };
+
+    fn chart(points: &[[f64; 3]], view: View) -> Chart {
+        let path = SpaceSeries { key: "p", label: "P", class: "desired", points };
+        space_chart(CAPTION, &[path], view, &OPTIONS).unwrap()
+    }
+
+    #[test]
+    fn the_reader_sees_x_to_the_right_y_away_and_z_up() {
+        let camera = Camera::new(View { azimuth_deg: -90.0, elevation_deg: 0.0 });
+        let (x, y, z) = (
+            camera.project([1.0, 0.0, 0.0]),
+            camera.project([0.0, 1.0, 0.0]),
+            camera.project([0.0, 0.0, 1.0]),
+        );
+        for (seen, meant) in [(x, (1.0, 0.0)), (y, (0.0, 0.0)), (z, (0.0, 1.0))] {
+            assert!((seen.0 - meant.0).abs() < 1e-12 && (seen.1 - meant.1).abs() < 1e-12, "{seen:?}");
+        }
+        assert!(camera.out[1] < 0.0);
+    }
+
+    #[test]
+    fn a_millimetre_is_as_long_upwards_as_sideways() {
+        let Chart { plot, x, y, .. } = chart(&[[0.0, 0.0, 0.0], [600.0, 20.0, 90.0]], View::default());
+        let units = ((x.max - x.min) / plot.width, (y.max - y.min) / plot.height);
+        assert!((units.0 / units.1 - 1.0).abs() < 1e-12, "{units:?}");
+    }
+
+    #[test]
+    fn size_and_orientation_are_written_out() {
+        let points = [[0.0, 0.0, 0.0], [300.0, 300.0, 200.0]];
+        let drawing = chart(&points, View::default()).svg;
+        for text in ["x, mm", "y, mm", "z, mm", ">100<", ">200<"] {
+            assert!(drawing.contains(text), "{text} is missing");
+        }
+        assert_eq!(drawing, chart(&points, View::default()).svg);
+        assert!(!drawing.contains("style="));
+    }
+
+    #[test]
+    fn any_view_of_any_path_can_be_drawn() {
+        let gap = [[0.0, 0.0, 0.0], [1.0, f64::NAN, 0.0], [2.0, 2.0, 2.0]];
+        for points in [&gap[..], &gap[..1], &[]] {
+            for (azimuth_deg, elevation_deg) in [(0.0, 0.0), (35.0, 90.0), (-120.0, -30.0), (180.0, 10.0)] {
+                let drawing = chart(points, View { azimuth_deg, elevation_deg }).svg;
+                assert!(!drawing.contains("NaN") && !drawing.contains("inf"), "{drawing}");
+            }
+        }
+        let blind = View { azimuth_deg: f64::NAN, elevation_deg: 0.0 };
+        assert!(space_chart(CAPTION, &[], blind, &OPTIONS).is_err());
+    }
+}
