@@ -21,3 +21,6 @@ export function debounced(action, delay) {
     timer = setTimeout(action, delay, ...args);
   };
 }
+
+/** The core's messages start in lower case. */
+export const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);

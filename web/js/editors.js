@@ -4,7 +4,6 @@
 
 import { make } from "./dom.js";
 import { parseNumber, plainNumber, stepped } from "./number.js";
-import { WORDS } from "./job.js";
 
 /** What is wrong with what was typed, and in which input. */
 export class Mistake extends Error {
@@ -17,10 +16,10 @@ export class Mistake extends Error {
 export const idOf = (path) => path.replaceAll(".", "-");
 
 export function editorFor(field) {
-  if (WORDS[field.path]) return numberOrWord(field, WORDS[field.path]);
   if (field.path.endsWith("points_mm")) return points(field);
-  if (field.kind === "choice") return Array.isArray(field.default) ? checkboxes(field) : choice(field);
-  if (field.kind === "switch") return toggle(field);
+  if (field.kind === "number" && field.choices) return numberOrWord(field, field.choices[0]);
+  if (field.kind === "choice") return choice(field);
+  if (field.kind === "set") return checkboxes(field);
   if (field.kind === "vector") return vector(field);
   if (field.kind === "table") return table(field);
   if (field.kind === "text") return text(field);
@@ -58,8 +57,9 @@ function typedNumber(input, whole = false) {
   return value;
 }
 
-function numberOrWord(field, { word, label }) {
-  const input = numberInput(idOf(field.path), false);
+/** A number, or a word that a checkbox stands for. */
+function numberOrWord(field, { value: word, label }) {
+  const input = numberInput(idOf(field.path));
   const box = make("input", { type: "checkbox", id: `${idOf(field.path)}-${word}` });
   const node = make("div", { className: "number-or-word" }, input, make("label", { className: "check", for: box.id }, box, label));
   box.addEventListener("input", () => {
@@ -83,11 +83,6 @@ function choice(field) {
   const options = field.choices.map(({ value, label }) => make("option", { value }, label));
   const input = make("select", { id: idOf(field.path) }, ...options);
   return single(field, input, () => input.value, (value) => (input.value = value));
-}
-
-function toggle(field) {
-  const input = make("input", { id: idOf(field.path), type: "checkbox" });
-  return single(field, input, () => input.checked, (value) => (input.checked = value));
 }
 
 function checkboxes(field) {

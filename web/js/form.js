@@ -1,7 +1,8 @@
 // Builds the inputs from the core's list of fields and keeps them and the job in step.
 
-import { byId, make } from "./dom.js";
+import { byId, make, sentence } from "./dom.js";
 import { editorFor, idOf, Mistake } from "./editors.js";
+import { OWN } from "./job.js";
 import { plainNumber } from "./number.js";
 
 const GROUPS = {
@@ -28,7 +29,7 @@ export class Form {
     this.#job = job;
     this.#onchange = onchange;
     const notes = Object.fromEntries([...presets.robots, ...presets.materials].map(({ id, note }) => [id, note]));
-    for (const field of fields) {
+    for (const field of fields.map(withOwn)) {
       if (!this.#groups.has(field.group)) this.#addGroup(parent, field.group);
       const row = this.#row(field, notes);
       this.#groups.get(field.group).body.append(row.node);
@@ -42,10 +43,13 @@ export class Form {
     return this.#rows.some((row) => row.mistake);
   }
 
-  /** The first message beside a field, with its field; undefined if there is none. */
+  /** The first message beside a field, and the way there; undefined if there is none. */
   get problem() {
     const row = this.#rows.find((candidate) => candidate.error.textContent);
-    return row && { label: row.field.label, message: row.error.textContent, go: () => this.#go(row) };
+    if (!row) return undefined;
+    const message = row.error.textContent;
+    const named = message.startsWith(row.field.label) ? message : `${row.field.label}: ${message}`;
+    return { message: named, go: () => this.#go(row) };
   }
 
   /** Shows another job: whatever was wrong before is forgotten. */
@@ -72,7 +76,8 @@ export class Form {
     const row = path && this.#rows.find(({ field, node }) => !node.hidden && belongs(path, field.path));
     if (!row) return false;
     const where = line && !/\bline\b/i.test(message) ? `Line ${line}${column ? `, column ${column}` : ""}: ` : "";
-    this.#setError(row, where + message, row.editor.at(path.slice(row.field.path.length)));
+    const text = message.startsWith(path) ? row.field.label + message.slice(path.length) : sentence(message);
+    this.#setError(row, where + text, row.editor.at(path.slice(row.field.path.length)));
     this.#digest();
     return true;
   }
@@ -114,7 +119,7 @@ export class Form {
     node.addEventListener("input", () => this.#edited(row));
     reset.addEventListener("click", () => {
       this.#setError(row, "");
-      this.#job.set(field, structuredClone(field.default));
+      this.#job.reset(field);
       this.#changed();
       editor.inputs[0].focus();
     });
@@ -191,14 +196,18 @@ export class Form {
   }
 }
 
+/** A preset choice that also offers one's own numbers. */
+const withOwn = (field) =>
+  field.path.endsWith(".preset") ? { ...field, choices: [...field.choices, { value: OWN, label: "My own numbers" }] } : field;
+
 /** Whether an error path such as "path.points_mm[3]" is about the field `own`. */
 const belongs = (path, own) => path === own || (path.startsWith(own) && "[.".includes(path[own.length]));
 
 const choiceLabel = (field, value) => field.choices.find((choice) => choice.value === value)?.label ?? String(value);
 
 function brief(field, value) {
-  if (Array.isArray(value)) return field.choices ? value.map((one) => choiceLabel(field, one)).join(" + ") : "";
-  if (field.choices) return choiceLabel(field, value);
+  if (field.kind === "set") return value.map((one) => choiceLabel(field, one)).join(" + ");
+  if (field.choices && typeof value === "string") return choiceLabel(field, value);
   if (typeof value !== "number") return "";
   return field.unit ? `${plainNumber(value)} ${field.unit}` : `${plainNumber(value)} ${field.label.toLowerCase()}`;
 }
@@ -206,7 +215,8 @@ function brief(field, value) {
 /** The default in words. */
 function asText(field) {
   const value = field.default;
-  if (field.choices) return Array.isArray(value) ? value.map((one) => choiceLabel(field, one)).join(" + ") : choiceLabel(field, value);
+  if (field.kind === "set") return value.map((one) => choiceLabel(field, one)).join(" + ");
+  if (typeof value === "string" && field.choices) return choiceLabel(field, value);
   if (typeof value === "number") return [plainNumber(value), field.unit].filter(Boolean).join(" ");
   if (field.kind === "vector") return value.join(", ");
   return "its default";

@@ -1,19 +1,16 @@
 // The job as the page holds it: a plain object in the shape of the job file, read and written by path.
 //
-// Some parts of a job take one of several shapes (a robot by preset or by table, a path of some kind, a shaper or
-// none). A choice field decides which: the fields that exist only for some of its values name it in `when`.
+// Some parts of a job take one of several shapes: a robot or material by preset or by numbers, a path of some kind,
+// a shaper or "none". A choice ending in `.preset` or `.kind` decides; the other fields of that part name in `when`
+// what they need: a value of that choice, or the state of the part itself ("preset", "table" or "hz").
 
 const TURN = 2 * Math.PI;
-
-/** A number that may also be a word: the word, and how a checkbox beside the number offers it. */
-export const WORDS = {
-  "cutting.feed_per_tooth_mm": { word: "from_feed", label: "from the feed rate" },
-  "motion.corner_dwell": { word: "settle", label: "until the shaper has settled" },
-};
+export const OWN = "table"; // what a preset choice says when the numbers are one's own
 
 const keys = (path) => path.match(/[^.[\]]+/g);
 const parentOf = (path) => path.slice(0, Math.max(0, path.lastIndexOf(".")));
 const keyOf = (path) => path.slice(path.lastIndexOf(".") + 1);
+const decides = (field) => /\.(kind|preset)$/.test(field.path);
 
 export class Job {
   #fields;
@@ -21,10 +18,11 @@ export class Job {
   #drafts = new Map(); // values of fields whose shape is not chosen now, kept for the way back
   #data;
 
+  /** A job from its plain object, the core's fields and its presets `{ robots, materials }`. */
   constructor(data, fields, presets) {
     this.#data = structuredClone(data);
     this.#fields = fields;
-    this.#presets = presets;
+    this.#presets = { robot: presets.robots, material: presets.materials };
   }
 
   get json() {
@@ -37,49 +35,55 @@ export class Job {
     this.#drafts.clear();
   }
 
-  /** The value at `field.path`; where the job leaves it out, the default. */
+  /** The value at `field.path`; where the job leaves it out, what then holds. */
   get(field) {
+    const part = this.#read(parentOf(field.path));
+    if (decides(field) && part === "none") return "none";
     const value = this.#read(field.path);
     if (value !== undefined) return value;
-    if (field.kind === "choice" && this.#read(parentOf(field.path)) !== undefined && this.#isSwitch(field)) {
-      return missingChoice(field);
-    }
-    return field.default;
+    if (field.path.endsWith(".preset") && part) return OWN;
+    return this.#presetOf(parentOf(field.path))[keyOf(field.path)] ?? field.default;
   }
 
   /** Whether the field belongs to the job's present shape. */
   shows(field) {
-    const other = twin(field.path);
-    if (other && this.#has(other) && this.#find(other)) return false;
+    if (this.#isOtherUnit(field)) return false;
     if (!field.when) return true;
     const decider = this.#find(field.when.path);
-    if (!decider) return field.when.is.includes(this.#read(field.when.path));
-    return this.shows(decider) && field.when.is.includes(this.get(decider));
+    if (decider) return this.shows(decider) && field.when.is.includes(this.get(decider));
+    return field.when.is.includes(this.#stateOf(field.when.path));
   }
 
   set(field, value) {
-    if (field.kind === "choice" && this.#isSwitch(field)) return this.#switch(field, value);
-    this.#write(field.path, value);
+    if (decides(field)) this.#reshape(field, value);
+    else this.#write(field.path, value);
   }
 
-  /** Whether `field` differs from its default. */
+  /** Takes the field back to its default. */
+  reset(field) {
+    if (this.#overrules(field)) delete this.#read(parentOf(field.path))[keyOf(field.path)];
+    else this.set(field, structuredClone(field.default));
+  }
+
+  /** Whether the field differs from its default. */
   changed(field) {
+    if (this.#read(parentOf(field.path))?.preset && !decides(field)) return this.#overrules(field);
     return JSON.stringify(this.get(field)) !== JSON.stringify(field.default);
   }
 
-  /** The other unit that this field can be given in, or undefined. */
+  /** The field that holds the same quantity in another unit, or undefined. */
   otherUnit(field) {
     return this.#find(twin(field.path));
   }
 
-  /** Gives the frequency in the other unit: same value, other key. */
+  /** Gives the frequency in the other unit: same value, other key. Returns the other field. */
   swapUnit(field) {
     const other = this.otherUnit(field);
     const value = this.get(field);
-    const owner = this.#read(parentOf(field.path));
-    delete owner[keyOf(field.path)];
+    const part = this.#read(parentOf(field.path));
+    delete part[keyOf(field.path)];
     const factor = field.path.endsWith("_hz") ? TURN : 1 / TURN;
-    owner[keyOf(other.path)] = Number((value * factor).toPrecision(12));
+    part[keyOf(other.path)] = Number((value * factor).toPrecision(12));
     return other;
   }
 
@@ -91,60 +95,73 @@ export class Job {
     return keys(path).reduce((value, key) => value?.[key], this.#data);
   }
 
-  #has(path) {
-    return this.#read(path) !== undefined;
-  }
-
   #write(path, value) {
     const parent = parentOf(path);
-    if (parent && typeof this.#read(parent) !== "object") {
-      this.#write(parent, this.#shape(parent, new Map()));
-    }
-    const owner = parent ? this.#read(parent) : this.#data;
-    owner[keyOf(path)] = value;
+    if (parent && typeof this.#read(parent) !== "object") this.#write(parent, this.#shape(parent, new Map()));
+    const part = parent ? this.#read(parent) : this.#data;
+    part[keyOf(path)] = value;
   }
 
-  /** A choice that decides which of its siblings exist. */
-  #isSwitch(field) {
-    return this.#fields.some((other) => other.when?.path === field.path && parentOf(other.path) === parentOf(field.path));
+  #stateOf(path) {
+    const part = this.#read(path);
+    if (part?.frequency_hz !== undefined) return "hz";
+    return part?.preset === undefined ? OWN : "preset";
   }
 
-  /** Gives the part of the job around `field` the shape that `choice` asks for. */
-  #switch(field, choice) {
-    const parent = parentOf(field.path);
-    const old = this.#read(parent);
-    const known = new Map(Object.entries(this.#preset(parent, old)));
+  /** Whether the quantity is given by this field's twin. */
+  #isOtherUnit(field) {
+    const other = twin(field.path);
+    return other !== undefined && this.#read(other) !== undefined;
+  }
+
+  /** Whether a part with the `known` keys gives the quantity by this field's twin; rad/s unless Hz is known. */
+  #inOtherUnit(field, known) {
+    if (!this.otherUnit(field)) return false;
+    return field.path.endsWith("_hz") !== known.has("frequency_hz");
+  }
+
+  /** Whether the job gives a number that its preset has too. */
+  #overrules(field) {
+    const part = this.#read(parentOf(field.path));
+    return part?.preset !== undefined && !decides(field) && part[keyOf(field.path)] !== undefined;
+  }
+
+  /** The numbers behind the preset that a part of the job names. */
+  #presetOf(path) {
+    const id = this.#read(path)?.preset;
+    return this.#presets[path]?.find((preset) => preset.id === id) ?? {};
+  }
+
+  /** Gives the part of the job around `decider` the shape that `choice` asks for. */
+  #reshape(decider, choice) {
+    const path = parentOf(decider.path);
+    const known = new Map(Object.entries(this.#presetOf(path)));
+    const old = this.#read(path);
     if (typeof old === "object") {
       for (const [key, value] of Object.entries(old)) {
-        this.#drafts.set(`${parent}.${key}`, value);
+        this.#drafts.set(`${path}.${key}`, value);
         known.set(key, value);
       }
     }
-    this.#write(parent, choice === "none" ? "none" : this.#shape(parent, known, field, choice));
+    this.#write(path, choice === "none" ? "none" : this.#shape(path, known, decider, choice));
   }
 
-  /** An object with every field under `parent` that exists when `decider` is `choice`. */
-  #shape(parent, known, decider, choice) {
+  /** An object with every field of a part that is needed when `decider` is `choice`. */
+  #shape(path, known, decider, choice) {
+    const byPreset = decider?.path.endsWith(".preset") && choice !== OWN;
     const shape = {};
     for (const field of this.#fields) {
       const key = keyOf(field.path);
-      if (parentOf(field.path) !== parent) continue;
-      if (field === decider) {
-        if (choice !== "custom") shape[key] = choice;
+      if (parentOf(field.path) !== path) continue;
+      if (field.path === decider?.path) {
+        if (choice !== OWN) shape[key] = choice;
         continue;
       }
-      if (decider && field.when?.path === decider.path && !field.when.is.includes(choice)) continue;
-      const other = twin(field.path) && keyOf(twin(field.path));
-      if (other && (other in shape || (known.has(other) && !known.has(key)))) continue;
+      const needless = field.when?.path === decider?.path && field.when !== undefined && !field.when.is.includes(choice);
+      if (byPreset || needless || this.#inOtherUnit(field, known)) continue;
       shape[key] = structuredClone(known.get(key) ?? this.#drafts.get(field.path) ?? field.default);
     }
     return shape;
-  }
-
-  /** The numbers behind the preset that `part` names, so that one's own start from them. */
-  #preset(parent, part) {
-    const list = { robot: this.#presets.robots, material: this.#presets.materials }[parent];
-    return list?.find((preset) => preset.id === part?.preset) ?? {};
   }
 }
 
@@ -153,10 +170,4 @@ function twin(path) {
   if (path.endsWith("frequency_rad_s")) return path.replace(/rad_s$/, "hz");
   if (path.endsWith("frequency_hz")) return path.replace(/hz$/, "rad_s");
   return undefined;
-}
-
-/** What a choice means whose key the job leaves out: "none" for a part that is that word, else one's own table. */
-function missingChoice(field) {
-  const values = field.choices.map((choice) => choice.value);
-  return values.includes("custom") ? "custom" : values.includes("none") ? "none" : field.default;
 }

@@ -2,7 +2,7 @@
 
 import * as core from "./core.js";
 import { setCharts, showPanel } from "./charts.js";
-import { byId, debounced, make } from "./dom.js";
+import { byId, debounced, make, sentence } from "./dom.js";
 import { download } from "./download.js";
 import { Form } from "./form.js";
 import { Job } from "./job.js";
@@ -41,13 +41,13 @@ function edited() {
 function stale() {
   state("stale");
   const problem = form.problem;
-  if (problem) alertOn(`${problem.label}: ${problem.message}`, "Show the field", problem.go);
+  if (problem) alertOn(problem.message, "Show the field", () => (foldInputs(false), problem.go()));
   say(lastValid().trim() || "No result yet.");
 }
 
 function alertOn(message, action, go) {
   const box = byId("alert");
-  box.replaceChildren(make("p", {}, message));
+  box.replaceChildren(make("p", {}, sentence(message)));
   if (action) {
     const button = make("button", { type: "button" }, action);
     button.addEventListener("click", go);
@@ -111,6 +111,13 @@ function idle() {
   results.classList.remove("slow");
 }
 
+/** On a phone the inputs fold away; elsewhere they always show. */
+function foldInputs(away) {
+  byId("inputs").classList.toggle("open", !away);
+  byId("inputs-toggle").setAttribute("aria-expanded", String(!away));
+  byId("inputs-toggle").textContent = away ? "Show" : "Hide";
+}
+
 function load(data) {
   job.load(data);
   form.reload();
@@ -146,11 +153,7 @@ function wire() {
   byId("download-job").addEventListener("click", () => download("armill-job.json", "application/json", `${job.json}\n`));
   byId("download-columns").addEventListener("click", () => save("columns-csv", "armill-columns.csv"));
   byId("download-compensated").addEventListener("click", () => save("compensated-csv", "armill-compensated-path.csv"));
-  byId("inputs-toggle").addEventListener("click", ({ target }) => {
-    const open = byId("inputs").classList.toggle("open");
-    target.setAttribute("aria-expanded", String(open));
-    target.textContent = open ? "Hide" : "Show";
-  });
+  byId("inputs-toggle").addEventListener("click", () => foldInputs(byId("inputs").classList.contains("open")));
   byId("form").addEventListener("submit", (event) => event.preventDefault());
   const tabs = makeTabs(document.querySelector("[role=tablist]"), showPanel);
   showPanel(tabs.current());

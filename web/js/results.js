@@ -1,6 +1,6 @@
 // Writes a summary into the page: verdict, large numbers, warnings, tables.
 
-import { byId, make } from "./dom.js";
+import { byId, make, sentence } from "./dom.js";
 import { formatNumber, plainNumber } from "./number.js";
 
 /** Puts a number on the page: rounded to read, in full in `data-value`. */
@@ -61,13 +61,13 @@ function showWarnings(warnings) {
 }
 
 function warningItem({ code, message, from_s, to_s }) {
-  const when = from_s == null ? "" : from_s === to_s ? ` At ${formatNumber(from_s)} s.` : ` From ${formatNumber(from_s)} s to ${formatNumber(to_s)} s.`;
-  const item = make("li", {}, message + when);
+  const when = from_s == null ? "" : from_s === to_s ? `, at ${formatNumber(from_s)} s` : `, from ${formatNumber(from_s)} s to ${formatNumber(to_s)} s`;
+  const item = make("li", {}, sentence(message) + when);
   item.dataset.code = code;
   return item;
 }
 
-function showThesis(rows) {
+function showThesis(rows = []) {
   const cells = rows.map(({ quantity, source, printed, ours, reason }) =>
     make("tr", { className: reason ? "differs" : "" },
       make("th", { scope: "row" }, quantity), make("td", {}, source), make("td", { className: "digits" }, printed),
