@@ -57,7 +57,7 @@ async function draw() {
 }
 
 class Figure {
-  #plot = make("div", { className: "plot" });
+  #plot = make("div", { className: "drawing" });
   #legend = make("ul", { className: "legend" });
   #caption = make("figcaption");
   #readout = make("p", { className: "readout" });
@@ -95,14 +95,15 @@ class Figure {
     this.#chart = chart;
     const parsed = new DOMParser().parseFromString(chart.svg, "image/svg+xml");
     const svg = document.importNode(parsed.documentElement, true);
-    svg.setAttribute("aria-hidden", "true");
+    svg.setAttribute("aria-hidden", "true"); // heading and caption say it; a <title> would pop up under the pointer
+    svg.querySelectorAll(":scope > :is(title, desc)").forEach((element) => element.remove());
     const readable = chart.x?.label && !this.spatial;
     this.#plot.style.setProperty("min-height", `${chart.height}px`);
     this.#plot.replaceChildren(svg, ...(readable ? [this.#mark, this.#cursor] : []));
     this.#title.textContent = chart.title;
     this.#caption.textContent = chart.description;
     this.#legend.replaceChildren(...chart.series.map(legendItem));
-    this.#lines = readable ? chart.series.map((series) => ({ ...series, points: pointsOf(svg, series.class) })) : [];
+    this.#lines = readable ? chart.series.map((series) => ({ ...series, points: pointsOf(svg, series.key) })) : [];
     this.#leave();
     this.#place();
   }
@@ -128,13 +129,11 @@ class Figure {
   #read(across) {
     const { plot, x, y } = this.#chart;
     const at = plot.left + across * plot.width;
-    const toX = (px) => x.min + ((px - plot.left) / plot.width) * (x.max - x.min);
-    const toY = (py) => y.max - ((py - plot.top) / plot.height) * (y.max - y.min);
     const parts = this.#lines.flatMap(({ label, points }) => {
       const nearest = nearestTo(points, at);
-      return nearest ? [`${label} ${rounded(toY(nearest[1]), (y.max - y.min) / plot.height)}`] : [];
+      return nearest ? [`${label} ${valueAt(y, 1 - (nearest[1] - plot.top) / plot.height, plot.height)}`] : [];
     });
-    const text = `${x.label} ${rounded(toX(at), (x.max - x.min) / plot.width)} ${x.unit}: ${parts.join(", ")} ${y.unit}`;
+    const text = `${x.label} ${valueAt(x, across, plot.width)} ${x.unit}: ${parts.join(", ")} ${y.unit}`.trim();
     this.#readout.textContent = text;
     this.#cursor.setAttribute("aria-valuetext", text);
     this.#mark.style.setProperty("left", `${at}px`);
@@ -163,10 +162,10 @@ function legendItem({ label, class: name }) {
 }
 
 /** The drawn points [x, y] of a series, in the SVG's own units. */
-function pointsOf(svg, name) {
-  const shapes = svg.querySelectorAll(`.series.${CSS.escape(name)} :is(polyline, path)`);
+function pointsOf(svg, key) {
+  const shapes = svg.querySelectorAll(`.series[data-key="${CSS.escape(key)}"] polyline`);
   return [...shapes].flatMap((shape) => {
-    const numbers = (shape.getAttribute("points") ?? shape.getAttribute("d")).match(/-?\d+(\.\d+)?/g) ?? [];
+    const numbers = shape.getAttribute("points").match(/-?\d+(\.\d+)?/g) ?? [];
     return numbers.flatMap((x, i) => (i % 2 ? [] : [[Number(x), Number(numbers[i + 1])]]));
   });
 }
@@ -174,8 +173,10 @@ function pointsOf(svg, name) {
 const nearestTo = (points, x) =>
   points.reduce((best, point) => (!best || Math.abs(point[0] - x) < Math.abs(best[0] - x) ? point : best), null);
 
-/** `value` with as many decimals as one pixel can tell. */
-function rounded(value, pixel) {
-  const decimals = Math.min(8, Math.max(0, Math.ceil(-Math.log10(pixel))));
+/** The value at a fraction of an axis that is `length` pixels long, with the digits that one pixel can tell. */
+function valueAt({ min, max, log }, fraction, length) {
+  const value = log ? min * (max / min) ** fraction : min + fraction * (max - min);
+  const pixel = log ? (value * Math.log(max / min)) / length : (max - min) / length;
+  const decimals = Math.min(9, Math.max(0, Math.ceil(-Math.log10(pixel))));
   return value.toFixed(decimals).replace("-", "\u2212");
 }
