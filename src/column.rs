@@ -15,7 +15,12 @@ pub struct Column {
 
 impl Column {
     /// A column from its parts.
-    pub fn new(key: impl Into<String>, label: impl Into<String>, unit: &'static str, values: Vec<f64>) -> Self {
+    pub fn new(
+        key: impl Into<String>,
+        label: impl Into<String>,
+        unit: &'static str,
+        values: Vec<f64>,
+    ) -> Self {
         Self { key: key.into(), label: label.into(), unit, values }
     }
 }

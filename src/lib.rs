@@ -1,3 +1,43 @@
-//! Armill predicts where the tool tip of a milling robot really goes and returns the path to command instead.
+//! Armill predicts where the tool tip of a milling robot really goes (cutting forces bend the arm, command shaping bends the
+//! path) and returns the path to command instead, so that the part comes out right.
+//!
+//! One path point travels one way, through the modules in this order:
+//!
+//! ```text
+//! Job ─► Path ─► Trajectory ─► JointTrajectory ─► Forces ─► Deviation ─► Compensation ─► Report ─► charts, files
+//!       (where)  (when)       (which joints,     (what     (deflection, (what to        (numbers)
+//!                              shaped)            pushes)   contour      command)
+//!                                                           error)
+//! ```
+//!
+//! Everything inside is SI; text and files carry the unit in the name. "Thesis" in these pages is
+//! *Modelling and Compensation of Positioning Errors in Robotic Machining Systems*; equation numbers are its own.
+//!
+//! ```
+//! let report = armill::run(&armill::Job::default())?;
+//! assert!(report.summary().after_mm.max < 0.01);
+//! # Ok::<(), armill::Error>(())
+//! ```
 
+pub mod math;
+pub mod units;
+pub mod error;
 pub mod column;
+pub mod robot;
+pub mod path;
+pub mod motion;
+pub mod cutting;
+pub mod deviation;
+pub mod compensation;
+pub mod job;
+pub mod report;
+pub mod chart;
+pub mod export;
+mod pipeline;
+#[cfg(target_arch = "wasm32")]
+pub mod wasm;
+
+pub use error::Error;
+pub use job::Job;
+pub use pipeline::{Stage, run, run_json, run_with};
+pub use report::Report;

@@ -1,0 +1,67 @@
+//! Computes a job file (the default job without one), prints its summary as one JSON object and, if asked, writes all columns.
+//!
+//! `cargo run --release --example run -- [job.json] [--columns out.csv]`
+
+use armill::{Error, Job};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let mut arguments = std::env::args().skip(1);
+    let (mut job, mut columns) = (None, None);
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--columns" => match arguments.next() {
+                Some(file) => columns = Some(file),
+                None => return usage("--columns needs a file"),
+            },
+            other if other.starts_with('-') => return usage(&format!("unknown option {other}")),
+            _ if job.is_some() => return usage("one job file at a time"),
+            file => job = Some(file.to_owned()),
+        }
+    }
+    let text = match job.as_deref().map(std::fs::read_to_string) {
+        None => Job::default().to_json(),
+        Some(Ok(text)) => text,
+        Some(Err(error)) => return usage(&format!("{}: {error}", job.unwrap_or_default())),
+    };
+    let report = match armill::run_json(&text, |_| {}) {
+        Ok(report) => report,
+        Err(error) => return refuse(&error),
+    };
+    if let Some(file) = columns
+        && let Err(error) = std::fs::write(&file, armill::export::csv::columns(&report))
+    {
+        return usage(&format!("{file}: {error}"));
+    }
+    match serde_json::to_string_pretty(&report.summary()) {
+        Ok(summary) => {
+            use std::io::Write;
+            // A reader that hung up early (`| head`) is no error.
+            let _ = writeln!(std::io::stdout(), "{summary}");
+            ExitCode::SUCCESS
+        }
+        Err(error) => usage(&error.to_string()),
+    }
+}
+
+/// The error as one JSON object on stderr.
+fn refuse(error: &Error) -> ExitCode {
+    let mut object = serde_json::json!({ "code": error.code(), "message": error.to_string() });
+    if let Some(field) = error.field() {
+        object["field"] = field.into();
+    }
+    if let Some((line, column)) = error.place() {
+        object["line"] = line.into();
+        object["column"] = column.into();
+    }
+    eprintln!("{object}");
+    ExitCode::FAILURE
+}
+
+fn usage(message: &str) -> ExitCode {
+    eprintln!(
+        "{}",
+        serde_json::json!({ "code": "usage", "message": message, "usage": "run [job.json] [--columns out.csv]" })
+    );
+    ExitCode::FAILURE
+}

@@ -1,0 +1,120 @@
+//! What to command: the path bent the other way until the actual one comes out right (thesis eq. 5.4, Figs. 5.12, 5.16).
+//!
+//! Each pass sends the commands through the whole model and adds the contour error that is left to the correction.
+//! Shaping delays the motion, so an error seen now belongs to commands that were given a while (on the thesis's circle 15 mm)
+//! ago: [`Shaper::undo`] files it under them. The error corrected is the tip's way to the point of the path where the shaped
+//! motion should be, not only eq. 5.2's way to the closest point: it is smooth around corners and brings ends and corners where
+//! they belong, which the contour error cannot see. What is reported stays the contour error.
+//!
+//! [`Shaper::undo`]: crate::motion::Shaper::undo
+
+use crate::deviation::{Deviation, Plan, Sources, contour, deviate};
+use crate::error::Error;
+use crate::motion::joints::{StartBranch, joint_trajectory};
+use crate::robot::Joints;
+use nalgebra::Vector3;
+
+/// When to stop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Goal {
+    /// Largest contour error to reach [m].
+    pub tolerance: f64,
+    /// Most passes.
+    pub max_passes: usize,
+}
+
+/// The path to command and how it was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Compensation {
+    /// Correction of the desired position, one a sample, base frame [m].
+    pub correction: Vec<Vector3<f64>>,
+    /// Joint commands for the corrected path [rad].
+    pub q: Vec<Joints>,
+    /// What becomes of them: the same model, sent through again.
+    pub result: Deviation,
+    /// Largest contour error before the first pass and after each [m].
+    pub history_max: Vec<f64>,
+    /// Mean contour error before the first pass and after each [m].
+    pub history_mean: Vec<f64>,
+    /// Number of the pass whose path is commanded (0: the desired path itself).
+    pub passes: usize,
+    /// Whether the tolerance was reached.
+    pub converged: bool,
+    /// Why a pass could not be carried out, if one could not.
+    pub stopped: Option<Error>,
+}
+
+/// Share of the tolerance at which the passes end: the rest is left to what no model knows, and costs a pass or two.
+const AIM: f64 = 0.1;
+/// A pass that leaves more than this share of the error is no improvement.
+const IMPROVEMENT: f64 = 0.99;
+
+/// Corrects the path for the sources in `acting` until the largest contour error is well within the tolerance (a tenth of it), the
+/// passes are used up, or a pass no longer improves; the best pass is kept. A path that is within the tolerance is left alone. `before` is [`deviate`] of the joint commands `q` with the same sources.
+///
+/// `on_pass` is told the number of passes done.
+pub fn compensate(
+    plan: &Plan,
+    start: StartBranch,
+    q: &[Joints],
+    before: &Deviation,
+    acting: Sources,
+    goal: Goal,
+    mut on_pass: impl FnMut(usize),
+) -> Compensation {
+    let pace = plan.pace(acting);
+    let orientation = plan.path.tool_orientation();
+    let (mean, max) = contour::mean_and_max(&before.contour_error);
+    let mut best = Compensation {
+        correction: vec![Vector3::zeros(); q.len()],
+        q: q.to_vec(),
+        result: before.clone(),
+        history_max: vec![max],
+        history_mean: vec![mean],
+        passes: 0,
+        converged: max <= goal.tolerance,
+        stopped: None,
+    };
+    for pass in 1..=goal.max_passes {
+        if best.history_max[best.passes] <= goal.tolerance * if best.passes == 0 { 1.0 } else { AIM } {
+            break;
+        }
+        let missing: Vec<_> = pace
+            .arc_length
+            .iter()
+            .zip(&best.result.actual)
+            .map(|(&s, actual)| plan.path.point(s) - actual)
+            .collect();
+        let more =
+            if acting.shaping { plan.shaper.undo(&missing, plan.trajectory.sample_time) } else { missing };
+        let correction: Vec<_> = best.correction.iter().zip(&more).map(|(c, more)| c + more).collect();
+        let positions: Vec<_> =
+            plan.trajectory.position.iter().zip(&correction).map(|(desired, c)| desired + c).collect();
+        let commands = match joint_trajectory(&plan.robot, &orientation, &plan.trajectory, &positions, start)
+        {
+            Ok(joints) => joints.q,
+            Err(error) => {
+                best.stopped = Some(error);
+                break;
+            }
+        };
+        let result = deviate(plan, &pace, &commands, acting);
+        let (mean, max) = contour::mean_and_max(&result.contour_error);
+        on_pass(pass);
+        let least = best.history_max[best.passes];
+        best.history_max.push(max);
+        best.history_mean.push(mean);
+        if max >= least * IMPROVEMENT {
+            break;
+        }
+        best = Compensation {
+            correction,
+            q: commands,
+            result,
+            passes: pass,
+            converged: max <= goal.tolerance,
+            ..best
+        };
+    }
+    best
+}

@@ -1,0 +1,29 @@
+//! Contour error: how far the tip is from the desired path, wherever along it (thesis eqs. 5.1, 5.2).
+
+use crate::motion::Pace;
+use crate::path::Path;
+use nalgebra::Vector3;
+
+/// Contour error vectors epsilon = P_c - P_a [m] (eq. 5.2), one a sample.
+///
+/// P_c is searched around the arc length where `pace` says the tool is. The point there is at some distance d from the tip,
+/// the closest one is at most that far, so the two are at most 2 d apart; 3 d leaves room for the path's bends.
+pub fn contour_errors(path: &Path, pace: &Pace, actual: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+    let error = |(tip, &s): (&Vector3<f64>, &f64)| {
+        let distance = (tip - path.point(s)).norm();
+        path.closest(tip, s, 3.0 * distance + 1e-6).point - tip
+    };
+    actual.iter().zip(&pace.arc_length).map(error).collect()
+}
+
+/// Mean and largest length of the vectors [m].
+pub fn mean_and_max(errors: &[Vector3<f64>]) -> (f64, f64) {
+    let mut sum = 0.0;
+    let mut max = 0.0_f64;
+    for error in errors {
+        let norm = error.norm();
+        sum += norm;
+        max = max.max(norm);
+    }
+    (sum / errors.len().max(1) as f64, max)
+}

@@ -1,0 +1,6 @@
+//! What gives way: deflection by cutting forces, distortion by the input shaper, and the contour error of both.
+
+pub mod contour;
+pub mod source;
+
+pub use source::{Deviation, Plan, Source, Sources, deviate};

@@ -1,0 +1,198 @@
+//! What can be wrong with a question: each error carries the data that a person needs to mend it.
+
+use std::fmt;
+
+/// Why a job was refused.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// The job's text is not JSON, or a value has the wrong type.
+    Json {
+        /// JSON path of the value, where the parser knows it.
+        field: Option<String>,
+        /// What the parser says.
+        message: String,
+        /// Line in the text, from 1.
+        line: usize,
+        /// Column in the text, from 1.
+        column: usize,
+    },
+    /// A key that no job has.
+    UnknownKey {
+        /// JSON path of the key.
+        field: String,
+        /// The known key that looks most like it.
+        nearest: Option<String>,
+        /// Line in the text, from 1.
+        line: usize,
+        /// Column in the text, from 1.
+        column: usize,
+    },
+    /// A number outside its legal range.
+    OutOfRange {
+        /// JSON path of the value.
+        field: String,
+        /// The value, in the field's unit.
+        value: f64,
+        /// Smallest legal value.
+        min: f64,
+        /// Largest legal value.
+        max: f64,
+        /// The field's unit.
+        unit: &'static str,
+    },
+    /// A value that is legal by itself but not here.
+    Invalid {
+        /// JSON path of the value.
+        field: String,
+        /// The value as given.
+        value: String,
+        /// What would be legal.
+        expected: String,
+    },
+    /// A key that this kind of job needs.
+    Missing {
+        /// JSON path of the key.
+        field: String,
+        /// Why it is needed.
+        expected: String,
+    },
+    /// A text (pasted points, a program) that cannot be read at one place.
+    Text {
+        /// JSON path of the text.
+        field: String,
+        /// Line in the text, from 1.
+        line: usize,
+        /// Column in the line, from 1.
+        column: usize,
+        /// What stands there.
+        found: String,
+        /// What would be legal.
+        expected: String,
+    },
+    /// A pose that no branch of the arm reaches.
+    Unreachable {
+        /// Sample along the trajectory, from 0; `None` for a single pose.
+        sample: Option<usize>,
+        /// Arc length along the path [m], where the pose lies on one.
+        arc_length: Option<f64>,
+        /// The TCP position asked for, in the base frame [m].
+        position: [f64; 3],
+        /// Distance of the wrist centre from the shoulder axis [m].
+        distance: f64,
+        /// Smallest distance the arm can take [m].
+        reach_min: f64,
+        /// Largest distance the arm can take [m].
+        reach_max: f64,
+    },
+}
+
+impl Error {
+    /// Stable slug for scripts, tests and links.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Error::Json { .. } => "json",
+            Error::UnknownKey { .. } => "unknown-key",
+            Error::OutOfRange { .. } => "out-of-range",
+            Error::Invalid { .. } => "invalid",
+            Error::Missing { .. } => "missing",
+            Error::Text { .. } => "text",
+            Error::Unreachable { .. } => "unreachable",
+        }
+    }
+
+    /// JSON path of the field at fault, where one field is.
+    pub fn field(&self) -> Option<&str> {
+        match self {
+            Error::Json { field, .. } => field.as_deref(),
+            Error::UnknownKey { field, .. }
+            | Error::OutOfRange { field, .. }
+            | Error::Invalid { field, .. }
+            | Error::Missing { field, .. }
+            | Error::Text { field, .. } => Some(field),
+            Error::Unreachable { .. } => None,
+        }
+    }
+
+    /// Line and column (both from 1) of the text at fault: the job's JSON, or the text in the field that `field` names.
+    pub fn place(&self) -> Option<(usize, usize)> {
+        match self {
+            Error::Json { line, column, .. }
+            | Error::UnknownKey { line, column, .. }
+            | Error::Text { line, column, .. } => Some((*line, *column)),
+            _ => None,
+        }
+    }
+
+    /// The same error, told where along the path it happened.
+    pub(crate) fn at(self, index: usize, s: f64) -> Self {
+        match self {
+            Error::Unreachable { position, distance, reach_min, reach_max, .. } => Error::Unreachable {
+                sample: Some(index),
+                arc_length: Some(s),
+                position,
+                distance,
+                reach_min,
+                reach_max,
+            },
+            other => other,
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Error::Json { message, .. } => write!(f, "{message}"),
+            Error::UnknownKey { field, nearest, .. } => {
+                write!(f, "no job has the key {field}")?;
+                match nearest {
+                    Some(key) => write!(f, "; did you mean {key}?"),
+                    None => Ok(()),
+                }
+            }
+            Error::OutOfRange { field, value, min, max, unit } => {
+                let space = if unit.is_empty() { "" } else { " " };
+                let nearest = if value < min { min } else { max };
+                write!(
+                    f,
+                    "{field} is {value}{space}{unit}; legal is {min} to {max}{space}{unit}, nearest {nearest}"
+                )
+            }
+            Error::Invalid { field, value, expected } => write!(f, "{field} is {value}; {expected}"),
+            Error::Missing { field, expected } => write!(f, "{field} is missing: {expected}"),
+            Error::Text { line, column, found, expected, .. } => {
+                write!(f, "line {line}, column {column}: found {found}; {expected}")
+            }
+            Error::Unreachable {
+                sample,
+                arc_length,
+                position: [x, y, z],
+                distance,
+                reach_min,
+                reach_max,
+            } => {
+                write!(f, "out of reach: ")?;
+                if let Some(sample) = sample {
+                    write!(f, "sample {sample}")?;
+                    if let Some(s) = arc_length {
+                        write!(f, ", {:.1} mm along the path", s * 1e3)?;
+                    }
+                    write!(f, ", ")?;
+                }
+                write!(
+                    f,
+                    "TCP at ({:.1}, {:.1}, {:.1}) mm in the base frame: the wrist would be {:.1} mm from the shoulder, the arm reaches {:.1} to {:.1} mm",
+                    x * 1e3,
+                    y * 1e3,
+                    z * 1e3,
+                    distance * 1e3,
+                    reach_min * 1e3,
+                    reach_max * 1e3
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for Error {}

@@ -1,0 +1,3 @@
+//! Files to take away.
+
+pub mod csv;

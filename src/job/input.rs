@@ -1,0 +1,403 @@
+//! The job's keys, one to one as in the JSON. Values are as typed, not yet checked.
+
+use crate::job::choice::{Choice, Dwell, FeedPerTooth};
+use serde::{Deserialize, Serialize};
+
+/// The whole question. `Job::default()` is the thesis's case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Job {
+    /// Version of the format: 1.
+    pub version: u32,
+    /// The arm.
+    pub robot: Robot,
+    /// TCP in the flange frame.
+    pub tool_frame: Frame,
+    /// Workpiece in the base frame.
+    pub workpiece_frame: Frame,
+    /// Which of the arm's solutions the path starts on.
+    pub start_branch: Branch,
+    /// The desired path in the workpiece frame.
+    pub path: Path,
+    /// Speed and sampling.
+    pub motion: Motion,
+    /// The end mill.
+    pub tool: Tool,
+    /// Cutting coefficients.
+    pub material: Material,
+    /// Engagement.
+    pub cutting: Cutting,
+    /// Input shaper of the joint commands.
+    pub shaper: Shaper,
+    /// What to compensate and how far.
+    pub compensation: Compensation,
+}
+
+impl Default for Job {
+    fn default() -> Self {
+        Self {
+            version: 1,
+            robot: Robot { preset: Some("staubli-rx90".into()), ..Robot::default() },
+            tool_frame: Frame::default(),
+            workpiece_frame: Frame::default(),
+            start_branch: Branch::default(),
+            path: Path {
+                center_mm: Some([0.0, 0.0, 0.0]),
+                radius_mm: Some(300.0),
+                normal: Some([0.2, 0.3, 0.5]),
+                ..Path::of(PathKind::Circle)
+            },
+            motion: Motion::default(),
+            tool: Tool::default(),
+            material: Material { preset: Some("thesis".into()), ..Material::default() },
+            cutting: Cutting::default(),
+            shaper: Shaper::Spec(ShaperSpec {
+                kind: ShaperKind::Zvd,
+                frequency_rad_s: Some(18.0),
+                frequency_hz: None,
+                damping: 0.1,
+            }),
+            compensation: Compensation::default(),
+        }
+    }
+}
+
+/// The arm: a preset (whose limits and compliances may be overruled), or a modified DH table.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Robot {
+    /// Key of a robot in the library.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub preset: Option<String>,
+    /// Name of a robot that is not in the library.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Modified DH table, six rows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub modified_dh: Option<[DhRow; 6]>,
+    /// Joint ranges [deg].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint_limits_deg: Option<[[f64; 2]; 6]>,
+    /// Joint compliances [rad/(N m)].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint_compliance_rad_per_nm: Option<[f64; 6]>,
+}
+
+/// One row of a modified DH table.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DhRow {
+    /// Twist alpha_{i-1}.
+    pub alpha_deg: f64,
+    /// Length a_{i-1}.
+    pub a_mm: f64,
+    /// Offset d_i.
+    pub d_mm: f64,
+    /// Constant part of theta_i.
+    #[serde(default)]
+    pub theta_offset_deg: f64,
+}
+
+/// A frame: position, then roll, pitch and yaw about the fixed x, y and z axes.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Frame {
+    /// Position.
+    pub xyz_mm: [f64; 3],
+    /// Orientation.
+    pub rpy_deg: [f64; 3],
+}
+
+/// Which of the arm's up to eight solutions the path starts on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Branch {
+    /// Facing the point, or over its back.
+    pub shoulder: Shoulder,
+    /// Sign of the elbow angle from the stretched arm (RX-90: of q3).
+    pub elbow: Elbow,
+    /// The wrist with the smaller |q4|, or the other.
+    pub wrist: Wrist,
+}
+
+/// Declares an enumeration of the job whose values are written in lower case.
+macro_rules! choice {
+    ($(#[$doc:meta])* $name:ident { $($(#[$item_doc:meta])* $item:ident),+ $(,)? }) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+        #[serde(rename_all = "lowercase")]
+        pub enum $name { $($(#[$item_doc])* $item),+ }
+    };
+}
+
+choice! {
+    /// Shoulder of the start branch.
+    Shoulder { #[default] /** Facing the point. */ Front, /** Over its back. */ Back }
+}
+choice! {
+    /// Elbow of the start branch.
+    Elbow { #[default] /** Positive elbow angle. */ Positive, /** Negative elbow angle. */ Negative }
+}
+choice! {
+    /// Wrist of the start branch.
+    Wrist { #[default] /** Smaller |q4|. */ Near, /** Turned by 180 degrees. */ Flipped }
+}
+choice! {
+    /// What the path is made from.
+    PathKind {
+        #[default]
+        /** Full circle. */ Circle,
+        /** Part of a circle. */ Arc,
+        /** One straight line. */ Line,
+        /** Rectangle with sharp or rounded corners. */ Rectangle,
+        /** Straight lines through points. */ Polyline,
+        /** Straight lines through pasted rows of x, y, z. */ Csv,
+    }
+}
+choice! {
+    /// Kind of input shaper.
+    ShaperKind { /** Zero vibration. */ Zv, #[default] /** And its derivative. */ Zvd, /** And two derivatives. */ Zvdd, /** Extra-insensitive. */ Ei }
+}
+choice! {
+    /// A source of error.
+    Source { #[default] /** Cutting forces bend the arm. */ Deflection, /** The input shaper bends the path. */ Shaping }
+}
+
+impl ShaperKind {
+    /// The key in the JSON.
+    pub fn id(self) -> &'static str {
+        match self {
+            ShaperKind::Zv => "zv",
+            ShaperKind::Zvd => "zvd",
+            ShaperKind::Zvdd => "zvdd",
+            ShaperKind::Ei => "ei",
+        }
+    }
+}
+
+/// The desired path in the workpiece frame; which keys belong to it depends on `kind`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Path {
+    /// What it is made from.
+    pub kind: PathKind,
+    /// Centre of a circle, an arc or a rectangle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub center_mm: Option<[f64; 3]>,
+    /// Radius of a circle or an arc.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius_mm: Option<f64>,
+    /// Normal of a circle or an arc, of any length; default +Z.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal: Option<[f64; 3]>,
+    /// Start of an arc, from the projection of +X.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start_deg: Option<f64>,
+    /// Sweep of an arc, counter-clockwise about the normal if positive.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sweep_deg: Option<f64>,
+    /// Start of a line.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from_mm: Option<[f64; 3]>,
+    /// End of a line.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub to_mm: Option<[f64; 3]>,
+    /// Size of a rectangle along X.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width_mm: Option<f64>,
+    /// Size of a rectangle along Y.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height_mm: Option<f64>,
+    /// Radius of a rectangle's corners; default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub corner_radius_mm: Option<f64>,
+    /// Points of a polyline.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub points_mm: Option<Vec<[f64; 3]>>,
+    /// Pasted rows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub text: Option<String>,
+}
+
+impl Path {
+    /// A path of a kind, with none of its keys.
+    pub fn of(kind: PathKind) -> Self {
+        Self { kind, ..Self::default() }
+    }
+}
+
+/// Speed and sampling.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Motion {
+    /// Feed along the path.
+    pub feed_mm_s: f64,
+    /// Acceleration along the path.
+    pub acceleration_mm_s2: f64,
+    /// Sample time.
+    pub sample_time_s: f64,
+    /// A corner sharper than this is a full stop.
+    pub corner_angle_deg: f64,
+    /// Time at rest in such a corner.
+    pub corner_dwell: Dwell,
+}
+
+impl Default for Motion {
+    fn default() -> Self {
+        Self {
+            feed_mm_s: 100.0,
+            acceleration_mm_s2: 200.0,
+            sample_time_s: 0.001,
+            corner_angle_deg: 5.0,
+            corner_dwell: Choice::Word,
+        }
+    }
+}
+
+/// The end mill.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Tool {
+    /// Diameter.
+    pub diameter_mm: f64,
+    /// Number of flutes.
+    pub flutes: u32,
+    /// Helix angle.
+    pub helix_deg: f64,
+}
+
+impl Default for Tool {
+    fn default() -> Self {
+        Self { diameter_mm: 10.0, flutes: 4, helix_deg: 30.0 }
+    }
+}
+
+/// Cutting coefficients: a preset, or numbers.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Key of a material in the library.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub preset: Option<String>,
+    /// Tangential cutting coefficient.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ktc_n_mm2: Option<f64>,
+    /// Radial cutting coefficient.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub krc_n_mm2: Option<f64>,
+    /// Axial cutting coefficient.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kac_n_mm2: Option<f64>,
+    /// Tangential edge coefficient; default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kte_n_mm: Option<f64>,
+    /// Radial edge coefficient; default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kre_n_mm: Option<f64>,
+    /// Axial edge coefficient; default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kae_n_mm: Option<f64>,
+}
+
+/// Engagement.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Cutting {
+    /// Axial depth of cut.
+    pub axial_depth_mm: f64,
+    /// Immersion angle at which a tooth enters.
+    pub entry_deg: f64,
+    /// Immersion angle at which it leaves.
+    pub exit_deg: f64,
+    /// Spindle speed.
+    pub spindle_rpm: f64,
+    /// Feed per tooth.
+    pub feed_per_tooth_mm: FeedPerTooth,
+}
+
+impl Default for Cutting {
+    fn default() -> Self {
+        Self {
+            axial_depth_mm: 10.0,
+            entry_deg: 90.0,
+            exit_deg: 180.0,
+            spindle_rpm: 4000.0,
+            feed_per_tooth_mm: Choice::value(0.1),
+        }
+    }
+}
+
+/// Input shaper: `"none"`, or a kind with its frequency and damping.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shaper {
+    /// Commands go to the joints as they are.
+    None,
+    /// Commands are shaped.
+    Spec(ShaperSpec),
+}
+
+/// A shaper of a kind; the frequency is given in exactly one of the two units.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ShaperSpec {
+    /// Kind.
+    pub kind: ShaperKind,
+    /// Undamped natural frequency.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frequency_rad_s: Option<f64>,
+    /// Undamped natural frequency.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frequency_hz: Option<f64>,
+    /// Damping ratio.
+    pub damping: f64,
+}
+
+impl Serialize for Shaper {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Shaper::None => serializer.serialize_str("none"),
+            Shaper::Spec(spec) => spec.serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Shaper {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visitor;
+        impl<'de> serde::de::Visitor<'de> for Visitor {
+            type Value = Shaper;
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                write!(f, "\"none\" or an object with kind, frequency_rad_s or frequency_hz, and damping")
+            }
+            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Shaper, E> {
+                match text {
+                    "none" => Ok(Shaper::None),
+                    _ => Err(E::invalid_value(serde::de::Unexpected::Str(text), &self)),
+                }
+            }
+            fn visit_map<A: serde::de::MapAccess<'de>>(self, map: A) -> Result<Shaper, A::Error> {
+                let map = serde::de::value::MapAccessDeserializer::new(map);
+                ShaperSpec::deserialize(map).map(Shaper::Spec)
+            }
+        }
+        deserializer.deserialize_any(Visitor)
+    }
+}
+
+/// What to compensate and how far.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Compensation {
+    /// Largest contour error to reach.
+    pub tolerance_mm: f64,
+    /// Most passes.
+    pub max_passes: u32,
+    /// Sources to compensate.
+    pub sources: Vec<Source>,
+}
+
+impl Default for Compensation {
+    fn default() -> Self {
+        Self { tolerance_mm: 0.01, max_passes: 5, sources: vec![Source::Deflection, Source::Shaping] }
+    }
+}

@@ -1,0 +1,17 @@
+//! The job: the whole question as a person or a script writes it (JSON, units in the names), and the way from there to SI.
+//!
+//! [`Job`] mirrors the JSON one to one. Keys that are not given take the value of the default job, the thesis's case, and the
+//! report says which; unknown keys are errors. [`Job::setup`] checks everything and gives the validated model in SI.
+
+mod input;
+mod choice;
+mod read;
+mod setup;
+pub mod fields;
+
+pub use choice::{Choice, Dwell, FeedPerTooth};
+pub use input::{
+    Branch, Compensation, Cutting, DhRow, Elbow, Frame, Job, Material, Motion, Path, PathKind, Robot, Shaper,
+    ShaperKind, ShaperSpec, Shoulder, Source, Tool, Wrist,
+};
+pub use setup::Setup;

@@ -1,0 +1,316 @@
+//! From the job's keys to the validated model in SI.
+
+use crate::compensation::Goal;
+use crate::cutting::along::ChipLoad;
+use crate::cutting::{Coefficients, Cut, material};
+use crate::deviation::Sources;
+use crate::error::Error;
+use crate::job::{Choice, Elbow, Frame, Job, PathKind, Shaper, ShaperSpec, Shoulder, Source, Wrist, fields};
+use crate::math::Pose;
+use crate::motion::joints::StartBranch;
+use crate::motion::trajectory::Tempo;
+use crate::motion::{self, shaper};
+use crate::path::{Path, csv, shape};
+use crate::robot::{Link, Robot, library};
+use crate::units::{DEG, HZ, MM, N_PER_MM, N_PER_MM2, RPM};
+use nalgebra::Vector3;
+
+/// Most samples a job may have; a 1 ms trajectory of half an hour.
+const MAX_SAMPLES: f64 = 2e6;
+
+/// The question in SI, checked: what the pipeline starts from.
+#[derive(Debug, Clone)]
+pub struct Setup {
+    /// The arm with its tool.
+    pub robot: Robot,
+    /// The desired path in the base frame.
+    pub path: Path,
+    /// How the path is travelled.
+    pub tempo: Tempo,
+    /// The shaper of the joint commands.
+    pub shaper: motion::Shaper,
+    /// Undamped natural frequency [rad/s] and damping ratio of the mode it is made for; `None` without a shaper.
+    pub mode: Option<(f64, f64)>,
+    /// The cut.
+    pub cut: Cut,
+    /// What sets the chip.
+    pub chip: ChipLoad,
+    /// Teeth that pass in a second [1/s].
+    pub teeth_per_second: f64,
+    /// Branch at the start.
+    pub start: StartBranch,
+    /// When compensation stops.
+    pub goal: Goal,
+    /// What is compensated.
+    pub sources: Sources,
+}
+
+impl Job {
+    /// Checks the job and turns it into SI.
+    ///
+    /// # Errors
+    /// The first thing that is not legal, with its field, value and what would be legal.
+    pub fn setup(&self) -> Result<Setup, Error> {
+        if self.version != 1 {
+            return Err(invalid("version", self.version, "this Armill reads version 1"));
+        }
+        fields::check_ranges(self)?;
+        let robot = self.arm()?.with_tool(frame(&self.tool_frame));
+        let path = self.desired_path()?.placed(&frame(&self.workpiece_frame));
+        let (shaper, mode) = self.input_shaper()?;
+        let cut = self.cut()?;
+        let teeth_per_second = self.cutting.spindle_rpm * RPM * f64::from(self.tool.flutes);
+        let chip = match self.cutting.feed_per_tooth_mm {
+            Choice::Value(c, _) => ChipLoad::Fixed(c * MM),
+            Choice::Word => ChipLoad::FromFeed(teeth_per_second),
+        };
+        let motion = &self.motion;
+        let tempo = Tempo {
+            feed: motion.feed_mm_s * MM,
+            acceleration: motion.acceleration_mm_s2 * MM,
+            sample_time: motion.sample_time_s,
+            corner_angle: motion.corner_angle_deg * DEG,
+            corner_dwell: match motion.corner_dwell {
+                Choice::Value(dwell, _) => dwell,
+                Choice::Word if shaper.duration() > 0.0 => shaper.duration() + 2.0 * motion.sample_time_s,
+                Choice::Word => 0.0,
+            },
+            settle: shaper.duration(),
+        };
+        let samples = motion::Trajectory::count(&path, &tempo);
+        if samples > MAX_SAMPLES {
+            let shortest = motion.sample_time_s * samples / MAX_SAMPLES;
+            let expected = format!(
+                "the path would take {samples:.0} samples, at most {MAX_SAMPLES:.0} are computed: from {shortest:.4} s on"
+            );
+            return Err(invalid("motion.sample_time_s", motion.sample_time_s, expected));
+        }
+        let start = StartBranch {
+            front: self.start_branch.shoulder == Shoulder::Front,
+            elbow_positive: self.start_branch.elbow == Elbow::Positive,
+            wrist_near: self.start_branch.wrist == Wrist::Near,
+        };
+        let compensation = &self.compensation;
+        let goal =
+            Goal { tolerance: compensation.tolerance_mm * MM, max_passes: compensation.max_passes as usize };
+        let has = |source| compensation.sources.contains(&source);
+        if compensation.sources.len() > 2
+            || (compensation.sources.len() == 2 && !(has(Source::Deflection) && has(Source::Shaping)))
+        {
+            return Err(invalid(
+                "compensation.sources",
+                "a list with a source twice",
+                "name each of deflection and shaping once at most",
+            ));
+        }
+        let sources = Sources { deflection: has(Source::Deflection), shaping: has(Source::Shaping) };
+        Ok(Setup { robot, path, tempo, shaper, mode, cut, chip, teeth_per_second, start, goal, sources })
+    }
+
+    fn arm(&self) -> Result<Robot, Error> {
+        let given = &self.robot;
+        let (name, links, limits, compliance) = match (&given.preset, &given.modified_dh) {
+            (Some(_), Some(_)) => {
+                return Err(invalid(
+                    "robot.preset",
+                    "given together with modified_dh",
+                    "give one of the two",
+                ));
+            }
+            (Some(id), None) => {
+                let Some(preset) = library::ROBOTS.iter().find(|robot| robot.id == id) else {
+                    return Err(unknown_preset(
+                        "robot.preset",
+                        id,
+                        library::ROBOTS.iter().map(|robot| robot.id),
+                    ));
+                };
+                (preset.name, preset.links(), Some(preset.limits()), preset.joint_compliance)
+            }
+            (None, Some(rows)) => {
+                let links = rows.map(|row| Link {
+                    alpha: row.alpha_deg * DEG,
+                    a: row.a_mm * MM,
+                    d: row.d_mm * MM,
+                    theta_offset: row.theta_offset_deg * DEG,
+                });
+                let compliance = given.joint_compliance_rad_per_nm.ok_or_else(|| {
+                    missing("robot.joint_compliance_rad_per_nm", "six compliances, 0 for a rigid joint")
+                })?;
+                ("", links, None, compliance)
+            }
+            (None, None) => return Err(missing("robot.preset", "name a preset, or give modified_dh")),
+        };
+        let limits =
+            given.joint_limits_deg.map(|ranges| ranges.map(|[low, high]| (low * DEG, high * DEG))).or(limits);
+        let compliance = given.joint_compliance_rad_per_nm.unwrap_or(compliance);
+        Robot::new(given.name.clone().unwrap_or_else(|| name.to_owned()), links, limits, compliance)
+    }
+
+    fn desired_path(&self) -> Result<Path, Error> {
+        let given = &self.path;
+        fields::check_path_keys(self)?;
+        let need = |key: &str| missing(&format!("path.{key}"), "this kind of path needs it");
+        let vector = |value: Option<[f64; 3]>, key: &str| {
+            value.ok_or_else(|| need(key)).map(|v| Vector3::from(v) * MM)
+        };
+        let length = |value: Option<f64>, key: &str| value.ok_or_else(|| need(key)).map(|v| v * MM);
+        let normal = Vector3::from(given.normal.unwrap_or([0.0, 0.0, 1.0]));
+        if normal.norm() < 1e-9 {
+            return Err(invalid("path.normal", "(0, 0, 0)", "a direction; its length does not matter"));
+        }
+        let points_field = if given.kind == PathKind::Csv { "path.text" } else { "path.points_mm" };
+        let segments = match given.kind {
+            PathKind::Circle => {
+                let center = vector(given.center_mm, "center_mm")?;
+                vec![shape::circle(center, length(given.radius_mm, "radius_mm")?, normal)]
+            }
+            PathKind::Arc => {
+                let center = vector(given.center_mm, "center_mm")?;
+                let sweep = given.sweep_deg.ok_or_else(|| need("sweep_deg"))? * DEG;
+                let start = given.start_deg.unwrap_or(0.0) * DEG;
+                vec![shape::arc(center, length(given.radius_mm, "radius_mm")?, normal, start, sweep)]
+            }
+            PathKind::Line => {
+                shape::polyline(&[vector(given.from_mm, "from_mm")?, vector(given.to_mm, "to_mm")?])
+            }
+            PathKind::Rectangle => {
+                let (width, height) =
+                    (length(given.width_mm, "width_mm")?, length(given.height_mm, "height_mm")?);
+                let radius = given.corner_radius_mm.unwrap_or(0.0) * MM;
+                let largest = width.min(height) / 2.0;
+                if radius > largest {
+                    let (value, max) = (radius / MM, largest / MM);
+                    let field = "path.corner_radius_mm".into();
+                    return Err(Error::OutOfRange { field, value, min: 0.0, max, unit: "mm" });
+                }
+                shape::rectangle(vector(given.center_mm, "center_mm")?, width, height, radius)
+            }
+            PathKind::Polyline => {
+                let points = given.points_mm.as_ref().ok_or_else(|| need("points_mm"))?;
+                let points: Vec<_> = points.iter().map(|point| Vector3::from(*point) * MM).collect();
+                shape::polyline(&points)
+            }
+            PathKind::Csv => {
+                shape::polyline(&csv::points(given.text.as_ref().ok_or_else(|| need("text"))?, "path.text")?)
+            }
+        };
+        Path::new(segments).ok_or_else(|| {
+            let (field, expected) = match given.kind {
+                PathKind::Polyline | PathKind::Csv => {
+                    (points_field, "two points or more that are not all the same")
+                }
+                PathKind::Line => ("path.to_mm", "another point than from_mm"),
+                _ => ("path.sweep_deg", "a sweep that is not zero"),
+            };
+            invalid(field, "a path without length", expected)
+        })
+    }
+
+    fn input_shaper(&self) -> Result<(motion::Shaper, Option<(f64, f64)>), Error> {
+        let Shaper::Spec(ShaperSpec { kind, frequency_rad_s, frequency_hz, damping }) = self.shaper else {
+            return Ok((motion::Shaper::none(), None));
+        };
+        let frequency = match (frequency_rad_s, frequency_hz) {
+            (Some(rad_s), None) => rad_s,
+            (None, Some(hz)) => hz * HZ,
+            (None, None) => return Err(missing("shaper.frequency_rad_s", "or frequency_hz: one of the two")),
+            (Some(_), Some(_)) => {
+                return Err(invalid(
+                    "shaper.frequency_hz",
+                    "given together with frequency_rad_s",
+                    "give one of the two",
+                ));
+            }
+        };
+        let kind = shaper::kind(kind.id()).ok_or_else(|| missing("shaper.kind", "a kind of shaper"))?;
+        if damping > kind.damping_max {
+            let field = "shaper.damping".into();
+            return Err(Error::OutOfRange {
+                field,
+                value: damping,
+                min: 0.0,
+                max: kind.damping_max,
+                unit: "",
+            });
+        }
+        Ok((motion::Shaper::new(kind, frequency, damping), Some((frequency, damping))))
+    }
+
+    fn cut(&self) -> Result<Cut, Error> {
+        if self.cutting.entry_deg >= self.cutting.exit_deg {
+            let expected =
+                format!("a tooth leaves after it enters: more than entry_deg = {}", self.cutting.entry_deg);
+            return Err(invalid("cutting.exit_deg", self.cutting.exit_deg, expected));
+        }
+        let given = &self.material;
+        let numbers = [
+            given.ktc_n_mm2,
+            given.krc_n_mm2,
+            given.kac_n_mm2,
+            given.kte_n_mm,
+            given.kre_n_mm,
+            given.kae_n_mm,
+        ];
+        let [ktc, krc, kac, kte, kre, kae] = match &given.preset {
+            Some(_) if numbers.iter().any(Option::is_some) => {
+                return Err(invalid(
+                    "material.preset",
+                    "given together with coefficients",
+                    "give one of the two",
+                ));
+            }
+            Some(id) => match material::MATERIALS.iter().find(|material| material.id == id) {
+                Some(preset) => preset.coefficients,
+                None => {
+                    return Err(unknown_preset(
+                        "material.preset",
+                        id,
+                        material::MATERIALS.iter().map(|m| m.id),
+                    ));
+                }
+            },
+            None => {
+                for (value, key) in numbers.iter().zip(["ktc_n_mm2", "krc_n_mm2", "kac_n_mm2"]) {
+                    value.ok_or_else(|| {
+                        missing(&format!("material.{key}"), "name a preset, or give ktc, krc and kac")
+                    })?;
+                }
+                numbers.map(|value| value.unwrap_or(0.0))
+            }
+        };
+        let coefficients = Coefficients {
+            ktc: ktc * N_PER_MM2,
+            krc: krc * N_PER_MM2,
+            kac: kac * N_PER_MM2,
+            kte: kte * N_PER_MM,
+            kre: kre * N_PER_MM,
+            kae: kae * N_PER_MM,
+        };
+        Ok(Cut {
+            diameter: self.tool.diameter_mm * MM,
+            flutes: self.tool.flutes,
+            helix: self.tool.helix_deg * DEG,
+            coefficients,
+            axial_depth: self.cutting.axial_depth_mm * MM,
+            entry: self.cutting.entry_deg * DEG,
+            exit: self.cutting.exit_deg * DEG,
+        })
+    }
+}
+
+fn frame(given: &Frame) -> Pose {
+    Pose::from_xyz_rpy(Vector3::from(given.xyz_mm) * MM, given.rpy_deg.map(|angle| angle * DEG))
+}
+
+fn invalid(field: &str, value: impl ToString, expected: impl Into<String>) -> Error {
+    Error::Invalid { field: field.into(), value: value.to_string(), expected: expected.into() }
+}
+
+fn missing(field: &str, expected: &str) -> Error {
+    Error::Missing { field: field.into(), expected: expected.into() }
+}
+
+fn unknown_preset<'a>(field: &str, id: &str, known: impl Iterator<Item = &'a str>) -> Error {
+    invalid(field, format!("\"{id}\""), format!("the library has {}", known.collect::<Vec<_>>().join(", ")))
+}

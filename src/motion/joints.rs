@@ -1,0 +1,101 @@
+//! Joint commands along the trajectory: the inverse model at every sample, on one continuous branch (thesis Fig. 5.4).
+
+use crate::error::Error;
+use crate::math::Pose;
+use crate::motion::Trajectory;
+use crate::robot::inverse::{self, Margin, Solution};
+use crate::robot::{Joints, Robot};
+use nalgebra::{Matrix3, Vector3};
+
+/// Which of the up to eight solutions the motion starts on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StartBranch {
+    /// The arm faces the point.
+    pub front: bool,
+    /// The elbow angle from the stretched arm is positive.
+    pub elbow_positive: bool,
+    /// The wrist with the smaller |q4|.
+    pub wrist_near: bool,
+}
+
+/// Joint commands, one a sample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointTrajectory {
+    /// Joint values [rad]; they run on beyond full turns rather than jump.
+    pub q: Vec<Joints>,
+    /// Distance from the singularities at each sample.
+    pub margin: Vec<Margin>,
+    /// Branch at the start.
+    pub start: inverse::Branch,
+}
+
+/// Solves the inverse model along `positions` (TCP, base frame [m]) with one orientation, each sample nearest to the one before.
+///
+/// # Errors
+/// [`Error::Unreachable`] with the sample and its arc length; [`Error::Invalid`] if the start has no solution on the branch asked for.
+pub fn joint_trajectory(
+    robot: &Robot,
+    orientation: &Matrix3<f64>,
+    trajectory: &Trajectory,
+    positions: &[Vector3<f64>],
+    start: StartBranch,
+) -> Result<JointTrajectory, Error> {
+    let mut q = Vec::with_capacity(positions.len());
+    let mut margin = Vec::with_capacity(positions.len());
+    let mut previous: Option<Solution> = None;
+    let mut first = None;
+    for (k, position) in positions.iter().enumerate() {
+        let tcp = Pose { rotation: *orientation, position: *position };
+        let place = |error: Error| error.at(k, trajectory.pace.arc_length[k]);
+        let solution = match &previous {
+            None => first_solution(robot, &tcp, start).map_err(place)?,
+            Some(last) => next_solution(robot, &tcp, last).map_err(place)?,
+        };
+        first.get_or_insert(solution.branch);
+        q.push(solution.q);
+        margin.push(solution.margin);
+        previous = Some(solution);
+    }
+    match first {
+        Some(start) => Ok(JointTrajectory { q, margin, start }),
+        None => Err(Error::Missing { field: "path".into(), expected: "a path has points".into() }),
+    }
+}
+
+fn first_solution(robot: &Robot, tcp: &Pose, start: StartBranch) -> Result<Solution, Error> {
+    let solutions = inverse::inverse(robot, tcp, &Joints::zeros())?;
+    let (near, flipped) = {
+        let mut wrists: Vec<&Solution> = solutions
+            .iter()
+            .filter(|s| s.branch.front == start.front && s.branch.elbow_positive == start.elbow_positive)
+            .collect();
+        wrists.sort_by(|a, b| a.q[3].abs().total_cmp(&b.q[3].abs()));
+        (wrists.first().copied(), wrists.last().copied())
+    };
+    let chosen = if start.wrist_near { near } else { flipped };
+    chosen.copied().ok_or_else(|| Error::Invalid {
+        field: "start_branch".into(),
+        value: format!(
+            "shoulder {}, elbow {}",
+            if start.front { "front" } else { "back" },
+            if start.elbow_positive { "positive" } else { "negative" }
+        ),
+        expected: "the path's first point has no solution on it; choose another".into(),
+    })
+}
+
+fn next_solution(robot: &Robot, tcp: &Pose, last: &Solution) -> Result<Solution, Error> {
+    let candidates = inverse::candidates(robot, tcp, &last.q)?;
+    match candidates.nearest(&last.q) {
+        Some(solution) if inverse::closes(robot, tcp, &solution.q) => Ok(*solution),
+        // The closed form lost digits for this one; take the nearest that closes.
+        _ => {
+            let solutions = inverse::inverse(robot, tcp, &last.q)?;
+            solutions.nearest(&last.q).copied().ok_or_else(|| Error::Invalid {
+                field: "path".into(),
+                value: "a pose".into(),
+                expected: "no solution of the inverse model closes".into(),
+            })
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! When: speed along the path, the trajectory in time, the joint trajectory, and the input shaper.
+
+pub mod profile;
+pub mod trajectory;
+pub mod shaper;
+pub mod joints;
+
+pub use profile::Profile;
+pub use shaper::Shaper;
+pub use trajectory::{Pace, Trajectory};

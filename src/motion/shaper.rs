@@ -1,0 +1,203 @@
+//! Input shapers: impulse sequences that cancel the vibration they start (thesis eqs. 4.12-4.15).
+//!
+//! A shaper splits every command into a few delayed parts. The delay bends the path; that is why Armill is interested.
+
+use crate::math::{self, PI};
+use crate::motion::Pace;
+use crate::robot::Joints;
+use nalgebra::Vector3;
+
+/// One part of the command: which share of it comes how late.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impulse {
+    /// Share of the command; the shares of a shaper add up to 1.
+    pub amplitude: f64,
+    /// Delay [s].
+    pub time: f64,
+}
+
+/// A kind of shaper: a pure function of frequency and damping with its range of validity.
+#[derive(Debug, Clone, Copy)]
+pub struct Kind {
+    /// Key used in jobs.
+    pub id: &'static str,
+    /// Name as read.
+    pub name: &'static str,
+    /// Largest damping ratio the formula holds for.
+    pub damping_max: f64,
+    /// Impulses from the undamped natural frequency [rad/s] and the damping ratio.
+    pub impulses: fn(f64, f64) -> Vec<Impulse>,
+}
+
+/// All kinds.
+///
+/// ZV, ZVD, ZVDD: N. Singer, W. Seering, Preshaping Command Inputs to Reduce System Vibration, ASME J. Dyn. Syst. Meas.
+/// Control 112 (1990); exact for any damping below 1 (limited to 0.9 here, beyond which nothing vibrates).
+/// EI: W. Singhose, W. Seering, N. Singer, Residual Vibration Reduction Using Vector Diagrams to Generate Shaped Inputs,
+/// ASME J. Mech. Des. 116 (1994), with the damped fit for 5 % residual vibration, given for damping up to 0.3.
+pub const KINDS: [Kind; 4] = [
+    Kind { id: "zv", name: "ZV (zero vibration)", damping_max: 0.9, impulses: |w, z| binomial(1, w, z) },
+    Kind {
+        id: "zvd",
+        name: "ZVD (and its derivative)",
+        damping_max: 0.9,
+        impulses: |w, z| binomial(2, w, z),
+    },
+    Kind {
+        id: "zvdd",
+        name: "ZVDD (and two derivatives)",
+        damping_max: 0.9,
+        impulses: |w, z| binomial(3, w, z),
+    },
+    Kind { id: "ei", name: "EI (extra-insensitive, 5 %)", damping_max: 0.3, impulses: extra_insensitive },
+];
+
+/// The kind with the key `id`.
+pub fn kind(id: &str) -> Option<&'static Kind> {
+    KINDS.iter().find(|kind| kind.id == id)
+}
+
+/// Period of the damped vibration T_d [s] (below eq. 4.13).
+pub fn damped_period(frequency: f64, damping: f64) -> f64 {
+    2.0 * PI / (frequency * (1.0 - damping * damping).sqrt())
+}
+
+/// ZV convolved with itself: impulses half a damped period apart with the coefficients of (1 + K)^n (eq. 4.13 for n = 2).
+fn binomial(n: u32, frequency: f64, damping: f64) -> Vec<Impulse> {
+    let half_period = damped_period(frequency, damping) / 2.0;
+    let k = math::exp(-PI * damping / (1.0 - damping * damping).sqrt());
+    let mut amplitudes = vec![1.0];
+    for _ in 0..n {
+        let mut next = vec![0.0; amplitudes.len() + 1];
+        for (i, a) in amplitudes.iter().enumerate() {
+            next[i] += a / (1.0 + k);
+            next[i + 1] += a * k / (1.0 + k);
+        }
+        amplitudes = next;
+    }
+    let place = |(i, amplitude)| Impulse { amplitude, time: i as f64 * half_period };
+    amplitudes.into_iter().enumerate().map(place).collect()
+}
+
+/// EI with a residual vibration of 5 % at the design frequency, so that the band of little vibration is wide.
+fn extra_insensitive(frequency: f64, damping: f64) -> Vec<Impulse> {
+    let v = 0.05;
+    let z = damping;
+    let first = 0.24968 + 0.24961 * v + (0.80008 + 1.23328 * v + (0.49599 + 3.17316 * v) * z) * z;
+    let third = 0.25149 + 0.21474 * v + (-0.83249 + 1.41498 * v + (0.85181 - 4.90094 * v) * z) * z;
+    let middle = 0.4999
+        + (0.46159 + 8.57843 * v) * v * z
+        + ((4.26169 - 108.644 * v) * v * z + (1.75601 + 336.989 * v) * v * z * z) * z;
+    let period = damped_period(frequency, damping);
+    vec![
+        Impulse { amplitude: first, time: 0.0 },
+        Impulse { amplitude: 1.0 - first - third, time: middle * period },
+        Impulse { amplitude: third, time: period },
+    ]
+}
+
+/// Iterations of [`Shaper::undo`]: enough to leave 1e-3 of what passes the shaper at more than 70 % of its amplitude.
+const UNDO_STEPS: usize = 10;
+
+/// A shaper ready for use: the same for all joints.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shaper {
+    impulses: Vec<Impulse>,
+}
+
+impl Shaper {
+    /// No shaping: the command as it is.
+    pub fn none() -> Self {
+        Self { impulses: vec![Impulse { amplitude: 1.0, time: 0.0 }] }
+    }
+
+    /// A shaper of a kind, for a mode of the undamped natural frequency `frequency` [rad/s] and the damping ratio `damping`.
+    pub fn new(kind: &Kind, frequency: f64, damping: f64) -> Self {
+        Self { impulses: (kind.impulses)(frequency, damping) }
+    }
+
+    /// The impulses in time order.
+    pub fn impulses(&self) -> &[Impulse] {
+        &self.impulses
+    }
+
+    /// Delay of the last impulse [s]: a shaped command settles this long after the command.
+    pub fn duration(&self) -> f64 {
+        self.impulses.last().map_or(0.0, |impulse| impulse.time)
+    }
+
+    /// Vibration that a shaped step leaves in a mode of the given frequency [rad/s] and damping, as a share of the unshaped step's
+    /// (N. Singer, W. Seering 1990, eq. 11): 0 at the design frequency for ZV, ZVD, ZVDD.
+    pub fn residual_vibration(&self, frequency: f64, damping: f64) -> f64 {
+        let damped = frequency * (1.0 - damping * damping).sqrt();
+        let (mut cosine, mut sine) = (0.0, 0.0);
+        for Impulse { amplitude, time } in &self.impulses {
+            let weight = amplitude * math::exp(damping * frequency * (time - self.duration()));
+            let (sin, cos) = math::sin_cos(damped * time);
+            cosine += weight * cos;
+            sine += weight * sin;
+        }
+        math::hypot(cosine, sine)
+    }
+
+    /// Convolution with a command that is sampled every `sample_time` and held before its first sample (eq. 4.14).
+    ///
+    /// Where an impulse falls between samples, the command is taken to be straight in between.
+    pub fn apply<T>(&self, command: &[T], sample_time: f64) -> Vec<T>
+    where
+        T: Copy + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
+    {
+        // Each delay as whole samples plus a fraction: two taps.
+        let mut taps: Vec<(usize, f64)> = Vec::with_capacity(2 * self.impulses.len());
+        for Impulse { amplitude, time } in &self.impulses {
+            let delay = time / sample_time;
+            let whole = delay.floor();
+            let part = delay - whole;
+            taps.push((whole as usize, amplitude * (1.0 - part)));
+            if part > 0.0 {
+                taps.push((whole as usize + 1, amplitude * part));
+            }
+        }
+        let Some((&(first, share), rest)) = taps.split_first() else { return command.to_vec() };
+        let past = |k: usize, delay: usize| command[k.saturating_sub(delay)];
+        (0..command.len())
+            .map(|k| {
+                rest.iter().fold(past(k, first) * share, |sum, &(delay, share)| sum + past(k, delay) * share)
+            })
+            .collect()
+    }
+
+    /// The change of a command after which its shaped form has changed by `wanted`, as nearly as a shaper allows.
+    ///
+    /// A shaper blocks the frequency it is made for, so it has no full inverse. With S the shaper and S* the shaper run backwards in
+    /// time, x is corrected by S*(wanted - S x) a fixed number of times (L. Landweber, An iteration formula for Fredholm integral
+    /// equations of the first kind, Amer. J. Math. 73, 1951): what is left at a frequency shrinks by 1 - |S|^2 a time and never grows,
+    /// because the amplitudes are positive and add up to 1.
+    pub fn undo(&self, wanted: &[Vector3<f64>], sample_time: f64) -> Vec<Vector3<f64>> {
+        let mut command = vec![Vector3::zeros(); wanted.len()];
+        for _ in 0..UNDO_STEPS {
+            let shaped = self.apply(&command, sample_time);
+            let backwards: Vec<_> =
+                wanted.iter().zip(&shaped).rev().map(|(wanted, got)| wanted - got).collect();
+            let ahead = self.apply(&backwards, sample_time);
+            for (c, more) in command.iter_mut().zip(ahead.iter().rev()) {
+                *c += more;
+            }
+        }
+        command
+    }
+
+    /// The shaped joint commands theta_shp (eq. 4.14).
+    pub fn joints(&self, q: &[Joints], sample_time: f64) -> Vec<Joints> {
+        self.apply(q, sample_time)
+    }
+
+    /// Where along the path the shaped motion is, to first order in the curvature: the shaped pace.
+    pub fn pace(&self, pace: &Pace, sample_time: f64) -> Pace {
+        Pace {
+            arc_length: self.apply(&pace.arc_length, sample_time),
+            speed: self.apply(&pace.speed, sample_time),
+            heading: self.apply(&pace.heading, sample_time),
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! The pipeline, end to end: from a job to its report.
+
+use crate::compensation::{Goal, compensate};
+use crate::deviation::{Plan, Source, Sources, contour, deviate};
+use crate::error::Error;
+use crate::job::Job;
+use crate::motion::Trajectory;
+use crate::motion::joints::joint_trajectory;
+use crate::report::{Report, Warning, warning};
+
+/// How far a run has come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stage {
+    /// Share of the work done, from 0 to 1, if every pass is needed.
+    pub fraction: f64,
+    /// What is done next.
+    pub name: &'static str,
+}
+
+/// Computes a job.
+///
+/// # Errors
+/// What is wrong with the job, or where its path is out of reach.
+pub fn run(job: &Job) -> Result<Report, Error> {
+    run_with(job, |_| {})
+}
+
+/// Reads a job from JSON text and computes it; keys that the text leaves to their default are remarked in the report.
+///
+/// # Errors
+/// See [`Job::from_json`] and [`run`].
+pub fn run_json(text: &str, on_progress: impl FnMut(Stage)) -> Result<Report, Error> {
+    let mut report = run_with(&Job::from_json(text)?, on_progress)?;
+    let missing = Job::not_given(text);
+    if !missing.is_empty() {
+        let message = format!("not given, so the default job's value holds: {}", missing.join(", "));
+        report.warnings.push(Warning::new("default-used", message));
+    }
+    Ok(report)
+}
+
+/// Computes a job and tells how far it has come.
+///
+/// # Errors
+/// See [`run`].
+pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report, Error> {
+    let setup = job.setup()?;
+    // Inverse, three deviations, the passes and the final run, weighed alike.
+    let steps = (5 + setup.goal.max_passes) as f64;
+    let mut tell = |step: usize, name| on_progress(Stage { fraction: step as f64 / steps, name });
+    tell(0, "joint commands");
+    let plan = Plan {
+        robot: setup.robot.clone(),
+        trajectory: Trajectory::new(&setup.path, &setup.tempo),
+        path: setup.path.clone(),
+        shaper: setup.shaper.clone(),
+        mean_force: setup.cut.mean_force(),
+        chip: setup.chip,
+    };
+    let orientation = plan.path.tool_orientation();
+    let joints = joint_trajectory(
+        &plan.robot,
+        &orientation,
+        &plan.trajectory,
+        &plan.trajectory.position,
+        setup.start,
+    )?;
+    let deviation = |acting: Sources| deviate(&plan, &plan.pace(acting), &joints.q, acting);
+    tell(1, "deflection");
+    let deflection_only = deviation(Sources::only(Source::Deflection));
+    tell(2, "shaping");
+    let shaping_only = deviation(Sources::only(Source::Shaping));
+    tell(3, "contour error");
+    let before = deviation(Sources::ALL);
+    tell(4, "compensation");
+    let compensation = {
+        let known = match setup.sources {
+            Sources { deflection: true, shaping: false } => &deflection_only,
+            Sources { deflection: false, shaping: true } => &shaping_only,
+            _ => &before,
+        };
+        let goal = match setup.sources {
+            Sources { deflection: false, shaping: false } => Goal { max_passes: 0, ..setup.goal },
+            _ => setup.goal,
+        };
+        let on_pass = |pass| tell(4 + pass, "compensation");
+        compensate(&plan, setup.start, &joints.q, known, acting_in_loop(setup.sources), goal, on_pass)
+    };
+    let after = if acting_in_loop(setup.sources) == Sources::ALL {
+        compensation.result.clone()
+    } else {
+        deviate(&plan, &plan.pace(Sources::ALL), &compensation.q, Sources::ALL)
+    };
+    let (_, after_max) = contour::mean_and_max(&after.contour_error);
+    let warnings = warning::warnings(&setup, &plan, &joints, &shaping_only, &compensation, after_max);
+    Ok(Report {
+        setup,
+        plan,
+        joints,
+        deflection_only,
+        shaping_only,
+        before,
+        compensation,
+        after,
+        warnings,
+        alone: Default::default(),
+    })
+}
+
+/// The sources that act while the correction is sought: those to be compensated; all, if none is.
+fn acting_in_loop(sources: Sources) -> Sources {
+    if sources == (Sources { deflection: false, shaping: false }) { Sources::ALL } else { sources }
+}

@@ -1,0 +1,128 @@
+//! The answer: numbers, verdict in words, warnings, columns, fingerprint.
+
+pub mod columns;
+pub mod warning;
+pub mod thesis;
+mod summary;
+
+pub use summary::{Statistics, Summary};
+pub use warning::Warning;
+
+use crate::compensation::{Compensation, compensate};
+use crate::deviation::{Deviation, Plan, Source, Sources, contour};
+use crate::job::Setup;
+use crate::motion::joints::JointTrajectory;
+use crate::units::MM;
+use nalgebra::Vector3;
+use std::sync::OnceLock;
+
+/// Everything that was computed for a job.
+#[derive(Debug, Clone)]
+pub struct Report {
+    /// The question in SI.
+    pub setup: Setup,
+    /// Arm, path, motion and cut as simulated.
+    pub plan: Plan,
+    /// Joint commands for the desired path.
+    pub joints: JointTrajectory,
+    /// The desired path commanded, only cutting forces acting.
+    pub deflection_only: Deviation,
+    /// The desired path commanded, only the shaper acting.
+    pub shaping_only: Deviation,
+    /// The desired path commanded, every source acting.
+    pub before: Deviation,
+    /// The path to command instead.
+    pub compensation: Compensation,
+    /// The compensated path commanded, every source acting.
+    pub after: Deviation,
+    /// What is odd but workable.
+    pub warnings: Vec<Warning>,
+    /// See [`Report::alone`]; computed when first asked for.
+    pub(crate) alone: [OnceLock<Compensation>; 2],
+}
+
+impl Report {
+    /// The number of samples; every column has as many rows.
+    pub fn samples(&self) -> usize {
+        self.plan.trajectory.len()
+    }
+
+    /// Time from the first to the last sample [s].
+    pub fn duration(&self) -> f64 {
+        (self.samples() - 1) as f64 * self.plan.trajectory.sample_time
+    }
+
+    /// One source compensated as if it were the only one that acts (Figs. 5.13, 5.15).
+    pub fn alone(&self, source: Source) -> &Compensation {
+        let (place, known) = match source {
+            Source::Deflection => (&self.alone[0], &self.deflection_only),
+            Source::Shaping => (&self.alone[1], &self.shaping_only),
+        };
+        let Setup { start, goal, .. } = self.setup;
+        place.get_or_init(|| {
+            compensate(&self.plan, start, &self.joints.q, known, Sources::only(source), goal, |_| {})
+        })
+    }
+
+    /// The path to command: the desired positions with their correction, base frame [m].
+    pub fn commanded(&self) -> Vec<Vector3<f64>> {
+        self.plan.trajectory.position.iter().zip(&self.compensation.correction).map(|(p, c)| p + c).collect()
+    }
+
+    /// The verdict in words.
+    pub fn verdict(&self) -> String {
+        let (_, before) = contour::mean_and_max(&self.before.contour_error);
+        let (_, after) = contour::mean_and_max(&self.after.contour_error);
+        let tolerance = self.setup.goal.tolerance;
+        let met = |max: f64| if max <= tolerance { "is met" } else { "is not met" };
+        let before_text = millimetres(before);
+        let tolerance_text = millimetres(tolerance);
+        match self.compensation.passes {
+            0 => format!(
+                "Max contour error {before_text} mm, not compensated; the tolerance of {tolerance_text} mm {}.",
+                met(before)
+            ),
+            passes => format!(
+                "Max contour error {before_text} mm before, {} mm after {passes} {}; the tolerance of {tolerance_text} mm {}.",
+                millimetres(after),
+                if passes == 1 { "pass" } else { "passes" },
+                met(after)
+            ),
+        }
+    }
+}
+
+/// A length [m] in mm with three significant digits, as read.
+fn millimetres(length: f64) -> String {
+    let mm = length / MM;
+    if mm == 0.0 {
+        return "0".into();
+    }
+    let digits = (2.0 - crate::math::log10(mm.abs()).floor()).clamp(0.0, 9.0) as usize;
+    let text = format!("{mm:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// The lengths of vectors [m] in mm.
+pub(crate) fn norms_mm(vectors: &[Vector3<f64>]) -> Vec<f64> {
+    vectors.iter().map(|v| v.norm() / MM).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::millimetres;
+
+    #[test]
+    fn lengths_are_read_with_three_digits() {
+        for (m, text) in [
+            (1.26134e-3, "1.26"),
+            (2.9e-6, "0.0029"),
+            (1e-5, "0.01"),
+            (0.0, "0"),
+            (0.1234, "123"),
+            (1.0e-4, "0.1"),
+        ] {
+            assert_eq!(millimetres(m), text);
+        }
+    }
+}

@@ -1,0 +1,239 @@
+//! What is odd but workable: each warning says where along the motion it holds.
+
+use crate::compensation::Compensation;
+use crate::cutting::along::ChipLoad;
+use crate::deviation::{Deviation, Plan, Sources};
+use crate::job::Setup;
+use crate::math;
+use crate::motion::joints::JointTrajectory;
+use crate::robot::Joints;
+use crate::units::{DEG, MM};
+use nalgebra::Vector3;
+use serde::Serialize;
+
+/// A remark on the result.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Warning {
+    /// Stable slug.
+    pub code: &'static str,
+    /// What a person reads.
+    pub message: String,
+    /// First and last sample it holds for, where it is about a part of the motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub from_sample: Option<usize>,
+    /// See `from_sample`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub to_sample: Option<usize>,
+    /// The same as times [s].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub from_s: Option<f64>,
+    /// See `from_s`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub to_s: Option<f64>,
+}
+
+impl Warning {
+    /// A remark on the whole job.
+    pub fn new(code: &'static str, message: impl Into<String>) -> Self {
+        Self { code, message: message.into(), from_sample: None, to_sample: None, from_s: None, to_s: None }
+    }
+
+    fn within(mut self, (from, to): (usize, usize), sample_time: f64) -> Self {
+        (self.from_sample, self.to_sample) = (Some(from), Some(to));
+        (self.from_s, self.to_s) = (Some(from as f64 * sample_time), Some(to as f64 * sample_time));
+        self
+    }
+}
+
+/// A joint this near to its limit is remarked [rad].
+const LIMIT_MARGIN: f64 = 2.0 * DEG;
+/// A wrist centre this near to the shoulder singularity is remarked [m].
+const SHOULDER_MARGIN: f64 = 10.0 * MM;
+/// An elbow or wrist angle this near to its singularity is remarked [rad].
+const ANGLE_MARGIN: f64 = 5.0 * DEG;
+/// A joint that turns further from one sample to the next is remarked [rad].
+const JUMP: f64 = 5.0 * DEG;
+/// A feed further off the plane across the tool axis is remarked [rad].
+const RAMP: f64 = 30.0 * DEG;
+
+/// First and last sample at which something holds.
+fn range(count: usize, holds: impl Fn(usize) -> bool) -> Option<(usize, usize)> {
+    let first = (0..count).find(|&k| holds(k))?;
+    let last = (first..count).rev().find(|&k| holds(k))?;
+    Some((first, last))
+}
+
+/// Everything worth a remark.
+pub(crate) fn warnings(
+    setup: &Setup,
+    plan: &Plan,
+    joints: &JointTrajectory,
+    shaping_only: &Deviation,
+    compensation: &Compensation,
+    after_max: f64,
+) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    limits(plan, joints, compensation, &mut warnings);
+    singularities(plan, joints, &mut warnings);
+    cut(setup, plan, &mut warnings);
+    corners(setup, plan, shaping_only, &mut warnings);
+    if let Some(error) = &compensation.stopped {
+        let message =
+            format!("a compensated path could not be commanded ({error}); the last one that could is kept");
+        warnings.push(Warning::new("compensation-stopped", message));
+    }
+    let compensates =
+        setup.sources != Sources { deflection: false, shaping: false } && setup.goal.max_passes > 0;
+    if compensates && after_max > setup.goal.tolerance {
+        let message = format!(
+            "the compensated path leaves {:.4} mm, more than the tolerance of {} mm",
+            after_max / MM,
+            setup.goal.tolerance / MM
+        );
+        warnings.push(Warning::new("tolerance-not-met", message));
+    }
+    warnings
+}
+
+fn limits(plan: &Plan, joints: &JointTrajectory, compensation: &Compensation, warnings: &mut Vec<Warning>) {
+    let Some(limits) = plan.robot.limits() else {
+        warnings
+            .push(Warning::new("joint-limits-unknown", "no joint ranges were given: they are not checked"));
+        return;
+    };
+    let dt = plan.trajectory.sample_time;
+    for (i, (low, high)) in limits.iter().enumerate() {
+        // How far a sample is beyond the range, by the desired or by the compensated command.
+        let beyond = |q: &Joints| (low - q[i]).max(q[i] - high);
+        let worst = |k: usize| beyond(&joints.q[k]).max(beyond(&compensation.q[k]));
+        let count = joints.q.len();
+        let extreme = (0..count).map(worst).fold(f64::NEG_INFINITY, f64::max);
+        let (code, threshold, what) = if extreme > 0.0 {
+            ("joint-limit", 0.0, format!("leaves its range by up to {:.1} deg", extreme / DEG))
+        } else if extreme > -LIMIT_MARGIN {
+            (
+                "joint-limit-near",
+                -LIMIT_MARGIN,
+                format!("comes within {:.1} deg of its limit", -extreme / DEG),
+            )
+        } else {
+            continue;
+        };
+        let message = format!("joint {} {what} (range {:.1} to {:.1} deg)", i + 1, low / DEG, high / DEG);
+        if let Some(range) = range(count, |k| worst(k) > threshold) {
+            warnings.push(Warning::new(code, message).within(range, dt));
+        }
+    }
+}
+
+fn singularities(plan: &Plan, joints: &JointTrajectory, warnings: &mut Vec<Warning>) {
+    let dt = plan.trajectory.sample_time;
+    let margin = &joints.margin;
+    let near = math::sin(ANGLE_MARGIN);
+    let least = |f: &dyn Fn(usize) -> f64| (0..margin.len()).map(f).fold(f64::INFINITY, f64::min);
+    let angle = |sin: f64| math::atan2(sin, (1.0 - sin * sin).max(0.0).sqrt()) / DEG;
+    let checks: [(&'static str, &dyn Fn(usize) -> f64, f64, String); 3] = [
+        (
+            "singularity-shoulder",
+            &|k| margin[k].shoulder,
+            SHOULDER_MARGIN,
+            format!(
+                "the wrist centre comes within {:.1} mm of axis 1, where joint 1 can turn without moving it (shoulder singularity)",
+                least(&|k| margin[k].shoulder) / MM
+            ),
+        ),
+        (
+            "singularity-elbow",
+            &|k| margin[k].elbow,
+            near,
+            format!(
+                "the arm is stretched or folded to within {:.1} deg (elbow singularity)",
+                angle(least(&|k| margin[k].elbow))
+            ),
+        ),
+        (
+            "singularity-wrist",
+            &|k| margin[k].wrist,
+            near,
+            format!(
+                "axes 4 and 6 come within {:.1} deg of each other (wrist singularity): small changes of the tool axis there turn joints 4 and 6 far",
+                angle(least(&|k| margin[k].wrist))
+            ),
+        ),
+    ];
+    for (code, value, threshold, message) in checks {
+        if let Some(range) = range(margin.len(), |k| value(k) < threshold) {
+            warnings.push(Warning::new(code, message).within(range, dt));
+        }
+    }
+    let jumps = |k: usize| k > 0 && (joints.q[k] - joints.q[k - 1]).amax() > JUMP;
+    if let Some(range) = range(joints.q.len(), jumps) {
+        let message = format!(
+            "a joint turns more than {:.0} deg from one sample to the next: the arm changes branch or passes a singularity",
+            JUMP / DEG
+        );
+        warnings.push(Warning::new("joint-jump", message).within(range, dt));
+    }
+}
+
+fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
+    let trajectory = &plan.trajectory;
+    let dt = trajectory.sample_time;
+    if let ChipLoad::Fixed(c) = setup.chip {
+        let from_feed = setup.tempo.feed / setup.teeth_per_second;
+        if (c - from_feed).abs() > 0.05 * from_feed {
+            let message = format!(
+                "the feed per tooth of {} mm does not agree with feed and spindle speed, which give {:.3} mm",
+                c / MM,
+                from_feed / MM
+            );
+            warnings.push(Warning::new("chip-load", message));
+        }
+    }
+    let axis = plan.path.tool_axis();
+    let slope = |k: usize| {
+        let along: f64 = trajectory.pace.heading[k].dot(&axis);
+        math::atan2(along.abs(), (1.0 - along * along).max(0.0).sqrt())
+    };
+    let slopes: Vec<f64> = (0..trajectory.len()).map(slope).collect();
+    if let Some(range) = range(slopes.len(), |k| slopes[k] > RAMP) {
+        let steepest = slopes.iter().fold(0.0_f64, |a, b| a.max(*b)) / DEG;
+        let message = format!(
+            "the tool climbs or dives at up to {steepest:.0} deg; the force model takes the cut across the tool axis only and knows no plunging"
+        );
+        warnings.push(Warning::new("plunge", message).within(range, dt));
+    }
+    let bend = plan.path.segments().iter().map(|segment| segment.curvature()).fold(0.0, f64::max);
+    let centripetal = setup.tempo.feed * setup.tempo.feed * bend;
+    if centripetal > setup.tempo.acceleration {
+        let message = format!(
+            "at full feed the tightest arc (radius {:.2} mm) takes {:.0} mm/s² across the path, more than the {:.0} mm/s² along it",
+            1.0 / bend / MM,
+            centripetal / MM,
+            setup.tempo.acceleration / MM
+        );
+        warnings.push(Warning::new("centripetal", message));
+    }
+}
+
+/// Without the wait, shaping rounds corners: what that costs within half a shaper's way of a stop.
+fn corners(setup: &Setup, plan: &Plan, shaping_only: &Deviation, warnings: &mut Vec<Warning>) {
+    let trajectory = &plan.trajectory;
+    if trajectory.stops.is_empty() || setup.tempo.corner_dwell >= setup.shaper.duration() {
+        return;
+    }
+    let reach = setup.tempo.feed * setup.shaper.duration();
+    let at_corner = |k: usize| {
+        trajectory.stops.iter().any(|stop| (stop.s - trajectory.pace.arc_length[k]).abs() <= reach)
+    };
+    let errors: &[Vector3<f64>] = &shaping_only.contour_error;
+    if let Some(range) = range(errors.len(), at_corner) {
+        let worst = (0..errors.len()).filter(|&k| at_corner(k)).map(|k| errors[k].norm()).fold(0.0, f64::max);
+        let message = format!(
+            "the path does not wait in its {} corners until the shaped command has settled: shaping rounds them by up to {:.3} mm",
+            trajectory.stops.len(),
+            worst / MM
+        );
+        warnings.push(Warning::new("corners-rounded", message).within(range, trajectory.sample_time));
+    }
+}

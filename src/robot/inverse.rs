@@ -1,0 +1,203 @@
+//! Inverse kinematics in closed form (thesis eqs. 3.9-3.21) for every arm of the RX-90's family.
+//!
+//! Two shoulders (the arm faces the point or turns its back), two elbows and two wrists give up to eight solutions.
+//! The thesis's eqs. 3.13-3.21 have misprinted arc tangents; the derivation here follows the same steps
+//! with the twist signs and the offsets a_1, a_3 and b kept as parameters.
+
+use crate::error::Error;
+use crate::math::{self, Pose};
+use crate::robot::{Joints, Robot, forward};
+use nalgebra::{Matrix3, Vector3};
+
+/// Which of the eight arms: each field picks one sign in the closed form.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Branch {
+    /// The arm faces the wrist centre (eq. 3.13, upper sign); `false`: it reaches over its back.
+    pub front: bool,
+    /// The elbow angle, from the stretched arm, is positive (eq. 3.15, upper sign; on the RX-90 it is q3).
+    pub elbow_positive: bool,
+    /// sin(q5) has the sign that makes `wrist_positive` (eq. 3.20, upper sign); the other wrist is turned by 180 degrees.
+    pub wrist_positive: bool,
+}
+
+/// One set of joint values that puts the TCP where it was asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solution {
+    /// Joint values [rad].
+    pub q: Joints,
+    /// The branch they belong to.
+    pub branch: Branch,
+    /// How far the pose is from each singularity.
+    pub margin: Margin,
+}
+
+/// Distance from the three singularities of the family; zero is singular.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Margin {
+    /// Distance of the wrist centre from the plane through axis 1 along axis 2 [m]: shoulder.
+    pub shoulder: f64,
+    /// |sin| of the elbow angle: 0 where the arm is stretched or folded.
+    pub elbow: f64,
+    /// |sin q5|: 0 where axes 4 and 6 are in line.
+    pub wrist: f64,
+}
+
+/// Up to eight solutions, without allocation.
+#[derive(Debug, Clone, Copy)]
+pub struct Solutions {
+    all: [Option<Solution>; 8],
+}
+
+impl Solutions {
+    /// The solutions, in the order front/back, elbow +/-, wrist +/-.
+    pub fn iter(&self) -> impl Iterator<Item = &Solution> {
+        self.all.iter().flatten()
+    }
+
+    /// The solution nearest to `q` in joint space (smallest sum of squared differences).
+    pub fn nearest(&self, q: &Joints) -> Option<&Solution> {
+        self.iter().min_by(|a, b| (a.q - q).norm_squared().total_cmp(&(b.q - q).norm_squared()))
+    }
+}
+
+/// Position error that a solution may show when it is put back into the forward model [m]; rotations: the same number, no unit.
+const CLOSURE: f64 = 1e-9;
+/// |sin q5| below which only the sum of q4 and q6 is determined.
+const WRIST_SINGULAR: f64 = 1e-10;
+
+/// All joint values that put the TCP at `tcp` (base frame); each is checked by the forward model (1e-9 m, 1e-9).
+///
+/// Each angle is the one of its full turns that is nearest to `near` [rad]; at a wrist singularity q4 is taken from `near`.
+///
+/// # Errors
+/// [`Error::Unreachable`] with the distance and the reach if no branch gets there.
+pub fn inverse(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solutions, Error> {
+    let mut solutions = candidates(robot, tcp, near)?;
+    for slot in &mut solutions.all {
+        if slot.is_some_and(|solution| !closes(robot, tcp, &solution.q)) {
+            *slot = None;
+        }
+    }
+    match solutions.iter().next() {
+        Some(_) => Ok(solutions),
+        None => Err(unreachable(tcp, f64::NAN, robot.reach())),
+    }
+}
+
+/// Whether the forward model puts the TCP where it was asked for.
+pub(crate) fn closes(robot: &Robot, tcp: &Pose, q: &Joints) -> bool {
+    let reached = forward::forward(robot, q);
+    (reached.position - tcp.position).norm() <= CLOSURE && (reached.rotation - tcp.rotation).norm() <= CLOSURE
+}
+
+/// The closed form itself, not yet put back into the forward model.
+pub(crate) fn candidates(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solutions, Error> {
+    let g = &robot.geometry;
+    let links = robot.links();
+    let flange = tcp.compose(&robot.tool().inverse());
+
+    // Wrist centre (eq. 3.9), in frame 0 turned by alpha_0 and moved to axis 1.
+    let wrist = flange.position - flange.rotation.column(2) * links[5].d;
+    let (cos_0, sin_0) = robot.twists[0];
+    let x = wrist.x - links[0].a;
+    let y = cos_0 * wrist.y + sin_0 * wrist.z;
+    let z = cos_0 * wrist.z - sin_0 * wrist.y - links[0].d;
+
+    // Theta_1 (eq. 3.13): turned back by it, the wrist centre lies in the arm's plane, at `lateral` beside axis 1.
+    let beside = -g.sin_1 * g.lateral;
+    let radius = math::hypot(x, y);
+    let forward_squared = radius * radius - beside * beside;
+    if forward_squared < -1e-12 {
+        return Err(unreachable(tcp, radius, (beside.abs(), f64::INFINITY)));
+    }
+    let forward_reach = forward_squared.max(0.0).sqrt();
+    let bearing = math::atan2(y, x);
+
+    let mut all = [None; 8];
+    let mut nearest_miss: Option<f64> = None;
+    for (shoulder, sign) in [(true, 1.0), (false, -1.0)] {
+        let ahead = sign * forward_reach;
+        let theta_1 = bearing - math::atan2(beside, ahead);
+        // The wrist centre in the plane of the arm, from axis 2.
+        let (px, py) = (ahead - links[1].a, g.sin_1 * z);
+        let distance = math::hypot(px, py);
+
+        // Theta_3 (eq. 3.15): the law of cosines between upper arm and forearm.
+        let cos_elbow = (px * px + py * py - g.upper * g.upper - g.fore * g.fore) / (2.0 * g.upper * g.fore);
+        if cos_elbow.abs() > 1.0 + 1e-12 {
+            let miss = |d: f64| if d > g.upper.abs() { d - robot.reach().1 } else { robot.reach().0 - d };
+            if nearest_miss.is_none_or(|d| miss(distance) < miss(d)) {
+                nearest_miss = Some(distance);
+            }
+            continue;
+        }
+        let sin_elbow = (1.0 - cos_elbow * cos_elbow).max(0.0).sqrt();
+        for (elbow, sin_elbow) in [(true, sin_elbow), (false, -sin_elbow)] {
+            let elbow_angle = math::atan2(sin_elbow, cos_elbow);
+            let theta_3 = elbow_angle - g.fore_angle;
+            // Theta_2 (eq. 3.14): the direction to the wrist centre less the arm's own.
+            let theta_2 =
+                math::atan2(py, px) - math::atan2(g.cos_2 * g.fore * sin_elbow, g.upper + g.fore * cos_elbow);
+            let arm = arm_rotation(robot, [theta_1, theta_2, theta_3]);
+            let wrist = wrist_angles(robot, &(arm.transpose() * flange.rotation), near);
+            for (positive, [theta_4, theta_5, theta_6], sin_wrist) in wrist {
+                let theta = [theta_1, theta_2, theta_3, theta_4, theta_5, theta_6];
+                let q = Joints::from_fn(|i, _| math::nearest_turn(theta[i] - links[i].theta_offset, near[i]));
+                let branch = Branch { front: shoulder, elbow_positive: elbow, wrist_positive: positive };
+                let margin = Margin { shoulder: forward_reach, elbow: sin_elbow.abs(), wrist: sin_wrist };
+                let index = 4 * usize::from(!shoulder) + 2 * usize::from(!elbow) + usize::from(!positive);
+                all[index] = Some(Solution { q, branch, margin });
+            }
+        }
+    }
+    match nearest_miss {
+        Some(distance) if all.iter().all(Option::is_none) => Err(unreachable(tcp, distance, robot.reach())),
+        _ => Ok(Solutions { all }),
+    }
+}
+
+/// Orientation of frame 3 turned by alpha_3, so that joint 4 turns about its z axis (eqs. 3.16-3.18, left side).
+fn arm_rotation(robot: &Robot, theta: [f64; 3]) -> Matrix3<f64> {
+    let mut rotation: Matrix3<f64> = Matrix3::identity();
+    for (i, angle) in theta.into_iter().enumerate() {
+        let (sin, cos) = math::sin_cos(angle);
+        rotation =
+            rotation * about_x(robot.twists[i]) * Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
+    }
+    rotation * about_x(robot.twists[3])
+}
+
+fn about_x((cos, sin): (f64, f64)) -> Matrix3<f64> {
+    Matrix3::new(1.0, 0.0, 0.0, 0.0, cos, -sin, 0.0, sin, cos)
+}
+
+/// Theta_4, theta_5, theta_6 from M = Rz(theta_4) Rx(alpha_4) Rz(theta_5) Rx(alpha_5) Rz(theta_6) (eqs. 3.17-3.21):
+/// both wrists, each with |sin theta_5|.
+///
+/// With alpha_5 = -alpha_4 the middle is Ry(b), b = -sin(alpha_4) theta_5, and M are Euler angles ZYZ;
+/// with equal twists a half turn about x follows, which also turns theta_6 round.
+fn wrist_angles(robot: &Robot, m: &Matrix3<f64>, near: &Joints) -> [(bool, [f64; 3], f64); 2] {
+    let g = &robot.geometry;
+    let equal = g.sin_4 == g.sin_5;
+    let m = if equal { m * Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0)) } else { *m };
+    let sin_b = math::hypot(m[(0, 2)], m[(1, 2)]);
+    [true, false].map(|positive| {
+        let sign = if positive { 1.0 } else { -1.0 };
+        let theta_4 = if sin_b > WRIST_SINGULAR {
+            math::atan2(sign * m[(1, 2)], sign * m[(0, 2)])
+        } else {
+            near[3] + robot.links()[3].theta_offset
+        };
+        let (sin_4, cos_4) = math::sin_cos(theta_4);
+        // Rz(-theta_4) M = Ry(b) Rz(theta_6): exact whatever theta_4, so the pose closes near the singularity too.
+        let b = math::atan2(cos_4 * m[(0, 2)] + sin_4 * m[(1, 2)], m[(2, 2)]);
+        let theta_6 =
+            math::atan2(cos_4 * m[(1, 0)] - sin_4 * m[(0, 0)], cos_4 * m[(1, 1)] - sin_4 * m[(0, 1)]);
+        (positive, [theta_4, -g.sin_4 * b, if equal { -theta_6 } else { theta_6 }], sin_b)
+    })
+}
+
+fn unreachable(tcp: &Pose, distance: f64, (reach_min, reach_max): (f64, f64)) -> Error {
+    let position = [tcp.position.x, tcp.position.y, tcp.position.z];
+    Error::Unreachable { sample: None, arc_length: None, position, distance, reach_min, reach_max }
+}

@@ -1,0 +1,14 @@
+//! A robot and how it gives way (thesis chapter 3).
+//!
+//! [`Robot`] is the geometry (modified Denavit-Hartenberg) with the compliance of its joints;
+//! [`forward`](forward::forward) and [`inverse`](inverse::inverse) kinematics, the
+//! [Jacobian](jacobian::jacobian) and the [Cartesian compliance](compliance::cartesian_compliance) follow from it.
+
+pub mod model;
+pub mod forward;
+pub mod inverse;
+pub mod jacobian;
+pub mod compliance;
+pub mod library;
+
+pub use model::{Joints, Link, Robot};

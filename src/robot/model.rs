@@ -1,0 +1,219 @@
+//! The arm: modified Denavit-Hartenberg table, joint limits, joint compliance, tool (thesis Tables 3.1, 3.2, 3.4).
+//!
+//! Armill solves arms of the RX-90's family in closed form: an ortho-parallel base (axes 1 and 2 at right angles,
+//! crossing or offset; axes 2 and 3 parallel) and a spherical wrist (axes 4, 5, 6 meet in one point).
+//! [`Robot::new`] refuses other arms and names the row that breaks the rule.
+
+use crate::error::Error;
+use crate::math::{self, Pose};
+use nalgebra::Vector6;
+
+/// Six joint values [rad].
+pub type Joints = Vector6<f64>;
+
+/// One row of a modified Denavit-Hartenberg table: from frame i-1 to frame i (eq. 3.1, Table 3.1).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Link {
+    /// Twist alpha_{i-1} about x_{i-1} [rad].
+    pub alpha: f64,
+    /// Length a_{i-1} along x_{i-1} [m].
+    pub a: f64,
+    /// Offset d_i along z_i [m].
+    pub d: f64,
+    /// Constant added to the joint value to give the angle about z_i [rad].
+    pub theta_offset: f64,
+}
+
+impl Link {
+    /// Cosine and sine of the twist, exact for multiples of 90 degrees.
+    pub(crate) fn twist(&self) -> (f64, f64) {
+        match quarter_turns(self.alpha) {
+            Some(0) => (1.0, 0.0),
+            Some(1) => (0.0, 1.0),
+            Some(2) => (-1.0, 0.0),
+            Some(_) => (0.0, -1.0),
+            None => (math::cos(self.alpha), math::sin(self.alpha)),
+        }
+    }
+}
+
+/// The number of quarter turns (0 to 3) in an angle, or `None` if it is no multiple of 90 degrees within 1e-9 rad.
+fn quarter_turns(angle: f64) -> Option<u8> {
+    let turns = angle / math::FRAC_PI_2;
+    let whole = turns.round();
+    ((turns - whole).abs() < 1e-9).then(|| whole.rem_euclid(4.0) as u8)
+}
+
+/// What the closed-form inverse needs of the table: signs of the twists and the lengths of the planar arm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Geometry {
+    /// Sines of the twists alpha_1, alpha_3, alpha_4, alpha_5: +1 or -1.
+    pub(crate) sin_1: f64,
+    pub(crate) sin_4: f64,
+    pub(crate) sin_5: f64,
+    /// Cosine of alpha_2: +1 or -1.
+    pub(crate) cos_2: f64,
+    /// Upper arm a_2 [m].
+    pub(crate) upper: f64,
+    /// Distance from axis 3 to the wrist centre [m].
+    pub(crate) fore: f64,
+    /// Angle of the wrist centre in frame 3 [rad].
+    pub(crate) fore_angle: f64,
+    /// Offset of the arm's plane from axis 1, along axis 2 [m].
+    pub(crate) lateral: f64,
+}
+
+/// A six-joint arm with its joint compliance and its tool. The base frame is {B} (the thesis's {M}).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Robot {
+    name: String,
+    links: [Link; 6],
+    limits: Option<[(f64, f64); 6]>,
+    compliance: Joints,
+    tool: Pose,
+    pub(crate) twists: [(f64, f64); 6],
+    pub(crate) geometry: Geometry,
+}
+
+impl Robot {
+    /// An arm from its modified DH table.
+    ///
+    /// `limits` are the joints' ranges [rad], `compliance` the joints' compliances C_theta [rad/(N m)] (eq. 3.43).
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] naming the row and the value if the table is not of the family, or a limit or compliance
+    /// is not legal. Field names are those of the job (`robot.modified_dh[1].alpha_deg`).
+    pub fn new(
+        name: impl Into<String>,
+        links: [Link; 6],
+        limits: Option<[(f64, f64); 6]>,
+        compliance: [f64; 6],
+    ) -> Result<Self, Error> {
+        for (i, &c) in compliance.iter().enumerate() {
+            if !(c.is_finite() && c >= 0.0) {
+                return Err(Error::Invalid {
+                    field: format!("robot.joint_compliance_rad_per_nm[{i}]"),
+                    value: c.to_string(),
+                    expected: "a compliance is zero (rigid) or positive".into(),
+                });
+            }
+        }
+        for (i, &(low, high)) in limits.iter().flatten().enumerate() {
+            if !(low.is_finite() && high.is_finite() && low < high) {
+                return Err(Error::Invalid {
+                    field: format!("robot.joint_limits_deg[{i}]"),
+                    value: format!("[{}, {}]", low / crate::units::DEG, high / crate::units::DEG),
+                    expected: "a range is [lowest, highest] with the lowest first".into(),
+                });
+            }
+        }
+        let geometry = Geometry::of(&links)?;
+        Ok(Self {
+            name: name.into(),
+            links,
+            limits,
+            compliance: Joints::from(compliance),
+            tool: Pose::identity(),
+            twists: links.map(|link| link.twist()),
+            geometry,
+        })
+    }
+
+    /// The same arm with its TCP placed on the flange.
+    pub fn with_tool(mut self, tool: Pose) -> Self {
+        self.tool = tool;
+        self
+    }
+
+    /// The arm's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The modified DH table.
+    pub fn links(&self) -> &[Link; 6] {
+        &self.links
+    }
+
+    /// The joints' ranges [rad], where they are known.
+    pub fn limits(&self) -> Option<&[(f64, f64); 6]> {
+        self.limits.as_ref()
+    }
+
+    /// The diagonal of C_theta [rad/(N m)] (eq. 3.43).
+    pub fn compliance(&self) -> &Joints {
+        &self.compliance
+    }
+
+    /// The TCP in the flange frame.
+    pub fn tool(&self) -> &Pose {
+        &self.tool
+    }
+
+    /// Smallest and largest distance of the wrist centre from axis 2 [m].
+    pub fn reach(&self) -> (f64, f64) {
+        let Geometry { upper, fore, .. } = self.geometry;
+        ((upper.abs() - fore).abs(), upper.abs() + fore)
+    }
+}
+
+impl Geometry {
+    /// Reads the family's parameters out of the table, or says which row does not fit.
+    fn of(links: &[Link; 6]) -> Result<Self, Error> {
+        for (i, link) in links.iter().enumerate() {
+            for (key, value, unit) in [
+                ("alpha_deg", link.alpha, crate::units::DEG),
+                ("a_mm", link.a, crate::units::MM),
+                ("d_mm", link.d, crate::units::MM),
+                ("theta_offset_deg", link.theta_offset, crate::units::DEG),
+            ] {
+                if !value.is_finite() {
+                    return Err(broken(i, key, value / unit, "a finite number is needed"));
+                }
+            }
+        }
+        let turn = |i: usize, legal: [u8; 2], expected: &'static str| match quarter_turns(links[i].alpha) {
+            Some(turns) if legal.contains(&turns) => Ok(if turns == legal[0] { 1.0 } else { -1.0 }),
+            _ => Err(broken(i, "alpha_deg", links[i].alpha / crate::units::DEG, expected)),
+        };
+        turn(0, [0, 2], "axis 1 is vertical in the base frame: 0 or 180")?;
+        let sin_1 = turn(1, [1, 3], "axes 1 and 2 are at right angles: 90 or -90")?;
+        let cos_2 = turn(2, [0, 2], "axes 2 and 3 are parallel: 0 or 180")?;
+        let sin_3 = turn(3, [1, 3], "axes 3 and 4 are at right angles: 90 or -90")?;
+        let sin_4 = turn(4, [1, 3], "axes 4 and 5 are at right angles: 90 or -90")?;
+        let sin_5 = turn(5, [1, 3], "axes 5 and 6 are at right angles: 90 or -90")?;
+        for (i, key, value) in [(4, "a_mm", links[4].a), (4, "d_mm", links[4].d), (5, "a_mm", links[5].a)] {
+            if value.abs() > 1e-9 {
+                let expected = "axes 4, 5 and 6 meet in one point (spherical wrist): 0";
+                return Err(broken(i, key, value / crate::units::MM, expected));
+            }
+        }
+        // The wrist centre in frame 3 is (a_3, -d_4 sin(alpha_3), 0).
+        let (along, across) = (links[3].a, -sin_3 * links[3].d);
+        let fore = math::hypot(along, across);
+        if links[2].a.abs() < 1e-6 {
+            return Err(broken(2, "a_mm", links[2].a / crate::units::MM, "the upper arm needs a length"));
+        }
+        if fore < 1e-6 {
+            return Err(broken(3, "d_mm", links[3].d / crate::units::MM, "the forearm needs a length"));
+        }
+        Ok(Self {
+            sin_1,
+            sin_4,
+            sin_5,
+            cos_2,
+            upper: links[2].a,
+            fore,
+            fore_angle: math::atan2(across, along),
+            lateral: links[1].d + cos_2 * links[2].d,
+        })
+    }
+}
+
+fn broken(row: usize, key: &str, value: f64, expected: &str) -> Error {
+    Error::Invalid {
+        field: format!("robot.modified_dh[{row}].{key}"),
+        value: format!("{value}"),
+        expected: format!("{expected} (closed-form inverse kinematics)"),
+    }
+}

@@ -1,0 +1,14 @@
+//! Every conversion factor, once: the value in SI of one unit that a person types or reads.
+
+/// One millimetre [m].
+pub const MM: f64 = 1e-3;
+/// One degree [rad].
+pub const DEG: f64 = std::f64::consts::PI / 180.0;
+/// One revolution a minute [1/s].
+pub const RPM: f64 = 1.0 / 60.0;
+/// One newton per square millimetre [N/m^2].
+pub const N_PER_MM2: f64 = 1e6;
+/// One newton per millimetre [N/m].
+pub const N_PER_MM: f64 = 1e3;
+/// One hertz [rad/s].
+pub const HZ: f64 = std::f64::consts::TAU;

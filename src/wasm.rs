@@ -1,0 +1,255 @@
+//! The only file that knows JavaScript: JSON text in, small objects and `Float64Array` columns out.
+//!
+//! Errors cross as `Error` objects with `code`, `message` and, where they apply, `field`, `line`, `column`.
+
+use crate::chart::{self, Options};
+use crate::cutting::material::MATERIALS;
+use crate::error::Error;
+use crate::job::fields;
+use crate::report::{Report, thesis};
+use crate::robot::library::ROBOTS;
+use crate::{Job, Stage, export};
+use js_sys::{Float64Array, Function, Reflect};
+use serde::{Deserialize, Serialize};
+use wasm_bindgen::prelude::wasm_bindgen;
+use wasm_bindgen::{JsCast, JsValue};
+
+#[wasm_bindgen(typescript_custom_section)]
+const TYPES: &'static str = r#"
+export interface ArmillError extends Error { code: string; field?: string; line?: number; column?: number; }
+export interface Statistics { mean: number; max: number; }
+export interface Warning { code: string; message: string; from_sample?: number; to_sample?: number; from_s?: number; to_s?: number; }
+export interface Summary {
+  fingerprint: string; samples: number; duration_s: number; path_length_mm: number; mean_force_n: [number, number, number];
+  before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics }; after_mm: Statistics;
+  passes: number; converged: boolean; tolerance_mm: number; history_max_mm: number[]; history_mean_mm: number[];
+  verdict: string; robot: string; branch: string; warnings: Warning[];
+}
+export interface Field {
+  path: string; group: string; label: string; unit: string; kind: "number" | "integer" | "choice" | "vector" | "table" | "text" | "set";
+  choices?: { value: string; label: string }[]; min?: number; max?: number; default: unknown; help: string; when?: { path: string; is: string[] };
+}
+export interface Presets {
+  robots: { id: string; name: string; note: string; modified_dh: { alpha_deg: number; a_mm: number; d_mm: number; theta_offset_deg: number }[];
+            joint_limits_deg: [number, number][]; joint_compliance_rad_per_nm: number[] }[];
+  materials: { id: string; name: string; note: string; ktc_n_mm2: number; krc_n_mm2: number; kac_n_mm2: number; kte_n_mm: number; kre_n_mm: number; kae_n_mm: number }[];
+}
+export interface ChartEntry { name: string; title: string; view: string; figure: string; kind: "curve" | "space"; }
+export interface ChartOptions { width: number; height: number; x_range?: [number, number]; y_range?: [number, number]; }
+export interface Axis { label: string; unit: string; min: number; max: number; log: boolean; }
+export interface Chart {
+  name: string; title: string; description: string; svg: string; width: number; height: number;
+  plot: { left: number; top: number; width: number; height: number }; x: Axis; y: Axis; series: { key: string; label: string; class: string }[];
+}
+export interface ThesisRow { quantity: string; source: string; printed: string; ours: string; agrees: boolean; reason: string; }
+"#;
+
+#[wasm_bindgen]
+extern "C" {
+    #[wasm_bindgen(js_namespace = console, js_name = error)]
+    fn console_error(text: &str);
+}
+
+/// Panics say what happened before the instance traps.
+#[wasm_bindgen(start)]
+pub fn start() {
+    std::panic::set_hook(Box::new(|info| console_error(&format!("armill: internal error: {info}"))));
+}
+
+/// Version of the core.
+#[wasm_bindgen]
+pub fn version() -> String {
+    env!("CARGO_PKG_VERSION").to_owned()
+}
+
+/// The default job (the thesis's case) as JSON text.
+#[wasm_bindgen]
+pub fn default_job() -> String {
+    Job::default().to_json()
+}
+
+/// Every input of a job, for building a form.
+#[wasm_bindgen(unchecked_return_type = "Field[]")]
+pub fn fields() -> Result<JsValue, JsValue> {
+    object(&fields::fields())
+}
+
+#[derive(Serialize)]
+struct Presets {
+    robots: Vec<serde_json::Value>,
+    materials: Vec<serde_json::Value>,
+}
+
+/// Robots and materials of the library, with the source of their numbers.
+#[wasm_bindgen(unchecked_return_type = "Presets")]
+pub fn presets() -> Result<JsValue, JsValue> {
+    let row = |[alpha, a, d, theta]: [f64; 4]| serde_json::json!({ "alpha_deg": alpha, "a_mm": a, "d_mm": d, "theta_offset_deg": theta });
+    let robots = ROBOTS.iter().map(|robot| {
+        serde_json::json!({
+            "id": robot.id, "name": robot.name, "note": robot.note,
+            "modified_dh": robot.modified_dh.map(row),
+            "joint_limits_deg": robot.joint_limits_deg,
+            "joint_compliance_rad_per_nm": robot.joint_compliance,
+        })
+    });
+    let materials = MATERIALS.iter().map(|material| {
+        let [ktc, krc, kac, kte, kre, kae] = material.coefficients;
+        serde_json::json!({
+            "id": material.id, "name": material.name, "note": material.note,
+            "ktc_n_mm2": ktc, "krc_n_mm2": krc, "kac_n_mm2": kac, "kte_n_mm": kte, "kre_n_mm": kre, "kae_n_mm": kae,
+        })
+    });
+    object(&Presets { robots: robots.collect(), materials: materials.collect() })
+}
+
+/// Checks a job without computing it; throws what is wrong.
+#[wasm_bindgen]
+pub fn check(json: &str) -> Result<(), JsValue> {
+    Job::from_json(json).and_then(|job| job.setup()).map(|_| ()).map_err(|error| thrown(&error))
+}
+
+/// Computes a job; `on_progress(fraction, stage)` is called in between. Throws what is wrong.
+#[wasm_bindgen]
+pub fn run(
+    json: &str,
+    #[wasm_bindgen(unchecked_optional_param_type = "(fraction: number, stage: string) => void")] on_progress: Option<Function>,
+) -> Result<Run, JsValue> {
+    let tell = |stage: Stage| {
+        if let Some(callback) = &on_progress {
+            // What the listener throws is its own affair.
+            let _ = callback.call2(&JsValue::NULL, &stage.fraction.into(), &stage.name.into());
+        }
+    };
+    crate::run_json(json, tell).map(|report| Run { report }).map_err(|error| thrown(&error))
+}
+
+/// The thesis's printed figures beside ours, for the default job.
+#[wasm_bindgen(unchecked_return_type = "ThesisRow[]")]
+pub fn thesis_recomputed() -> Result<JsValue, JsValue> {
+    let rows = crate::run(&Job::default())
+        .and_then(|report| thesis::rows(&report))
+        .map_err(|error| thrown(&error))?;
+    object(&rows)
+}
+
+/// Panics on purpose, so that the page's recovery can be tried.
+#[wasm_bindgen]
+pub fn trap() {
+    #[allow(clippy::panic, reason = "a panic is what is asked for")]
+    {
+        panic!("asked for");
+    }
+}
+
+/// A computed job.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Run {
+    report: Report,
+}
+
+#[wasm_bindgen]
+impl Run {
+    /// The figures a person reads first.
+    #[wasm_bindgen(unchecked_return_type = "Summary")]
+    pub fn summary(&self) -> Result<JsValue, JsValue> {
+        object(&self.report.summary())
+    }
+
+    /// Key, label and unit of every column.
+    #[wasm_bindgen(unchecked_return_type = "{ key: string; label: string; unit: string }[]")]
+    pub fn columns(&self) -> Result<JsValue, JsValue> {
+        #[derive(Serialize)]
+        struct Head {
+            key: String,
+            label: String,
+            unit: &'static str,
+        }
+        let heads: Vec<_> = self
+            .report
+            .columns()
+            .into_iter()
+            .map(|column| Head { key: column.key, label: column.label, unit: column.unit })
+            .collect();
+        object(&heads)
+    }
+
+    /// One column, one value a sample.
+    pub fn column(&self, key: &str) -> Result<Float64Array, JsValue> {
+        match self.report.columns().into_iter().find(|column| column.key == key) {
+            Some(column) => Ok(Float64Array::from(column.values.as_slice())),
+            None => Err(thrown(&Error::Invalid {
+                field: "column".into(),
+                value: format!("\"{key}\""),
+                expected: "columns() lists the keys".into(),
+            })),
+        }
+    }
+
+    /// Every chart.
+    #[wasm_bindgen(unchecked_return_type = "ChartEntry[]")]
+    pub fn charts(&self) -> Result<JsValue, JsValue> {
+        object(&chart::CATALOG.to_vec())
+    }
+
+    /// One chart, drawn in the size asked for.
+    #[wasm_bindgen(unchecked_return_type = "Chart")]
+    pub fn chart(
+        &self,
+        name: &str,
+        #[wasm_bindgen(unchecked_param_type = "ChartOptions")] options: JsValue,
+    ) -> Result<JsValue, JsValue> {
+        #[derive(Deserialize)]
+        struct Asked {
+            width: f64,
+            height: f64,
+            x_range: Option<(f64, f64)>,
+            y_range: Option<(f64, f64)>,
+        }
+        let Asked { width, height, x_range, y_range } = serde_wasm_bindgen::from_value(options)
+            .map_err(|error| JsValue::from(error))?;
+        let options = Options { width, height, x_range, y_range };
+        object(&chart::chart(&self.report, name, &options).map_err(|error| thrown(&error))?)
+    }
+
+    /// A file to take away: `columns-csv` or `compensated-csv`.
+    pub fn export(&self, format: &str) -> Result<String, JsValue> {
+        match format {
+            "columns-csv" => Ok(export::csv::columns(&self.report)),
+            "compensated-csv" => Ok(export::csv::compensated(&self.report)),
+            other => Err(thrown(&Error::Invalid {
+                field: "format".into(),
+                value: format!("\"{other}\""),
+                expected: "columns-csv or compensated-csv".into(),
+            })),
+        }
+    }
+
+    /// Hash over the bits of all columns.
+    pub fn fingerprint(&self) -> String {
+        self.report.fingerprint()
+    }
+}
+
+/// Plain data as a JavaScript object; maps become objects, not `Map`s.
+fn object<T: Serialize>(value: &T) -> Result<JsValue, JsValue> {
+    let serializer = serde_wasm_bindgen::Serializer::json_compatible();
+    value.serialize(&serializer).map_err(|error| JsValue::from(error))
+}
+
+fn thrown(error: &Error) -> JsValue {
+    let thrown: JsValue = js_sys::Error::new(&error.to_string()).into();
+    let set = |key: &str, value: JsValue| {
+        // Setting a property of a fresh Error cannot fail.
+        let _ = Reflect::set(thrown.unchecked_ref(), &key.into(), &value);
+    };
+    set("code", error.code().into());
+    if let Some(field) = error.field() {
+        set("field", field.into());
+    }
+    if let Some((line, column)) = error.place() {
+        set("line", (line as f64).into());
+        set("column", (column as f64).into());
+    }
+    thrown
+}
