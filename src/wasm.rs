@@ -206,8 +206,8 @@ impl Run {
             x_range: Option<(f64, f64)>,
             y_range: Option<(f64, f64)>,
         }
-        let Asked { width, height, x_range, y_range } = serde_wasm_bindgen::from_value(options)
-            .map_err(|error| JsValue::from(error))?;
+        let Asked { width, height, x_range, y_range } =
+            serde_wasm_bindgen::from_value(options).map_err(JsValue::from)?;
         let options = Options { width, height, x_range, y_range };
         object(&chart::chart(&self.report, name, &options).map_err(|error| thrown(&error))?)
     }
@@ -234,7 +234,7 @@ impl Run {
 /// Plain data as a JavaScript object; maps become objects, not `Map`s.
 fn object<T: Serialize>(value: &T) -> Result<JsValue, JsValue> {
     let serializer = serde_wasm_bindgen::Serializer::json_compatible();
-    value.serialize(&serializer).map_err(|error| JsValue::from(error))
+    value.serialize(&serializer).map_err(JsValue::from)
 }
 
 fn thrown(error: &Error) -> JsValue {

@@ -1,12 +1,13 @@
 //! Results as charts: data in, SVG text out, the same bytes natively and in every browser.
 //!
-//! [`catalog`] names every chart and says which columns it shows; the rest draws: [`plot`] over two axes, [`space`] in three
+//! [`catalog`] names every chart and `sheet` says what each shows; the rest draws: [`plot`] over two axes, [`space`] in three
 //! dimensions, through plotters onto our own [`svg`] surface (plotters' own rounds to whole pixels and measures text in the page).
 
 pub mod catalog;
 pub mod plot;
 pub mod space;
 pub mod svg;
+mod sheet;
 mod frame;
 mod scale;
 mod trace;

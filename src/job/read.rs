@@ -18,6 +18,7 @@ impl Job {
             read_error(&error, (path != ".").then_some(path))
         })?;
         deserializer.end().map_err(|error| read_error(&error, None))?;
+        check_shape(text)?;
         Ok(job)
     }
 
@@ -52,6 +53,31 @@ impl Job {
             }
         }
         missing
+    }
+}
+
+/// Refuses lists where an object belongs: serde would take their items for the keys in order.
+fn check_shape(text: &str) -> Result<(), Error> {
+    let Ok(given) = serde_json::from_str::<Value>(text) else { return Ok(()) };
+    let list = |field: &str| Error::Json {
+        field: (!field.is_empty()).then(|| field.to_owned()),
+        message: format!(
+            "{}a list stands where an object with named keys belongs",
+            if field.is_empty() { String::new() } else { format!("{field}: ") }
+        ),
+        line: 1,
+        column: 1,
+    };
+    let Value::Object(sections) = &given else { return Err(list("")) };
+    for (key, section) in sections {
+        if section.is_array() {
+            return Err(list(key));
+        }
+    }
+    let rows = given.pointer("/robot/modified_dh").and_then(Value::as_array);
+    match rows.into_iter().flatten().position(Value::is_array) {
+        Some(row) => Err(list(&format!("robot.modified_dh[{row}]"))),
+        None => Ok(()),
     }
 }
 
@@ -110,6 +136,20 @@ mod tests {
             at("{\"robot\": {\"modified_dh\": [{\"alpha\": 1}]}}").1,
             Some("robot.modified_dh[0].alpha".into())
         );
+    }
+
+    #[test]
+    fn lists_are_no_objects() {
+        for (text, field) in [
+            ("[]", None),
+            ("{\"motion\": [100, 200]}", Some("motion")),
+            (
+                "{\"robot\": {\"modified_dh\": [[0,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,0]]}}",
+                Some("robot.modified_dh[0]"),
+            ),
+        ] {
+            assert_eq!(Job::from_json(text).unwrap_err().field(), field, "{text}");
+        }
     }
 
     #[test]

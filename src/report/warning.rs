@@ -7,6 +7,7 @@ use crate::job::Setup;
 use crate::math;
 use crate::motion::joints::JointTrajectory;
 use crate::robot::Joints;
+use crate::robot::inverse::Margin;
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -128,44 +129,47 @@ fn limits(plan: &Plan, joints: &JointTrajectory, compensation: &Compensation, wa
 
 fn singularities(plan: &Plan, joints: &JointTrajectory, warnings: &mut Vec<Warning>) {
     let dt = plan.trajectory.sample_time;
-    let margin = &joints.margin;
+    let mut remark = |code, margin: fn(&Margin) -> f64, threshold: f64, message: fn(f64) -> String| {
+        let margins = &joints.margin;
+        if let Some(range) = range(margins.len(), |k| margin(&margins[k]) < threshold) {
+            let least = margins.iter().map(margin).fold(f64::INFINITY, f64::min);
+            warnings.push(Warning::new(code, message(least)).within(range, dt));
+        }
+    };
     let near = math::sin(ANGLE_MARGIN);
-    let least = |f: &dyn Fn(usize) -> f64| (0..margin.len()).map(f).fold(f64::INFINITY, f64::min);
-    let angle = |sin: f64| math::atan2(sin, (1.0 - sin * sin).max(0.0).sqrt()) / DEG;
-    let checks: [(&'static str, &dyn Fn(usize) -> f64, f64, String); 3] = [
-        (
-            "singularity-shoulder",
-            &|k| margin[k].shoulder,
-            SHOULDER_MARGIN,
+    remark(
+        "singularity-shoulder",
+        |margin| margin.shoulder,
+        SHOULDER_MARGIN,
+        |least| {
             format!(
                 "the wrist centre comes within {:.1} mm of axis 1, where joint 1 can turn without moving it (shoulder singularity)",
-                least(&|k| margin[k].shoulder) / MM
-            ),
-        ),
-        (
-            "singularity-elbow",
-            &|k| margin[k].elbow,
-            near,
+                least / MM
+            )
+        },
+    );
+    remark(
+        "singularity-elbow",
+        |margin| margin.elbow,
+        near,
+        |least| {
             format!(
                 "the arm is stretched or folded to within {:.1} deg (elbow singularity)",
-                angle(least(&|k| margin[k].elbow))
-            ),
-        ),
-        (
-            "singularity-wrist",
-            &|k| margin[k].wrist,
-            near,
+                angle_of_sine(least) / DEG
+            )
+        },
+    );
+    remark(
+        "singularity-wrist",
+        |margin| margin.wrist,
+        near,
+        |least| {
             format!(
                 "axes 4 and 6 come within {:.1} deg of each other (wrist singularity): small changes of the tool axis there turn joints 4 and 6 far",
-                angle(least(&|k| margin[k].wrist))
-            ),
-        ),
-    ];
-    for (code, value, threshold, message) in checks {
-        if let Some(range) = range(margin.len(), |k| value(k) < threshold) {
-            warnings.push(Warning::new(code, message).within(range, dt));
-        }
-    }
+                angle_of_sine(least) / DEG
+            )
+        },
+    );
     let jumps = |k: usize| k > 0 && (joints.q[k] - joints.q[k - 1]).amax() > JUMP;
     if let Some(range) = range(joints.q.len(), jumps) {
         let message = format!(
@@ -174,6 +178,11 @@ fn singularities(plan: &Plan, joints: &JointTrajectory, warnings: &mut Vec<Warni
         );
         warnings.push(Warning::new("joint-jump", message).within(range, dt));
     }
+}
+
+/// The angle in [0, pi/2] with this sine [rad].
+fn angle_of_sine(sine: f64) -> f64 {
+    math::atan2(sine, (1.0 - sine * sine).max(0.0).sqrt())
 }
 
 fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
@@ -193,7 +202,7 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
     let axis = plan.path.tool_axis();
     let slope = |k: usize| {
         let along: f64 = trajectory.pace.heading[k].dot(&axis);
-        math::atan2(along.abs(), (1.0 - along * along).max(0.0).sqrt())
+        angle_of_sine(along.abs())
     };
     let slopes: Vec<f64> = (0..trajectory.len()).map(slope).collect();
     if let Some(range) = range(slopes.len(), |k| slopes[k] > RAMP) {

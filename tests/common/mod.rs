@@ -1,0 +1,130 @@
+//! What several test files need: jobs made from a patch, random arms, random joint values.
+#![allow(dead_code, reason = "each test file uses a part of this")]
+
+use armill::robot::{Joints, Link, Robot};
+use armill::{Job, Report};
+use nalgebra::Vector3;
+use serde_json::Value;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// The default job with some values replaced: pairs of a JSON path (`motion.feed_mm_s`) and a value.
+pub(crate) fn job_text(changes: &[(&str, Value)]) -> String {
+    let mut job = serde_json::to_value(Job::default()).unwrap();
+    for (path, value) in changes {
+        let mut place = &mut job;
+        for key in path.split('.') {
+            place = &mut place[key];
+        }
+        *place = value.clone();
+    }
+    job.to_string()
+}
+
+/// Computes the default job with some values replaced.
+pub(crate) fn run(changes: &[(&str, Value)]) -> Report {
+    armill::run_json(&job_text(changes), |_| {}).unwrap()
+}
+
+/// The error of the default job with some values replaced.
+pub(crate) fn refused(changes: &[(&str, Value)]) -> armill::Error {
+    armill::run_json(&job_text(changes), |_| {}).unwrap_err()
+}
+
+/// A column of a report.
+pub(crate) fn column(report: &Report, key: &str) -> Vec<f64> {
+    report
+        .columns()
+        .into_iter()
+        .find(|column| column.key == key)
+        .unwrap_or_else(|| panic!("no column {key}"))
+        .values
+}
+
+/// A number from `low` to `high`.
+pub(crate) fn between(random: &mut fastrand::Rng, low: f64, high: f64) -> f64 {
+    low + (high - low) * random.f64()
+}
+
+/// Joint values within half a turn of zero.
+pub(crate) fn any_joints(random: &mut fastrand::Rng) -> Joints {
+    Joints::from_fn(|_, _| between(random, -PI, PI))
+}
+
+/// A vector of at most this length along each axis.
+pub(crate) fn any_vector(random: &mut fastrand::Rng, size: f64) -> Vector3<f64> {
+    Vector3::from_fn(|_, _| between(random, -size, size))
+}
+
+/// An arm of the RX-90's family with random lengths, offsets a1, a3 and b, base twist, zero angles and twist signs, and a random tool.
+pub(crate) fn any_arm(random: &mut fastrand::Rng) -> Robot {
+    let sign = |random: &mut fastrand::Rng| if random.bool() { 1.0 } else { -1.0 };
+    let half_turn = |random: &mut fastrand::Rng| if random.bool() { 0.0 } else { PI };
+    let offset = |random: &mut fastrand::Rng, size: f64| {
+        if random.bool() { 0.0 } else { between(random, -size, size) }
+    };
+    let rows = [
+        (half_turn(random), offset(random, 0.2), between(random, 0.2, 0.8)),
+        (sign(random) * FRAC_PI_2, offset(random, 0.4), offset(random, 0.1)),
+        (half_turn(random), sign(random) * between(random, 0.3, 1.2), offset(random, 0.1)),
+        (sign(random) * FRAC_PI_2, offset(random, 0.2), sign(random) * between(random, 0.3, 1.2)),
+        (sign(random) * FRAC_PI_2, 0.0, 0.0),
+        (sign(random) * FRAC_PI_2, 0.0, offset(random, 0.3)),
+    ];
+    let links = rows.map(|(alpha, a, d)| Link { alpha, a, d, theta_offset: offset(random, PI) });
+    let compliance = [0; 6].map(|_| between(random, 0.0, 1e-5));
+    let rpy = [0; 3].map(|_| between(random, -3.0, 3.0));
+    let tool = armill::math::Pose::from_xyz_rpy(any_vector(random, 0.3), rpy);
+    Robot::new("random", links, None, compliance).unwrap().with_tool(tool)
+}
+
+/// The RX-90 as it comes with Armill.
+pub(crate) fn rx90() -> Robot {
+    armill::report::thesis::rx90(0.085).unwrap()
+}
+
+/// A job whose fingerprint is pinned: name, changes of the default job, fingerprint.
+pub(crate) type Pinned = (&'static str, Vec<(&'static str, Value)>, &'static str);
+
+/// Jobs that must give the same bits natively and in the browser. The fingerprints are our own: they pin the two sides to each
+/// other and show when a number changes; they say nothing about its being right.
+pub(crate) fn pinned() -> [Pinned; 4] {
+    use serde_json::json;
+    [
+        ("default", vec![], "0a30ea61de9736f75229574efc02fe6f"),
+        (
+            "rounded rectangle, EI in Hz, chip from feed, tilted part, offset tool",
+            vec![
+                (
+                    "path",
+                    json!({"kind":"rectangle","center_mm":[600,0,100],"width_mm":120,"height_mm":80,"corner_radius_mm":10}),
+                ),
+                ("shaper", json!({"kind":"ei","frequency_hz":9,"damping":0.03})),
+                ("cutting.feed_per_tooth_mm", json!("from_feed")),
+                ("material", json!({"preset":"al-7075-t6"})),
+                ("workpiece_frame", json!({"xyz_mm":[10,20,30],"rpy_deg":[10,-20,30]})),
+                ("tool_frame", json!({"xyz_mm":[0,50,120],"rpy_deg":[0,30,0]})),
+            ],
+            "e5fc71aaa87314b49fde77dc2dd7c246",
+        ),
+        (
+            "points, ZVDD, another branch",
+            vec![
+                ("path", json!({"kind":"csv","text":"600,-100,100\n680,0,120\n600,100,100"})),
+                ("shaper", json!({"kind":"zvdd","frequency_rad_s":60,"damping":0.02})),
+                ("start_branch", json!({"shoulder":"front","elbow":"negative","wrist":"flipped"})),
+            ],
+            "fc80585d69c40049f247c7a5a41bf615",
+        ),
+        (
+            "arc without shaper",
+            vec![
+                (
+                    "path",
+                    json!({"kind":"arc","center_mm":[600,0,100],"radius_mm":100,"normal":[0,0,1],"start_deg":30,"sweep_deg":-200}),
+                ),
+                ("shaper", json!("none")),
+            ],
+            "a81ac2018fcd71cd71e9e980bb5ea067",
+        ),
+    ]
+}

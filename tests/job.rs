@@ -1,0 +1,310 @@
+//! The job: every field does what its table says, every mistake is named.
+#![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+mod common;
+
+use armill::job::fields::{Kind, fields};
+use armill::{Error, Job};
+use common::{job_text, refused, run};
+use serde_json::{Value, json};
+
+/// A path of a kind made from the defaults in the table of fields.
+fn path_of(kind: &str) -> Value {
+    let mut path = json!({ "kind": kind });
+    for field in fields() {
+        if let (Some(key), Some(when)) = (field.path.strip_prefix("path."), &field.when)
+            && when.is.contains(&kind)
+        {
+            path[key] = field.default.clone();
+        }
+    }
+    path
+}
+
+#[test]
+fn every_kind_of_path_computes_with_its_defaults() {
+    let kinds = fields().into_iter().find(|field| field.path == "path.kind").unwrap().choices;
+    assert_eq!(kinds.len(), 6);
+    for kind in kinds {
+        // The circle's centre is the thesis's; other shapes start in front of the arm.
+        let report = run(&[("path", path_of(kind.value))]);
+        assert!(report.summary().path_length_mm > 1.0, "{}", kind.value);
+    }
+}
+
+#[test]
+fn every_default_in_the_table_is_the_default_job_s() {
+    let job = serde_json::to_value(Job::default()).unwrap();
+    let mut compared = 0;
+    for field in fields() {
+        let value = field.path.split('.').try_fold(&job, |value, key| value.get(key));
+        let Some(value) = value else { continue };
+        let same = match (value, &field.default) {
+            (Value::Number(a), Value::Number(b)) => a.as_f64() == b.as_f64(),
+            (Value::Array(a), Value::Array(b)) if field.kind == Kind::Vector => {
+                a.iter().map(Value::as_f64).eq(b.iter().map(Value::as_f64))
+            }
+            (a, b) => a == b,
+        };
+        assert!(same, "{}: the job has {value}, the table {}", field.path, field.default);
+        compared += 1;
+    }
+    assert!(compared > 30, "{compared} fields compared");
+}
+
+#[test]
+fn every_number_is_checked_against_its_range() {
+    let mut checked = 0;
+    for field in fields() {
+        let (Some(min), Some(max)) = (field.min, field.max) else { continue };
+        if !matches!(field.kind, Kind::Number | Kind::Integer) {
+            continue;
+        }
+        let (section, key) = field.path.split_once('.').unwrap();
+        for value in [min - min.abs().max(1.0), max + max.abs().max(1.0)] {
+            if field.kind == Kind::Integer && value < 0.0 {
+                continue;
+            }
+            let number = if field.kind == Kind::Integer { json!(value as u64) } else { json!(value) };
+            let mut given = match section {
+                "path" => path_of(field.when.as_ref().unwrap().is[0]),
+                "material" => json!({"ktc_n_mm2":1,"krc_n_mm2":1,"kac_n_mm2":1}),
+                "shaper" => json!({"kind":"zvd","damping":0.1}),
+                other => serde_json::to_value(Job::default()).unwrap()[other].clone(),
+            };
+            given[key] = number;
+            if section == "shaper" && !key.starts_with("frequency") {
+                given["frequency_hz"] = json!(3);
+            }
+            match refused(&[(section, given)]) {
+                Error::OutOfRange { field: name, value: told, .. } => {
+                    assert_eq!(name, field.path);
+                    assert_eq!(told, value);
+                }
+                other => panic!("{} = {value}: {other:?}", field.path),
+            }
+            checked += 1;
+        }
+    }
+    assert!(checked > 40, "{checked} limits checked");
+}
+
+#[test]
+fn mistakes_are_named() {
+    let cases: Vec<(&str, Value, &str, &str)> = vec![
+        ("version", json!(2), "invalid", "version"),
+        ("robot", json!({}), "missing", "robot.preset"),
+        ("robot", json!({"preset":"rx91"}), "invalid", "robot.preset"),
+        (
+            "robot",
+            json!({"preset":"staubli-rx90","joint_compliance_rad_per_nm":[0,0,0,0,0,-1e-9]}),
+            "out-of-range",
+            "robot.joint_compliance_rad_per_nm[5]",
+        ),
+        (
+            "robot",
+            json!({"preset":"staubli-rx90","joint_limits_deg":[[10,-10],[-1,1],[-1,1],[-1,1],[-1,1],[-1,1]]}),
+            "invalid",
+            "robot.joint_limits_deg[0]",
+        ),
+        ("path", json!({"kind":"circle","radius_mm":300}), "missing", "path.center_mm"),
+        (
+            "path",
+            json!({"kind":"circle","center_mm":[0,0,0],"radius_mm":0,"normal":[0,0,1]}),
+            "out-of-range",
+            "path.radius_mm",
+        ),
+        (
+            "path",
+            json!({"kind":"circle","center_mm":[0,0,0],"radius_mm":300,"normal":[0,0,0]}),
+            "invalid",
+            "path.normal",
+        ),
+        (
+            "path",
+            json!({"kind":"circle","center_mm":[0,0,0],"radius_mm":300,"points_mm":[[0,0,0]]}),
+            "invalid",
+            "path.points_mm",
+        ),
+        ("path", json!({"kind":"polyline","points_mm":[[600,0,0]]}), "invalid", "path.points_mm"),
+        ("path", json!({"kind":"polyline","points_mm":[[600,0,0],[600,0,0]]}), "invalid", "path.points_mm"),
+        (
+            "path",
+            json!({"kind":"polyline","points_mm":[[600,0,0],[600,1e9,0]]}),
+            "out-of-range",
+            "path.points_mm[1][1]",
+        ),
+        ("path", json!({"kind":"csv","text":"1,2,3\n4,x,6"}), "text", "path.text"),
+        ("path", json!({"kind":"csv","text":""}), "invalid", "path.text"),
+        ("path", json!({"kind":"line","from_mm":[600,0,0],"to_mm":[600,0,0]}), "invalid", "path.to_mm"),
+        (
+            "path",
+            json!({"kind":"rectangle","center_mm":[600,0,0],"width_mm":10,"height_mm":20,"corner_radius_mm":6}),
+            "out-of-range",
+            "path.corner_radius_mm",
+        ),
+        (
+            "path",
+            json!({"kind":"arc","center_mm":[600,0,0],"radius_mm":10,"sweep_deg":0}),
+            "invalid",
+            "path.sweep_deg",
+        ),
+        ("material", json!({"ktc_n_mm2":1}), "missing", "material.krc_n_mm2"),
+        ("material", json!({"preset":"thesis","ktc_n_mm2":1}), "invalid", "material.preset"),
+        ("material", json!({"preset":"cheese"}), "invalid", "material.preset"),
+        ("cutting.exit_deg", json!(90), "invalid", "cutting.exit_deg"),
+        ("shaper", json!({"kind":"zvd","damping":0.1}), "missing", "shaper.frequency_rad_s"),
+        (
+            "shaper",
+            json!({"kind":"zvd","frequency_hz":3,"frequency_rad_s":18,"damping":0.1}),
+            "invalid",
+            "shaper.frequency_hz",
+        ),
+        ("shaper", json!({"kind":"ei","frequency_hz":3,"damping":0.4}), "out-of-range", "shaper.damping"),
+        ("compensation.sources", json!(["shaping", "shaping"]), "invalid", "compensation.sources"),
+        ("motion.feed_mm_s", json!(0.001), "invalid", "motion.sample_time_s"),
+        ("start_branch.shoulder", json!("left"), "json", "start_branch.shoulder"),
+    ];
+    for (path, value, code, field) in cases {
+        let result = armill::run_json(&job_text(&[(path, value.clone())]), |_| {});
+        let Err(error) = result else { panic!("{path} = {value} was computed") };
+        assert_eq!((error.code(), error.field()), (code, Some(field)), "{path} = {value}: {error}");
+        assert!(!error.to_string().is_empty());
+    }
+}
+
+#[test]
+fn a_place_out_of_reach_is_told_with_sample_distance_and_reach() {
+    let line = json!({"kind":"line","from_mm":[600,0,100],"to_mm":[1600,0,100]});
+    match refused(&[("path", line)]) {
+        Error::Unreachable {
+            sample: Some(sample),
+            arc_length: Some(s),
+            position,
+            distance,
+            reach_max,
+            ..
+        } => {
+            // The wrist is 85 mm above the tip, the shoulder at 420 mm.
+            let wrist = (position[0].powi(2) + (0.1 + 0.085 - 0.42_f64).powi(2)).sqrt();
+            assert!(
+                (distance - wrist).abs() < 1e-12 && distance > reach_max && (reach_max - 1.1).abs() < 1e-12
+            );
+            assert!(sample > 0 && (position[0] - 0.6 - s).abs() < 1e-9);
+            // The sample before was in reach: one step is 0.1 mm.
+            assert!(distance - reach_max < 1.1e-4);
+        }
+        other => panic!("{other:?}"),
+    }
+    // Inside the hole in the middle of the workspace, too.
+    let inner = json!({"kind":"line","from_mm":[30,0,500],"to_mm":[40,0,500]});
+    assert_eq!(refused(&[("path", inner)]).code(), "unreachable");
+}
+
+#[test]
+fn a_start_branch_without_solution_is_refused_and_others_are_taken() {
+    let path = json!({"kind":"line","from_mm":[600,-100,100],"to_mm":[600,100,100]});
+    let q = |elbow: &str, wrist: &str| {
+        let report = run(&[
+            ("path", path.clone()),
+            ("start_branch", json!({"shoulder":"front","elbow":elbow,"wrist":wrist})),
+        ]);
+        report.joints.q[0].map(f64::to_degrees)
+    };
+    assert!(q("positive", "near")[2] > 0.0 && q("positive", "near")[3].abs() < 1e-6);
+    assert!(q("negative", "near")[2] < 0.0);
+    assert!((q("positive", "flipped")[3].abs() - 180.0).abs() < 1e-6);
+    // An arm with a long a1 cannot reach over its back here.
+    let rows = json!([
+        {"alpha_deg":0,"a_mm":0,"d_mm":420}, {"alpha_deg":-90,"a_mm":400,"d_mm":0,"theta_offset_deg":-90},
+        {"alpha_deg":0,"a_mm":450,"d_mm":0,"theta_offset_deg":90}, {"alpha_deg":90,"a_mm":0,"d_mm":650},
+        {"alpha_deg":-90,"a_mm":0,"d_mm":0}, {"alpha_deg":90,"a_mm":0,"d_mm":85}
+    ]);
+    let robot =
+        json!({"name":"long shoulder","modified_dh":rows,"joint_compliance_rad_per_nm":[0,0,0,0,0,0]});
+    let far = json!({"kind":"line","from_mm":[1100,-100,100],"to_mm":[1100,100,100]});
+    let back = json!({"shoulder":"back","elbow":"positive","wrist":"near"});
+    let error = refused(&[("robot", robot), ("path", far), ("start_branch", back)]);
+    assert_eq!((error.code(), error.field()), ("invalid", Some("start_branch")));
+}
+
+#[test]
+fn what_a_job_leaves_out_is_remarked() {
+    let report = armill::run_json("{\"version\":1,\"motion\":{\"feed_mm_s\":50}}", |_| {}).unwrap();
+    let remark = report.warnings.iter().find(|warning| warning.code == "default-used").unwrap();
+    assert!(remark.message.contains("path") && remark.message.contains("motion.sample_time_s"));
+    let full = armill::run_json(&Job::default().to_json(), |_| {}).unwrap();
+    assert!(!full.warnings.iter().any(|warning| warning.code == "default-used"));
+}
+
+#[test]
+fn progress_ascends_and_ends() {
+    let mut told = Vec::new();
+    armill::run_json(&Job::default().to_json(), |stage| told.push(stage.fraction)).unwrap();
+    assert!(told.len() >= 5 && told.windows(2).all(|pair| pair[0] < pair[1]));
+    assert!(told[0] == 0.0 && told.iter().all(|fraction| *fraction <= 1.0));
+}
+
+#[test]
+fn columns_are_named_and_written_in_full() {
+    let report = run(&[]);
+    let keys: Vec<String> = report.columns().into_iter().map(|column| column.key).collect();
+    let expected = "time_s,arc_length_mm,desired_x_mm,desired_y_mm,desired_z_mm,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,\
+        shaped_q1_deg,shaped_q2_deg,shaped_q3_deg,shaped_q4_deg,shaped_q5_deg,shaped_q6_deg,force_x_n,force_y_n,force_z_n,\
+        deflection_x_mm,deflection_y_mm,deflection_z_mm,actual_x_mm,actual_y_mm,actual_z_mm,contour_error_mm,\
+        compensated_x_mm,compensated_y_mm,compensated_z_mm,after_contour_error_mm";
+    assert!(keys.join(",").starts_with(expected), "{keys:?}");
+    let text = armill::export::csv::columns(&report);
+    let mut lines = text.lines();
+    assert_eq!(lines.next().unwrap(), keys.join(","));
+    let columns = report.columns();
+    let mut rows = 0;
+    for (k, line) in lines.enumerate() {
+        for (cell, column) in line.split(',').zip(&columns) {
+            assert_eq!(
+                cell.parse::<f64>().unwrap().to_bits(),
+                column.values[k].to_bits(),
+                "{} of sample {k}",
+                column.key
+            );
+        }
+        rows += 1;
+    }
+    assert_eq!(rows, report.samples());
+    let path = armill::export::csv::compensated(&report);
+    assert!(path.starts_with("time_s,compensated_x_mm,compensated_y_mm,compensated_z_mm,compensated_q1_deg"));
+    assert_eq!(path.lines().count(), report.samples() + 1);
+}
+
+#[test]
+fn every_chart_draws() {
+    use armill::chart::{CATALOG, Options, chart};
+    for changes in [vec![], vec![("shaper", json!("none")), ("cutting.axial_depth_mm", json!(0))]] {
+        let report = run(&changes);
+        for entry in CATALOG {
+            let options = Options { width: 700.0, height: 320.0, x_range: None, y_range: None };
+            let drawn = chart(&report, entry.name, &options).unwrap();
+            assert!(drawn.svg.starts_with("<svg") && !drawn.svg.contains("NaN"), "{}", entry.name);
+            assert!(
+                drawn.series.len() == drawn.svg.matches("data-key=").count(),
+                "{}: every series is drawn",
+                entry.name
+            );
+            assert!(!drawn.description.is_empty());
+        }
+        assert_eq!(
+            chart(&report, "no such", &Options { width: 700.0, height: 320.0, x_range: None, y_range: None })
+                .unwrap_err()
+                .code(),
+            "invalid"
+        );
+    }
+}
+
+#[test]
+fn fingerprints_are_pinned() {
+    for (name, changes, fingerprint) in common::pinned() {
+        assert_eq!(run(&changes).fingerprint(), fingerprint, "{name}: numbers have changed");
+    }
+}

@@ -1,0 +1,75 @@
+//! The pipeline as a rule: a stage uses nothing to its right, and only `lib.rs` knows `wasm`.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+use std::path::Path;
+
+/// The modules from left to right. The job is read first, but it makes the stages' inputs, so it may name them; `column` is the
+/// currency of report, charts and files.
+const ORDER: [&str; 14] = [
+    "math",
+    "units",
+    "error",
+    "column",
+    "robot",
+    "path",
+    "motion",
+    "cutting",
+    "deviation",
+    "compensation",
+    "job",
+    "report",
+    "chart",
+    "export",
+];
+
+fn files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            files(&path, found);
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn no_stage_uses_one_to_its_right() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut found = Vec::new();
+    files(&source, &mut found);
+    assert!(found.len() > 30, "the walk finds the sources");
+    let mut uses = 0;
+    for file in found {
+        let inside = file.strip_prefix(&source).unwrap();
+        let module = inside.iter().next().unwrap().to_str().unwrap().trim_end_matches(".rs");
+        if ["lib", "pipeline", "wasm"].contains(&module) {
+            continue;
+        }
+        let own = ORDER.iter().position(|name| *name == module);
+        let own = own.unwrap_or_else(|| panic!("{module} has no place in the pipeline"));
+        let text = std::fs::read_to_string(&file).unwrap();
+        for (number, line) in text.lines().enumerate() {
+            let code = line.split("//").next().unwrap();
+            for used in code.split("crate::").skip(1) {
+                let used: String = used.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+                let place = ORDER.iter().position(|name| *name == used);
+                let allowed = place.is_some_and(|place| place <= own);
+                assert!(allowed, "{}:{}: {module} uses {used}", inside.display(), number + 1);
+                uses += 1;
+            }
+        }
+    }
+    assert!(uses > 50, "the walk finds the uses");
+}
+
+#[test]
+fn files_stay_readable_in_one_sitting() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut found = Vec::new();
+    files(&source, &mut found);
+    for file in found {
+        let lines = std::fs::read_to_string(&file).unwrap().lines().count();
+        assert!(lines <= 450, "{} has {lines} lines", file.display());
+    }
+}

@@ -1,0 +1,144 @@
+//! The wasm boundary in a real browser: same bits as natively, and the contract that the page relies on.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![cfg(target_arch = "wasm32")]
+
+mod common;
+
+use armill::wasm;
+use common::{job_text, pinned};
+use js_sys::{Float64Array, Function, Reflect};
+use serde_json::json;
+use wasm_bindgen::{JsCast, JsValue};
+use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
+
+wasm_bindgen_test_configure!(run_in_browser);
+
+fn get(object: &JsValue, path: &str) -> JsValue {
+    path.split('.').fold(object.clone(), |value, key| Reflect::get(&value, &key.into()).unwrap())
+}
+
+fn number(object: &JsValue, path: &str) -> f64 {
+    get(object, path).as_f64().unwrap_or_else(|| panic!("{path} is no number"))
+}
+
+fn text(object: &JsValue, path: &str) -> String {
+    get(object, path).as_string().unwrap_or_else(|| panic!("{path} is no text"))
+}
+
+/// What `run` throws for a job.
+fn thrown(json: &str) -> JsValue {
+    wasm::run(json, None).map(|_| ()).unwrap_err()
+}
+
+#[wasm_bindgen_test]
+fn the_browser_gives_the_same_bits() {
+    for (name, changes, fingerprint) in pinned() {
+        let run = wasm::run(&job_text(&changes), None).unwrap();
+        // tests/job.rs asserts the same fingerprints natively.
+        assert_eq!(run.fingerprint(), fingerprint, "{name}");
+        assert_eq!(text(&run.summary().unwrap(), "fingerprint"), fingerprint);
+    }
+}
+
+#[wasm_bindgen_test]
+fn the_default_job_and_its_summary() {
+    let run = wasm::run(&wasm::default_job(), None).unwrap();
+    let summary = run.summary().unwrap();
+    assert!((number(&summary, "before_mm.deflection.mean") - 1.060).abs() < 0.0053);
+    assert!(number(&summary, "after_mm.max") <= 0.005);
+    assert_eq!(get(&summary, "converged"), JsValue::TRUE);
+    assert_eq!(number(&summary, "mean_force_n.length"), 3.0);
+    assert!(text(&summary, "verdict").starts_with("Max contour error 1.25 mm before"));
+    assert_eq!(text(&summary, "warnings.0.code"), "joint-limit");
+    assert!(number(&summary, "warnings.0.from_sample") > 0.0);
+}
+
+#[wasm_bindgen_test]
+fn columns_are_float64_arrays_of_one_length() {
+    let run = wasm::run(&wasm::default_job(), None).unwrap();
+    let samples = number(&run.summary().unwrap(), "samples");
+    let heads = run.columns().unwrap();
+    let count = number(&heads, "length") as u32;
+    assert!(count >= 31);
+    for i in 0..count {
+        let key = text(&heads, &format!("{i}.key"));
+        let column = run.column(&key).unwrap();
+        assert_eq!(f64::from(column.length()), samples, "{key}");
+        assert!(column.to_vec().iter().all(|value| value.is_finite()), "{key}");
+    }
+    let error: JsValue = run.column("nothing").map(|_: Float64Array| ()).unwrap_err();
+    assert_eq!(text(&error, "code"), "invalid");
+}
+
+#[wasm_bindgen_test]
+fn errors_are_errors_with_data() {
+    let error = thrown(&job_text(&[("motion.feed_mm_s", json!(-1))]));
+    assert!(error.is_instance_of::<js_sys::Error>());
+    assert_eq!(text(&error, "code"), "out-of-range");
+    assert_eq!(text(&error, "field"), "motion.feed_mm_s");
+    assert!(text(&error, "message").contains("legal is 0.001 to 10000 mm/s"));
+    assert!(get(&error, "line").is_undefined());
+
+    let error = thrown("{\n \"moton\": {}}");
+    assert_eq!(text(&error, "code"), "unknown-key");
+    assert_eq!((number(&error, "line"), number(&error, "column")), (2.0, 8.0));
+
+    let points = json!({"kind":"csv","text":"600,0,100\n600,zero,100"});
+    let error = thrown(&job_text(&[("path", points)]));
+    assert_eq!((text(&error, "code").as_str(), text(&error, "field").as_str()), ("text", "path.text"));
+    assert_eq!((number(&error, "line"), number(&error, "column")), (2.0, 5.0));
+
+    let far = json!({"kind":"line","from_mm":[600,0,100],"to_mm":[1600,0,100]});
+    let error = thrown(&job_text(&[("path", far)]));
+    assert_eq!(text(&error, "code"), "unreachable");
+    assert!(get(&error, "field").is_undefined());
+    assert!(text(&error, "message").contains("sample "));
+    assert!(wasm::check(&wasm::default_job()).is_ok());
+    assert!(wasm::check("[]").is_err());
+}
+
+#[wasm_bindgen_test]
+fn charts_come_as_svg_with_their_scales() {
+    let run = wasm::run(&wasm::default_job(), None).unwrap();
+    let charts = run.charts().unwrap();
+    let options = js_sys::JSON::parse("{\"width\":640,\"height\":300}").unwrap();
+    for i in 0..number(&charts, "length") as u32 {
+        let name = text(&charts, &format!("{i}.name"));
+        let chart = run.chart(&name, options.clone()).unwrap();
+        let parser = js_sys::eval("new DOMParser()").unwrap();
+        let parse: Function = get(&parser, "parseFromString").unchecked_into();
+        let svg = text(&chart, "svg");
+        let document = parse.call2(&parser, &svg.as_str().into(), &"image/svg+xml".into()).unwrap();
+        assert_eq!(text(&document, "documentElement.nodeName"), "svg", "{name} is well-formed");
+        assert!(
+            number(&chart, "plot.width") > 300.0 && number(&chart, "x.max") > number(&chart, "x.min"),
+            "{name}"
+        );
+    }
+}
+
+#[wasm_bindgen_test]
+fn progress_is_told_and_files_come_out() {
+    let told = js_sys::eval("(() => { const told = []; const tell = (f, s) => told.push([f, s]); tell.told = told; return tell; })()").unwrap();
+    let run = wasm::run(&wasm::default_job(), Some(told.clone().unchecked_into())).unwrap();
+    assert!(number(&told, "told.length") >= 5.0);
+    assert_eq!(text(&told, "told.0.1"), "joint commands");
+    let csv = run.export("compensated-csv").unwrap();
+    assert!(csv.starts_with("time_s,compensated_x_mm"));
+    assert!(run.export("columns-csv").unwrap().lines().count() > 19_000);
+    assert!(run.export("dxf").is_err());
+}
+
+#[wasm_bindgen_test]
+fn form_data_is_plain() {
+    let fields = wasm::fields().unwrap();
+    assert!(number(&fields, "length") > 40.0);
+    assert_eq!(text(&fields, "0.path"), "robot.preset");
+    assert!(get(&fields, "0.min").is_undefined(), "absent, not null");
+    let presets = wasm::presets().unwrap();
+    assert_eq!(text(&presets, "robots.0.id"), "staubli-rx90");
+    assert_eq!(number(&presets, "robots.0.modified_dh.2.a_mm"), 450.0);
+    assert_eq!(number(&presets, "materials.0.ktc_n_mm2"), 1800.0);
+    assert!(number(&wasm::thesis_recomputed().unwrap(), "length") >= 10.0);
+    assert!(!wasm::version().is_empty());
+}
