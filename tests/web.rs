@@ -81,7 +81,7 @@ fn errors_are_errors_with_data() {
 
     let error = thrown("{\n \"moton\": {}}");
     assert_eq!(text(&error, "code"), "unknown-key");
-    assert_eq!((number(&error, "line"), number(&error, "column")), (2.0, 8.0));
+    assert_eq!((number(&error, "line"), number(&error, "column")), (2.0, 2.0));
 
     let points = json!({"kind":"csv","text":"600,0,100\n600,zero,100"});
     let error = thrown(&job_text(&[("path", points)]));

@@ -99,6 +99,8 @@ fn read_error(error: &serde_json::Error, field: Option<String>) -> Error {
             .max_by(|a, b| a.0.total_cmp(&b.0))
             .filter(|(similarity, _)| *similarity > 0.4)
             .map(|(_, known)| join(known));
+        // The parser stands behind the key; the reader looks for where it begins.
+        let column = column.saturating_sub(key.chars().count() + 1);
         return Error::UnknownKey { field: join(key), nearest, line, column };
     }
     let place = field.as_ref().map_or_else(String::new, |path| format!("{path}: "));
@@ -122,8 +124,8 @@ mod tests {
             let error = Job::from_json(text).unwrap_err();
             (error.code(), error.field().map(str::to_owned), error.place().unwrap())
         };
-        assert_eq!(at("{\"motion\":\n {\"feed\": 3}}"), ("unknown-key", Some("motion.feed".into()), (2, 8)));
-        assert_eq!(at("{\"motoin\": {}}"), ("unknown-key", Some("motoin".into()), (1, 9)));
+        assert_eq!(at("{\"motion\":\n {\"feed\": 3}}"), ("unknown-key", Some("motion.feed".into()), (2, 3)));
+        assert_eq!(at("{\"motoin\": {}}"), ("unknown-key", Some("motoin".into()), (1, 2)));
         assert_eq!(
             at("{\"motion\": {\"feed_mm_s\": \"fast\"}}"),
             ("json", Some("motion.feed_mm_s".into()), (1, 31))
