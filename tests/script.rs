@@ -8,11 +8,13 @@ use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
-/// The example that cargo has built beside this test.
+/// The example by cargo: `cargo test --test script` alone would not bring it up to date.
 fn script() -> Command {
-    let test = std::env::current_exe().unwrap();
-    let built = test.parent().unwrap().parent().unwrap().join("examples").join("run");
-    Command::new(built)
+    let mut command = Command::new(env!("CARGO"));
+    command
+        .args(["run", "--quiet", "--locked", "--example", "run", "--"])
+        .current_dir(env!("CARGO_MANIFEST_DIR"));
+    command
 }
 
 /// A file of this test's own.
