@@ -19,6 +19,10 @@
 //! # Ok::<(), armill::Error>(())
 //! ```
 
+#[doc = include_str!("../README.md")]
+#[cfg(doctest)]
+pub struct Readme;
+
 pub mod math;
 pub mod units;
 pub mod error;

@@ -303,6 +303,14 @@ fn every_chart_draws() {
 }
 
 #[test]
+fn the_readme_s_job_is_the_default_job() {
+    let readme = include_str!("../README.md");
+    let job = readme.split("```json").nth(1).unwrap().split("```").next().unwrap();
+    let report = armill::run_json(job, |_| {}).unwrap();
+    assert_eq!(report.fingerprint(), run(&[]).fingerprint());
+}
+
+#[test]
 fn fingerprints_are_pinned() {
     for (name, changes, fingerprint) in common::pinned() {
         assert_eq!(run(&changes).fingerprint(), fingerprint, "{name}: numbers have changed");
