@@ -4,7 +4,8 @@
 //! Shaping delays the motion, so an error seen now belongs to commands that were given a while (on the thesis's circle 15 mm)
 //! ago: [`Shaper::undo`] files it under them. The error corrected is the tip's way to the point of the path where the shaped
 //! motion should be, not only eq. 5.2's way to the closest point: it is smooth around corners and brings ends and corners where
-//! they belong, which the contour error cannot see. What is reported stays the contour error.
+//! they belong, which the contour error cannot see. What is reported stays the contour error. Along a path whose tool axis turns, the
+//! axis is corrected in the same way.
 //!
 //! [`Shaper::undo`]: crate::motion::Shaper::undo
 
@@ -28,6 +29,8 @@ pub struct Goal {
 pub struct Compensation {
     /// Correction of the desired position, one a sample, base frame [m].
     pub correction: Vec<Vector3<f64>>,
+    /// Tool axis to command, one a sample, base frame; the desired one where the path keeps one axis all along.
+    pub axis: Vec<Vector3<f64>>,
     /// Joint commands for the corrected path [rad].
     pub q: Vec<Joints>,
     /// What becomes of them: the same model, sent through again.
@@ -63,10 +66,11 @@ pub fn compensate(
     mut on_pass: impl FnMut(usize),
 ) -> Compensation {
     let pace = plan.pace(acting);
-    let orientation = plan.path.tool_orientation();
+    let multi_axis = plan.path.is_multi_axis();
     let (mean, max) = contour::mean_and_max(&before.contour_error);
     let mut best = Compensation {
         correction: vec![Vector3::zeros(); q.len()],
+        axis: plan.trajectory.axis.clone(),
         q: q.to_vec(),
         result: before.clone(),
         history_max: vec![max],
@@ -79,25 +83,33 @@ pub fn compensate(
         if best.history_max[best.passes] <= goal.tolerance * if best.passes == 0 { 1.0 } else { AIM } {
             break;
         }
-        let missing: Vec<_> = pace
-            .arc_length
-            .iter()
-            .zip(&best.result.actual)
-            .map(|(&s, actual)| plan.path.point(s) - actual)
-            .collect();
-        let more =
-            if acting.shaping { plan.shaper.undo(&missing, plan.trajectory.sample_time) } else { missing };
+        let undone = |missing: Vec<Vector3<f64>>| {
+            if acting.shaping { plan.shaper.undo(&missing, plan.trajectory.sample_time) } else { missing }
+        };
+        let where_to = pace.arc_length.iter();
+        let missing =
+            where_to.clone().zip(&best.result.actual).map(|(&s, actual)| plan.path.point(s) - actual);
+        let more = undone(missing.collect());
         let correction: Vec<_> = best.correction.iter().zip(&more).map(|(c, more)| c + more).collect();
+        let axis: Vec<_> = if multi_axis {
+            // The turn that is missing, as a rotation vector: its size is the sine of the angle, small and soon exact.
+            let missing =
+                where_to.zip(&best.result.axis).map(|(&s, actual)| actual.cross(&plan.path.axis(s)));
+            let turns = undone(missing.collect());
+            best.axis.iter().zip(&turns).map(|(axis, turn)| (axis + turn.cross(axis)).normalize()).collect()
+        } else {
+            best.axis.clone()
+        };
         let positions: Vec<_> =
             plan.trajectory.position.iter().zip(&correction).map(|(desired, c)| desired + c).collect();
-        let commands = match joint_trajectory(&plan.robot, &orientation, &plan.trajectory, &positions, start)
-        {
-            Ok(joints) => joints.q,
-            Err(error) => {
-                best.stopped = Some(error);
-                break;
-            }
-        };
+        let commands =
+            match joint_trajectory(&plan.robot, &plan.path, &plan.trajectory, (&positions, &axis), start) {
+                Ok(joints) => joints.q,
+                Err(error) => {
+                    best.stopped = Some(error);
+                    break;
+                }
+            };
         let result = deviate(plan, &pace, &commands, acting);
         let (mean, max) = contour::mean_and_max(&result.contour_error);
         on_pass(pass);
@@ -109,6 +121,7 @@ pub fn compensate(
         }
         best = Compensation {
             correction,
+            axis,
             q: commands,
             result,
             passes: pass,

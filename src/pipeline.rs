@@ -57,14 +57,8 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
         mean_force: setup.cut.mean_force(),
         chip: setup.chip,
     };
-    let orientation = plan.path.tool_orientation();
-    let joints = joint_trajectory(
-        &plan.robot,
-        &orientation,
-        &plan.trajectory,
-        &plan.trajectory.position,
-        setup.start,
-    )?;
+    let desired = (plan.trajectory.position.as_slice(), plan.trajectory.axis.as_slice());
+    let joints = joint_trajectory(&plan.robot, &plan.path, &plan.trajectory, desired, setup.start)?;
     let deviation = |acting: Sources| deviate(&plan, &plan.pace(acting), &joints.q, acting);
     tell(1, "deflection");
     let deflection_only = deviation(Sources::only(Source::Deflection));

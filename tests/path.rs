@@ -66,8 +66,9 @@ fn segments_follow_each_other_when_placed() {
             let s = path.length() * f64::from(i) / 20.0;
             assert!((placed.point(s) - frame.point(&path.point(s))).norm() < 1e-12);
         }
-        for pair in placed.segments().windows(2) {
-            assert!((pair[0].point(pair[0].length()) - pair[1].point(0.0)).norm() < 1e-12);
+        for pair in placed.moves().windows(2) {
+            let [before, after] = [pair[0].segment, pair[1].segment];
+            assert!((before.point(before.length()) - after.point(0.0)).norm() < 1e-12);
         }
     }
 }
@@ -162,6 +163,7 @@ fn a_sharp_corner_is_a_stop_and_a_blunt_one_is_not() {
         let path = Path::new(shape::polyline(&[Vector3::zeros(), Vector3::x() * 0.1, end])).unwrap();
         let tempo = Tempo {
             feed: 0.1,
+            rapid: 1.0,
             acceleration: 0.5,
             sample_time: 1e-3,
             corner_angle: 5.0_f64.to_radians(),
@@ -190,6 +192,7 @@ fn speed_and_acceleration_stay_within_what_was_asked() {
         let path = any_path(&mut random);
         let tempo = Tempo {
             feed: between(&mut random, 0.01, 0.5),
+            rapid: 1.0,
             acceleration: between(&mut random, 0.05, 2.0),
             sample_time: 2e-3,
             corner_angle: between(&mut random, 0.01, PI),

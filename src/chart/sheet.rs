@@ -213,7 +213,7 @@ impl Sheet<'_> {
 
     pub(super) fn revolution(&self) -> Result<Chart, String> {
         let setup = &self.report.setup;
-        let chip = setup.chip.at(setup.tempo.feed);
+        let chip = setup.chip.at(setup.tempo.feed, None);
         let (angles, forces) = setup.cut.revolution(720, chip);
         let degrees: Vec<f64> = angles.iter().map(|angle| angle / DEG).collect();
         let columns = [0, 1, 2].map(|axis| forces.iter().map(|f| f[axis]).collect::<Vec<f64>>());

@@ -10,33 +10,42 @@ use nalgebra::Vector3;
 pub enum ChipLoad {
     /// The same feed per tooth all along [m], as the thesis has it.
     Fixed(f64),
-    /// The local speed divided by the teeth that pass in a second (flutes times revolutions) [1/s].
-    FromFeed(f64),
+    /// The local speed divided by the teeth that pass in a second.
+    FromFeed {
+        /// Number of flutes.
+        flutes: f64,
+        /// Revolutions in a second [1/s], where a program says none.
+        spindle: f64,
+    },
 }
 
 impl ChipLoad {
-    /// Feed per tooth [m] at the speed `v` [m/s].
-    pub fn at(&self, v: f64) -> f64 {
+    /// Feed per tooth [m] at the speed `v` [m/s] and the program's spindle speed [1/s], if it states one.
+    pub fn at(&self, v: f64, programmed: Option<f64>) -> f64 {
         match self {
             ChipLoad::Fixed(c) => *c,
-            ChipLoad::FromFeed(teeth_per_second) => v / teeth_per_second,
+            ChipLoad::FromFeed { flutes, spindle } => v / (flutes * programmed.unwrap_or(*spindle)),
         }
     }
 }
 
-/// Mean force on the tool [N] in the base frame, one a sample, where `pace` says the tool is.
+/// Mean force on the tool [N] in the base frame, one a sample, where `pace` says the tool is; none on rapid moves.
 ///
 /// {T} is turned with the local feed: x = feed across the tool axis, z = tool axis, y = z x x (eq. 4.11). Where the tool moves
 /// along its own axis x is undefined; the last direction holds (at the start: the first one that follows), and the report warns.
 pub fn forces(path: &Path, pace: &Pace, mean: &MeanForce, chip: &ChipLoad) -> Vec<Vector3<f64>> {
-    let axis = path.tool_axis();
-    let across = |heading: &Vector3<f64>| (heading - axis * axis.dot(heading)).try_normalize(1e-6);
-    let first = pace.heading.iter().find_map(across);
-    let mut x = first.unwrap_or_else(|| path.tool_orientation().column(0).into_owned());
+    let across = |heading: &Vector3<f64>, axis: &Vector3<f64>| {
+        (heading - axis * axis.dot(heading)).try_normalize(1e-6)
+    };
+    let samples = || pace.heading.iter().zip(&pace.arc_length);
+    let first = samples().find_map(|(heading, &s)| across(heading, &path.axis(s)));
+    let mut x = first.unwrap_or_else(|| path.orientation(&path.axis(0.0)).column(0).into_owned());
     let mut forces = Vec::with_capacity(pace.heading.len());
-    for (heading, &speed) in pace.heading.iter().zip(&pace.speed) {
-        x = across(heading).unwrap_or(x);
-        let f = mean.at(chip.at(speed));
+    for ((heading, &s), (&speed, &engaged)) in samples().zip(pace.speed.iter().zip(&pace.engaged)) {
+        let axis = path.axis(s);
+        x = across(heading, &axis).or_else(|| across(&x, &axis)).unwrap_or(x);
+        let (index, _) = path.locate(s);
+        let f = mean.at(chip.at(speed, path.moves()[index].spindle)) * engaged;
         forces.push(x * f.x + axis.cross(&x) * f.y + axis * f.z);
     }
     forces

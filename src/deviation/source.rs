@@ -3,6 +3,7 @@
 use crate::cutting::MeanForce;
 use crate::cutting::along::{self, ChipLoad};
 use crate::deviation::contour;
+use crate::math;
 use crate::motion::{Pace, Shaper, Trajectory};
 use crate::path::Path;
 use crate::robot::{Joints, Robot, compliance, forward};
@@ -64,8 +65,12 @@ pub struct Deviation {
     pub deflection: Vec<Vector3<f64>>,
     /// Actual tip in the base frame [m].
     pub actual: Vec<Vector3<f64>>,
+    /// Actual tool axis, from tip to spindle, in the base frame.
+    pub axis: Vec<Vector3<f64>>,
     /// Contour error, from the actual tip to the closest point of the desired path [m].
     pub contour_error: Vec<Vector3<f64>>,
+    /// Angle between the actual and the desired tool axis where the tool is along the path [rad].
+    pub axis_error: Vec<f64>,
 }
 
 impl Plan {
@@ -92,13 +97,18 @@ pub fn deviate(plan: &Plan, pace: &Pace, q: &[Joints], acting: Sources) -> Devia
     };
     let mut deflection = Vec::with_capacity(q.len());
     let mut actual = Vec::with_capacity(q.len());
+    let mut axis = Vec::with_capacity(q.len());
     for (q, force) in q.iter().zip(&force) {
         let frames = forward::frames(&plan.robot, q);
-        let tip = frames[5].point(&plan.robot.tool().position);
-        let displacement = compliance::deflection(&plan.robot, &frames, &tip, force);
+        let tcp = frames[5].compose(plan.robot.tool());
+        let (displacement, rotation) = compliance::deflection(&plan.robot, &frames, &tcp.position, force);
+        let shaped: Vector3<f64> = -tcp.rotation.column(2);
         deflection.push(displacement);
-        actual.push(tip + displacement);
+        actual.push(tcp.position + displacement);
+        axis.push((shaped + rotation.cross(&shaped)).normalize());
     }
     let contour_error = contour::contour_errors(&plan.path, pace, &actual);
-    Deviation { q, force, deflection, actual, contour_error }
+    let tilt = |(axis, &s): (&Vector3<f64>, &f64)| math::angle_between(axis, &plan.path.axis(s));
+    let axis_error = axis.iter().zip(&pace.arc_length).map(tilt).collect();
+    Deviation { q, force, deflection, actual, axis, contour_error, axis_error }
 }

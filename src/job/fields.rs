@@ -161,6 +161,7 @@ pub fn fields() -> Vec<Field> {
         field("path.points_mm", "Points", "mm", Table, json!([[600, -200, 100], [700, 0, 100], [600, 200, 100]]), "Straight lines through these points.").range(-20000.0, 20000.0).when("path.kind", &["polyline"]),
         field("path.text", "Points", "mm", Text, json!("x, y, z\n600, -200, 100\n700, 0, 100\n600, 200, 100\n"), "One point a line: x, y, z, separated by comma, semicolon, tab or blank; a header row may come first.").when("path.kind", &["csv"]),
         field("motion.feed_mm_s", "Feed", "mm/s", Number, json!(100), "Highest speed along the path.").range(0.001, 10000.0),
+        field("motion.rapid_mm_s", "Rapid speed", "mm/s", Number, json!(250), "Speed of a program's positioning moves, which do not cut.").range(0.001, 20000.0).when("path.kind", &["gcode", "apt"]),
         field("motion.acceleration_mm_s2", "Acceleration", "mm/s²", Number, json!(200), "Along the path, at starts and stops.").range(0.01, 1e6),
         field("motion.sample_time_s", "Sample time", "s", Number, json!(0.001), "Interpolation interval of the controller.").range(1e-5, 1.0),
         field("motion.corner_angle_deg", "Corners stop above", "deg", Number, json!(5), "A corner sharper than this is a full stop: that keeps the contour.").range(0.1, 180.0),

@@ -232,6 +232,8 @@ impl Path {
 pub struct Motion {
     /// Feed along the path.
     pub feed_mm_s: f64,
+    /// Speed of a program's rapid moves.
+    pub rapid_mm_s: f64,
     /// Acceleration along the path.
     pub acceleration_mm_s2: f64,
     /// Sample time.
@@ -246,6 +248,7 @@ impl Default for Motion {
     fn default() -> Self {
         Self {
             feed_mm_s: 100.0,
+            rapid_mm_s: 250.0,
             acceleration_mm_s2: 200.0,
             sample_time_s: 0.001,
             corner_angle_deg: 5.0,

@@ -10,7 +10,7 @@ use crate::math::Pose;
 use crate::motion::joints::StartBranch;
 use crate::motion::trajectory::Tempo;
 use crate::motion::{self, shaper};
-use crate::path::{Path, csv, shape};
+use crate::path::{Listing, Path, csv, shape};
 use crate::robot::{Link, Robot, library};
 use crate::units::{DEG, HZ, MM, N_PER_MM, N_PER_MM2, RPM};
 use nalgebra::Vector3;
@@ -25,6 +25,10 @@ pub struct Setup {
     pub robot: Robot,
     /// The desired path in the base frame.
     pub path: Path,
+    /// The workpiece in the base frame.
+    pub workpiece: Pose,
+    /// The program that the path was read from, if it was not drawn from a shape.
+    pub listing: Option<Listing>,
     /// How the path is travelled.
     pub tempo: Tempo,
     /// The shaper of the joint commands.
@@ -56,17 +60,22 @@ impl Job {
         }
         fields::check_ranges(self)?;
         let robot = self.arm()?.with_tool(frame(&self.tool_frame));
-        let path = self.desired_path()?.placed(&frame(&self.workpiece_frame));
+        let workpiece = frame(&self.workpiece_frame);
+        let path = self.desired_path()?.placed(&workpiece);
         let (shaper, mode) = self.input_shaper()?;
         let cut = self.cut()?;
         let teeth_per_second = self.cutting.spindle_rpm * RPM * f64::from(self.tool.flutes);
         let chip = match self.cutting.feed_per_tooth_mm {
             Choice::Value(c, _) => ChipLoad::Fixed(c * MM),
-            Choice::Word => ChipLoad::FromFeed(teeth_per_second),
+            Choice::Word => ChipLoad::FromFeed {
+                flutes: f64::from(self.tool.flutes),
+                spindle: self.cutting.spindle_rpm * RPM,
+            },
         };
         let motion = &self.motion;
         let tempo = Tempo {
             feed: motion.feed_mm_s * MM,
+            rapid: motion.rapid_mm_s * MM,
             acceleration: motion.acceleration_mm_s2 * MM,
             sample_time: motion.sample_time_s,
             corner_angle: motion.corner_angle_deg * DEG,
@@ -104,7 +113,22 @@ impl Job {
             ));
         }
         let sources = Sources { deflection: has(Source::Deflection), shaping: has(Source::Shaping) };
-        Ok(Setup { robot, path, tempo, shaper, mode, cut, chip, teeth_per_second, start, goal, sources })
+        let listing = None;
+        Ok(Setup {
+            robot,
+            path,
+            workpiece,
+            source,
+            tempo,
+            shaper,
+            mode,
+            cut,
+            chip,
+            teeth_per_second,
+            start,
+            goal,
+            sources,
+        })
     }
 
     fn arm(&self) -> Result<Robot, Error> {

@@ -3,9 +3,10 @@
 use crate::error::Error;
 use crate::math::Pose;
 use crate::motion::Trajectory;
+use crate::path::Path;
 use crate::robot::inverse::{self, Margin, Solution};
 use crate::robot::{Joints, Robot};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 /// Which of the up to eight solutions the motion starts on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,23 +30,23 @@ pub struct JointTrajectory {
     pub start: inverse::Branch,
 }
 
-/// Solves the inverse model along `positions` (TCP, base frame [m]) with one orientation, each sample nearest to the one before.
+/// Solves the inverse model for TCPs at `positions` [m] with the tool axes `axes` (base frame), each sample nearest to the one before.
 ///
 /// # Errors
 /// [`Error::Unreachable`] with the sample and its arc length; [`Error::Invalid`] if the start has no solution on the branch asked for.
 pub fn joint_trajectory(
     robot: &Robot,
-    orientation: &Matrix3<f64>,
+    path: &Path,
     trajectory: &Trajectory,
-    positions: &[Vector3<f64>],
+    (positions, axes): (&[Vector3<f64>], &[Vector3<f64>]),
     start: StartBranch,
 ) -> Result<JointTrajectory, Error> {
     let mut q = Vec::with_capacity(positions.len());
     let mut margin = Vec::with_capacity(positions.len());
     let mut previous: Option<Solution> = None;
     let mut first = None;
-    for (k, position) in positions.iter().enumerate() {
-        let tcp = Pose { rotation: *orientation, position: *position };
+    for (k, (position, axis)) in positions.iter().zip(axes).enumerate() {
+        let tcp = Pose { rotation: path.orientation(axis), position: *position };
         let place = |error: Error| error.at(k, trajectory.pace.arc_length[k]);
         let solution = match &previous {
             None => first_solution(robot, &tcp, start).map_err(place)?,

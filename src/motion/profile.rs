@@ -1,12 +1,15 @@
 //! Trapezoidal speed along the path (thesis section 5.2), triangular where the path is too short for the feed.
 
-/// Distance over time from rest to rest.
+/// Distance over time along one move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Profile {
     length: f64,
     acceleration: f64,
+    entry: f64,
+    exit: f64,
     peak: f64,
-    ramp: f64,
+    ramp_up: f64,
+    ramp_down: f64,
     duration: f64,
 }
 
@@ -15,13 +18,23 @@ impl Profile {
     ///
     /// All three are positive. If the length does not suffice to reach the feed, the profile is a triangle.
     pub fn new(length: f64, feed: f64, acceleration: f64) -> Self {
-        let peak = feed.min((length * acceleration).sqrt());
-        let ramp = peak / acceleration;
-        let duration = length / peak + ramp;
-        Self { length, acceleration, peak, ramp, duration }
+        Self::between(length, (0.0, 0.0), feed, acceleration)
     }
 
-    /// Time from rest to rest [s].
+    /// The same from the speed `entry` to the speed `exit` [m/s].
+    ///
+    /// Both are at most the feed, and so near to each other that the length suffices for the change.
+    pub fn between(length: f64, (entry, exit): (f64, f64), feed: f64, acceleration: f64) -> Self {
+        let top = (length * acceleration + (entry * entry + exit * exit) / 2.0).sqrt();
+        // Rounding must not put the peak below the ends.
+        let peak = feed.min(top).max(entry).max(exit);
+        let (ramp_up, ramp_down) = ((peak - entry) / acceleration, (peak - exit) / acceleration);
+        let ramps = ramp_up * (peak + entry) / 2.0 + ramp_down * (peak + exit) / 2.0;
+        let duration = ramp_up + ramp_down + (length - ramps).max(0.0) / peak;
+        Self { length, acceleration, entry, exit, peak, ramp_up, ramp_down, duration }
+    }
+
+    /// Time that it takes [s].
     pub fn duration(&self) -> f64 {
         self.duration
     }
@@ -31,19 +44,20 @@ impl Profile {
         self.peak
     }
 
-    /// Distance covered [m] and speed [m/s] at the time `t` [s]; at rest before the start and after the end.
+    /// Distance covered [m] and speed [m/s] at the time `t` [s]; the start's before it begins, the end's after it ends.
     pub fn at(&self, t: f64) -> (f64, f64) {
         let left = self.duration - t;
         if t <= 0.0 {
-            (0.0, 0.0)
+            (0.0, self.entry)
         } else if left <= 0.0 {
-            (self.length, 0.0)
-        } else if t < self.ramp {
-            (self.acceleration * t * t / 2.0, self.acceleration * t)
-        } else if left < self.ramp {
-            (self.length - self.acceleration * left * left / 2.0, self.acceleration * left)
+            (self.length, self.exit)
+        } else if t < self.ramp_up {
+            (self.entry * t + self.acceleration * t * t / 2.0, self.entry + self.acceleration * t)
+        } else if left < self.ramp_down {
+            let speed = self.exit + self.acceleration * left;
+            (self.length - self.exit * left - self.acceleration * left * left / 2.0, speed)
         } else {
-            (self.peak * (t - self.ramp / 2.0), self.peak)
+            (self.ramp_up * (self.entry + self.peak) / 2.0 + self.peak * (t - self.ramp_up), self.peak)
         }
     }
 }
@@ -78,7 +92,13 @@ mod tests {
 
     #[test]
     fn distance_is_the_integral_of_speed() {
-        let profile = Profile::new(0.3, 0.1, 0.2);
+        for ends in [(0.0, 0.0), (0.05, 0.0), (0.02, 0.1), (0.1, 0.1)] {
+            integral(Profile::between(0.3, ends, 0.1, 0.2), ends);
+        }
+    }
+
+    fn integral(profile: Profile, (entry, exit): (f64, f64)) {
+        assert_eq!((profile.at(0.0).1, profile.at(profile.duration()).1), (entry, exit));
         let steps = 100_000;
         let dt = profile.duration() / steps as f64;
         let covered: f64 = (0..steps).map(|k| profile.at((k as f64 + 0.5) * dt).1 * dt).sum();

@@ -198,6 +198,7 @@ impl Shaper {
             arc_length: self.apply(&pace.arc_length, sample_time),
             speed: self.apply(&pace.speed, sample_time),
             heading: self.apply(&pace.heading, sample_time),
+            engaged: self.apply(&pace.engaged, sample_time),
         }
     }
 }

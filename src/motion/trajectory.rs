@@ -1,14 +1,16 @@
 //! The desired motion: where along the path, and where in space, at each sample (thesis section 5.2, Figs. 5.2, 5.3).
 
 use crate::motion::Profile;
-use crate::path::{Corner, Path};
+use crate::path::{Corner, Move, MovePace, Path};
 use nalgebra::Vector3;
 
 /// How the path is travelled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tempo {
-    /// Highest speed along the path [m/s].
+    /// Highest speed of moves that state none [m/s].
     pub feed: f64,
+    /// Speed of rapid moves [m/s].
+    pub rapid: f64,
     /// Acceleration along the path [m/s^2].
     pub acceleration: f64,
     /// Sample time [s].
@@ -30,6 +32,8 @@ pub struct Pace {
     pub speed: Vec<f64>,
     /// Direction of the feed, a vector of at most unit length; it turns evenly while the tool waits in a corner.
     pub heading: Vec<Vector3<f64>>,
+    /// 1 where the tool cuts, 0 on rapid moves.
+    pub engaged: Vec<f64>,
 }
 
 /// The desired motion, sampled evenly; the last sample of the motion is the exact end of the path, samples at rest follow.
@@ -41,6 +45,8 @@ pub struct Trajectory {
     pub pace: Pace,
     /// Desired TCP position in the base frame [m].
     pub position: Vec<Vector3<f64>>,
+    /// Desired tool axis from tip to spindle in the base frame.
+    pub axis: Vec<Vector3<f64>>,
     /// Corners with a full stop.
     pub stops: Vec<Corner>,
     /// Samples up to and with the exact end of the path; the rest is settling.
@@ -50,54 +56,61 @@ pub struct Trajectory {
 impl Trajectory {
     /// The number of samples that [`Trajectory::new`] would give.
     pub fn count(path: &Path, tempo: &Tempo) -> f64 {
-        let runs = runs(path, tempo);
-        let moving: f64 = runs.iter().map(|run| run.profile.duration() + run.dwell).sum();
+        let moving: f64 = runs(path, tempo).iter().map(Run::duration).sum();
         (moving + tempo.settle) / tempo.sample_time + 2.0
     }
 
-    /// Travels the path by the trapezoidal profile, from rest to rest between the corners that are stops.
+    /// Travels the path by the trapezoidal profile, from rest to rest between the corners that are stops and the program's waits.
     pub fn new(path: &Path, tempo: &Tempo) -> Self {
         let runs = runs(path, tempo);
         let dt = tempo.sample_time;
         let mut pace = Pace::default();
-        let mut position = Vec::new();
-        let mut sample = |s: f64, speed: f64, heading: Vector3<f64>| {
+        let (mut position, mut axis) = (Vec::new(), Vec::new());
+        let mut sample = |s: f64, speed: f64, heading: Vector3<f64>, engaged: bool| {
             pace.arc_length.push(s);
             pace.speed.push(speed);
             pace.heading.push(heading);
+            pace.engaged.push(if engaged { 1.0 } else { 0.0 });
             position.push(path.point(s));
+            axis.push(path.axis(s));
         };
+        let cuts = |index: usize| path.moves()[index].pace != MovePace::Rapid;
         let mut clock = 0.0;
         let mut k = 0_usize;
         for run in &runs {
-            let stopped = clock + run.profile.duration();
-            let left = stopped + run.dwell;
-            while (k as f64) * dt < left {
-                let t = k as f64 * dt;
-                let (distance, speed) = run.profile.at(t - clock);
-                let s = run.start + distance;
-                match &run.corner {
-                    Some(corner) if t >= stopped => {
-                        let part = (t - stopped) / run.dwell;
-                        let heading = corner.before * (1.0 - part) + corner.after * part;
-                        sample(s, 0.0, heading);
-                    }
-                    // Rounding may put the arrival one sample early; at a corner the path's own tangent is the next segment's.
-                    Some(corner) if s >= corner.s => sample(s, speed, corner.before),
-                    _ => sample(s, speed, path.tangent(s)),
+            for (index, profile) in &run.profiles {
+                let end = clock + profile.duration();
+                while (k as f64) * dt < end {
+                    let (distance, speed) = profile.at(k as f64 * dt - clock);
+                    let segment = &path.moves()[*index].segment;
+                    sample(path.start(*index) + distance, speed, segment.tangent(distance), cuts(*index));
+                    k += 1;
                 }
+                clock = end;
+            }
+            let (arrived, last) = (clock, run.profiles.last().map_or(0, |(index, _)| *index));
+            let Some(Rest { corner, time }) = run.rest else { continue };
+            while (k as f64) * dt < arrived + time {
+                let part = (k as f64 * dt - arrived) / time;
+                let heading = corner.before * (1.0 - part) + corner.after * part;
+                sample(
+                    corner.s,
+                    0.0,
+                    heading,
+                    cuts(if part < 0.5 { last } else { (last + 1).min(path.moves().len() - 1) }),
+                );
                 k += 1;
             }
-            clock = left;
+            clock = arrived + time;
         }
         let moving = k + 1;
         let settling = (tempo.settle / dt).ceil() as usize;
         let length = path.length();
         for _ in 0..=settling {
-            sample(length, 0.0, path.tangent(length));
+            sample(length, 0.0, path.tangent(length), cuts(path.moves().len() - 1));
         }
-        let stops = runs.iter().filter_map(|run| run.corner).collect();
-        Self { sample_time: dt, pace, position, stops, moving }
+        let stops = runs.iter().filter_map(|run| run.rest.map(|rest| rest.corner)).collect();
+        Self { sample_time: dt, pace, position, axis, stops, moving }
     }
 
     /// The number of samples.
@@ -111,23 +124,70 @@ impl Trajectory {
     }
 }
 
-/// A stretch from rest to rest.
+/// A stretch from rest to rest: its moves with their profiles, and the rest that follows.
 struct Run {
-    start: f64,
-    profile: Profile,
-    dwell: f64,
-    corner: Option<Corner>,
+    profiles: Vec<(usize, Profile)>,
+    rest: Option<Rest>,
+}
+
+/// A stop along the path.
+#[derive(Debug, Clone, Copy)]
+struct Rest {
+    corner: Corner,
+    time: f64,
+}
+
+impl Run {
+    fn duration(&self) -> f64 {
+        let moving: f64 = self.profiles.iter().map(|(_, profile)| profile.duration()).sum();
+        moving + self.rest.map_or(0.0, |rest| rest.time)
+    }
 }
 
 fn runs(path: &Path, tempo: &Tempo) -> Vec<Run> {
     let mut runs = Vec::new();
-    let mut start = 0.0;
-    for corner in path.corners().filter(|corner| corner.angle > tempo.corner_angle) {
-        let profile = Profile::new(corner.s - start, tempo.feed, tempo.acceleration);
-        runs.push(Run { start, profile, dwell: tempo.corner_dwell, corner: Some(corner) });
-        start = corner.s;
+    let mut first = 0;
+    let mut waits = path.waits().iter().peekable();
+    // Waits before the first move are no part of the motion.
+    while waits.next_if(|wait| wait.s <= 0.0).is_some() {}
+    for (index, corner) in path.corners().enumerate() {
+        let mut asked = 0.0;
+        while let Some(wait) = waits.next_if(|wait| wait.s <= corner.s) {
+            asked += wait.time;
+        }
+        let sharp = corner.angle > tempo.corner_angle;
+        if sharp || asked > 0.0 {
+            let time = if sharp { asked.max(tempo.corner_dwell) } else { asked };
+            let profiles = profiles(path, tempo, first..index + 1);
+            runs.push(Run { profiles, rest: Some(Rest { corner, time }) });
+            first = index + 1;
+        }
     }
-    let profile = Profile::new(path.length() - start, tempo.feed, tempo.acceleration);
-    runs.push(Run { start, profile, dwell: 0.0, corner: None });
+    runs.push(Run { profiles: profiles(path, tempo, first..path.moves().len()), rest: None });
     runs
+}
+
+/// Profiles of moves that are travelled without a stop: each junction is passed as fast as both its feeds and the braking distance
+/// behind it allow.
+fn profiles(path: &Path, tempo: &Tempo, range: std::ops::Range<usize>) -> Vec<(usize, Profile)> {
+    let moves = &path.moves()[range.clone()];
+    let limit = |step: &Move| match step.pace {
+        MovePace::Rapid => tempo.rapid,
+        MovePace::Feed(feed) => feed,
+        MovePace::JobFeed => tempo.feed,
+    };
+    let reach =
+        |speed: f64, step: &Move| (speed * speed + 2.0 * tempo.acceleration * step.segment.length()).sqrt();
+    let mut speeds = vec![0.0; moves.len() + 1];
+    for i in 1..moves.len() {
+        speeds[i] = limit(&moves[i - 1]).min(limit(&moves[i])).min(reach(speeds[i - 1], &moves[i - 1]));
+    }
+    for i in (1..moves.len()).rev() {
+        speeds[i] = speeds[i].min(reach(speeds[i + 1], &moves[i]));
+    }
+    let profile = |(i, step): (usize, &Move)| {
+        let ends = (speeds[i], speeds[i + 1]);
+        (range.start + i, Profile::between(step.segment.length(), ends, limit(step), tempo.acceleration))
+    };
+    moves.iter().enumerate().map(profile).collect()
 }

@@ -1,25 +1,36 @@
 //! Where: the desired path as lines and arcs, with the tool axis along it.
 //!
-//! A [`Path`] is drawn in the workpiece frame and then [placed](Path::placed) in the base frame; its parameter is the arc length.
+//! A [`Path`] is made of shapes or of a [`program`], in the workpiece frame, and then [placed](Path::placed) in the base frame; its
+//! parameter is the arc length.
 
 pub mod segment;
 pub mod shape;
 pub mod csv;
 pub mod program;
 
+pub use program::{Listing, Move, MovePace, Program};
 pub use segment::Segment;
 
 use crate::math::{self, Pose};
 use nalgebra::{Matrix3, Vector3};
 
-/// A chain of segments with its running arc length and the tool's orientation.
+/// A chain of moves with its running arc length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Path {
-    segments: Vec<Segment>,
-    /// Arc length at the start of each segment, and at the end of the last [m].
+    moves: Vec<Move>,
+    /// Arc length at the start of each move, and at the end of the last [m].
     starts: Vec<f64>,
-    tool_axis: Vector3<f64>,
+    waits: Vec<Wait>,
     x_reference: Vector3<f64>,
+}
+
+/// A wait that a program asks for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wait {
+    /// Where [m].
+    pub s: f64,
+    /// How long [s].
+    pub time: f64,
 }
 
 /// The point of a path closest to another point.
@@ -35,42 +46,86 @@ pub struct Closest {
 const SEAM: f64 = 1e-9;
 
 impl Path {
-    /// A path of segments that follow each other, with the tool upright (axis +Z, from tip to spindle).
+    /// A path of segments that follow each other, cutting at the job's feed with the tool upright (axis +Z, from tip to spindle).
     ///
     /// Segments without length are dropped. `None` if nothing is left.
     pub fn new(segments: Vec<Segment>) -> Option<Self> {
-        let segments: Vec<Segment> = segments.into_iter().filter(|segment| segment.length() > SEAM).collect();
-        if segments.is_empty() {
-            return None;
-        }
-        let mut starts = Vec::with_capacity(segments.len() + 1);
+        let up = Vector3::z();
+        let cut = |segment| Move {
+            segment,
+            axis_from: up,
+            axis_to: up,
+            pace: MovePace::JobFeed,
+            spindle: None,
+            line: 0,
+        };
+        Self::of_program(&Program { moves: segments.into_iter().map(cut).collect(), ..Program::default() })
+    }
+
+    /// The path of a program. Moves without length are dropped; `None` if nothing is left.
+    pub fn of_program(program: &Program) -> Option<Self> {
+        let mut moves = Vec::with_capacity(program.moves.len());
+        let mut starts = Vec::with_capacity(program.moves.len() + 1);
+        let mut waits = Vec::new();
+        let mut dwells = program.dwells.iter().peekable();
         let mut s = 0.0;
-        for segment in &segments {
-            starts.push(s);
-            s += segment.length();
+        for (index, step) in program.moves.iter().enumerate() {
+            while let Some(dwell) = dwells.next_if(|dwell| dwell.after <= index) {
+                waits.push(Wait { s, time: dwell.time });
+            }
+            let length = step.segment.length();
+            if length > SEAM {
+                moves.push(*step);
+                starts.push(s);
+                s += length;
+            }
         }
         starts.push(s);
-        Some(Self { segments, starts, tool_axis: Vector3::z(), x_reference: Vector3::x() })
+        waits.extend(dwells.map(|dwell| Wait { s, time: dwell.time }));
+        (!moves.is_empty()).then_some(Self { moves, starts, waits, x_reference: Vector3::x() })
     }
 
     /// The same path seen from outside the frame it is drawn in.
     pub fn placed(&self, frame: &Pose) -> Self {
+        let place = |step: &Move| Move {
+            segment: step.segment.placed(frame),
+            axis_from: frame.direction(&step.axis_from),
+            axis_to: frame.direction(&step.axis_to),
+            ..*step
+        };
         Self {
-            segments: self.segments.iter().map(|segment| segment.placed(frame)).collect(),
-            starts: self.starts.clone(),
-            tool_axis: frame.direction(&self.tool_axis),
+            moves: self.moves.iter().map(place).collect(),
             x_reference: frame.direction(&self.x_reference),
+            ..self.clone()
         }
     }
 
-    /// The segments in order.
-    pub fn segments(&self) -> &[Segment] {
-        &self.segments
+    /// The moves in order; none is without length.
+    pub fn moves(&self) -> &[Move] {
+        &self.moves
+    }
+
+    /// Arc length at the start of the move `index` [m].
+    pub fn start(&self, index: usize) -> f64 {
+        self.starts[index]
+    }
+
+    /// The waits that the program asks for, in order.
+    pub fn waits(&self) -> &[Wait] {
+        &self.waits
     }
 
     /// Length along the path [m].
     pub fn length(&self) -> f64 {
-        self.starts[self.segments.len()]
+        self.starts[self.moves.len()]
+    }
+
+    /// Whether the tool axis changes along the path.
+    pub fn is_multi_axis(&self) -> bool {
+        let first = self.moves[0].axis_from;
+        self.moves
+            .iter()
+            .any(|step| (step.axis_from - first).norm() > 1e-9 || (step.axis_to - first).norm() > 1e-9)
     }
 
     /// Whether the path ends where it starts.
@@ -78,42 +133,50 @@ impl Path {
         (self.point(0.0) - self.point(self.length())).norm() < SEAM
     }
 
-    /// Unit vector from the tool's tip to the spindle (I, J, K).
-    pub fn tool_axis(&self) -> Vector3<f64> {
-        self.tool_axis
+    /// Unit vector from the tool's tip to the spindle (I, J, K) at the arc length `s` [m]; it turns evenly along each move.
+    pub fn axis(&self, s: f64) -> Vector3<f64> {
+        let (index, within) = self.locate(s);
+        let Move { segment, axis_from, axis_to, .. } = &self.moves[index];
+        if axis_from == axis_to {
+            return *axis_from;
+        }
+        let angle = math::angle_between(axis_from, axis_to);
+        let side = math::across(axis_from, axis_to, &self.x_reference);
+        let (sin, cos) = math::sin_cos(angle * within / segment.length());
+        axis_from * cos + side * sin
     }
 
-    /// Orientation of the TCP along the path: z = approach (against the tool axis), x = workpiece +X projected across it.
-    pub fn tool_orientation(&self) -> Matrix3<f64> {
-        let z = -self.tool_axis;
-        let x = math::across(&z, &self.x_reference, &self.tool_axis.cross(&self.x_reference));
+    /// Orientation of the TCP for a tool axis: z = approach (against the axis), x = workpiece +X projected across it.
+    pub fn orientation(&self, axis: &Vector3<f64>) -> Matrix3<f64> {
+        let z = -axis;
+        let x = math::across(&z, &self.x_reference, &axis.cross(&self.x_reference));
         Matrix3::from_columns(&[x, z.cross(&x), z])
     }
 
-    /// The segment that holds the arc length `s` [m], and the arc length within it; ends belong to the segment that starts there.
-    fn locate(&self, s: f64) -> (usize, f64) {
+    /// The move that holds the arc length `s` [m], and the arc length within it; ends belong to the move that starts there.
+    pub(crate) fn locate(&self, s: f64) -> (usize, f64) {
         let after = self.starts.partition_point(|&start| start <= s);
-        let index = after.saturating_sub(1).min(self.segments.len() - 1);
-        (index, (s - self.starts[index]).clamp(0.0, self.segments[index].length()))
+        let index = after.saturating_sub(1).min(self.moves.len() - 1);
+        (index, (s - self.starts[index]).clamp(0.0, self.moves[index].segment.length()))
     }
 
     /// The point at the arc length `s` [m], limited to the path.
     pub fn point(&self, s: f64) -> Vector3<f64> {
         let (index, within) = self.locate(s);
-        self.segments[index].point(within)
+        self.moves[index].segment.point(within)
     }
 
     /// Unit tangent at the arc length `s` [m]; at a corner that of the segment that starts there.
     pub fn tangent(&self, s: f64) -> Vector3<f64> {
         let (index, within) = self.locate(s);
-        self.segments[index].tangent(within)
+        self.moves[index].segment.tangent(within)
     }
 
     /// Arc length [m], angle [rad] and the two tangents of every junction of segments, the seam of a closed path left out.
     pub fn corners(&self) -> impl Iterator<Item = Corner> {
-        self.segments.windows(2).zip(&self.starts[1..]).map(|(pair, &s)| {
-            let before = pair[0].tangent(pair[0].length());
-            let after = pair[1].tangent(0.0);
+        self.moves.windows(2).zip(&self.starts[1..]).map(|(pair, &s)| {
+            let before = pair[0].segment.tangent(pair[0].segment.length());
+            let after = pair[1].segment.tangent(0.0);
             Corner { s, angle: math::angle_between(&before, &after), before, after }
         })
     }
@@ -127,8 +190,8 @@ impl Path {
         let mut best: Option<(f64, Closest)> = None;
         let mut search = |low: f64, high: f64, shift: f64| {
             let (mut index, _) = self.locate(low);
-            while index < self.segments.len() && self.starts[index] <= high {
-                let segment = &self.segments[index];
+            while index < self.moves.len() && self.starts[index] <= high {
+                let segment = &self.moves[index].segment;
                 let start = self.starts[index];
                 let (from, to) = ((low - start).max(0.0), (high - start).min(segment.length()));
                 let within = segment.closest(p, from.min(to), to);

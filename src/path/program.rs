@@ -22,6 +22,17 @@ pub struct Program {
     pub lines: usize,
 }
 
+/// A program with the text it was read from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Listing {
+    /// Language: `gcode`, `apt` or `csv`.
+    pub language: &'static str,
+    /// As typed.
+    pub text: String,
+    /// As understood.
+    pub program: Program,
+}
+
 /// One straight line or arc (helix).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Move {

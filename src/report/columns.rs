@@ -43,6 +43,27 @@ impl Report {
             .map(|(desired, actual)| desired - actual)
             .collect();
         columns.push(norm("tracking_error_mm", "Tracking error before (eq. 5.1)", &tracking));
+        for (axis, name) in ["i", "j", "k"].into_iter().enumerate() {
+            let values = trajectory.axis.iter().map(|v| v[axis]).collect();
+            columns.push(Column::new(format!("tool_axis_{name}"), format!("Tool axis {name}"), "", values));
+        }
+        for (axis, name) in ["i", "j", "k"].into_iter().enumerate() {
+            let values = self.compensation.axis.iter().map(|v| v[axis]).collect();
+            columns.push(Column::new(
+                format!("compensated_axis_{name}"),
+                format!("Compensated axis {name}"),
+                "",
+                values,
+            ));
+        }
+        let tilt = |key, label, errors: &[f64]| Column::new(key, label, "deg", scaled(errors, DEG));
+        columns.push(tilt("axis_error_deg", "Tool axis error before", &self.before.axis_error));
+        columns.push(tilt("after_axis_error_deg", "Tool axis error after", &self.after.axis_error));
+        columns.push(Column::new("cuts", "Cuts", "", trajectory.pace.engaged.clone()));
+        let path = &self.plan.path;
+        let lines =
+            trajectory.pace.arc_length.iter().map(|&s| path.moves()[path.locate(s).0].line as f64).collect();
+        columns.push(Column::new("program_line", "Line of the program", "", lines));
         columns
     }
 

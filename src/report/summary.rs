@@ -74,7 +74,7 @@ pub struct Summary {
 impl Report {
     /// Mean milling force in {T} [N], at the feed per tooth of the job (of the full feed, if the chip follows it).
     pub fn mean_force(&self) -> Vector3<f64> {
-        self.plan.mean_force.at(self.plan.chip.at(self.setup.tempo.feed))
+        self.plan.mean_force.at(self.plan.chip.at(self.setup.tempo.feed, None))
     }
 
     /// The figures a person reads first.

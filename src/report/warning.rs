@@ -199,9 +199,8 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
             warnings.push(Warning::new("chip-load", message));
         }
     }
-    let axis = plan.path.tool_axis();
     let slope = |k: usize| {
-        let along: f64 = trajectory.pace.heading[k].dot(&axis);
+        let along: f64 = trajectory.pace.heading[k].dot(&trajectory.axis[k]) * trajectory.pace.engaged[k];
         angle_of_sine(along.abs())
     };
     let slopes: Vec<f64> = (0..trajectory.len()).map(slope).collect();
@@ -212,7 +211,7 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
         );
         warnings.push(Warning::new("plunge", message).within(range, dt));
     }
-    let bend = plan.path.segments().iter().map(|segment| segment.curvature()).fold(0.0, f64::max);
+    let bend = plan.path.moves().iter().map(|step| step.segment.curvature()).fold(0.0, f64::max);
     let centripetal = setup.tempo.feed * setup.tempo.feed * bend;
     if centripetal > setup.tempo.acceleration {
         let message = format!(

@@ -11,20 +11,22 @@ pub fn cartesian_compliance(robot: &Robot, q: &Joints) -> Matrix6<f64> {
     j * Matrix6::from_diagonal(robot.compliance()) * j.transpose()
 }
 
-/// Displacement of the TCP [m] under the force `force` [N] on it, both in the base frame (eqs. 3.47, 4.8-4.10).
+/// Displacement [m] and rotation [rad] of the TCP under the force `force` [N] on it, all in the base frame (eqs. 3.47, 4.8-4.10).
 ///
-/// The same as the translational block of [`cartesian_compliance`] times the force, without building the matrix:
-/// joint torque tau_i = v_i . F (eq. 3.47), joint rotation c_i tau_i (eq. 3.42), displacement sum of v_i c_i tau_i (eq. 3.41).
+/// The same as the first three columns of [`cartesian_compliance`] times the force, without building the matrix:
+/// joint torque tau_i = v_i . F (eq. 3.47), joint rotation c_i tau_i (eq. 3.42), sums of v_i c_i tau_i and k_i c_i tau_i (eq. 3.41).
 pub(crate) fn deflection(
     robot: &Robot,
     frames: &[Pose; 6],
     tip: &Vector3<f64>,
     force: &Vector3<f64>,
-) -> Vector3<f64> {
-    let mut displacement = Vector3::zeros();
+) -> (Vector3<f64>, Vector3<f64>) {
+    let (mut displacement, mut rotation) = (Vector3::zeros(), Vector3::zeros());
     for (i, (k, lever)) in jacobian::levers(frames, tip).into_iter().enumerate() {
         let v = k.cross(&lever);
-        displacement += v * (robot.compliance()[i] * v.dot(force));
+        let turned = robot.compliance()[i] * v.dot(force);
+        displacement += v * turned;
+        rotation += k * turned;
     }
-    displacement
+    (displacement, rotation)
 }

@@ -90,7 +90,7 @@ pub(crate) type Pinned = (&'static str, Vec<(&'static str, Value)>, &'static str
 pub(crate) fn pinned() -> [Pinned; 4] {
     use serde_json::json;
     [
-        ("default", vec![], "0a30ea61de9736f75229574efc02fe6f"),
+        ("default", vec![], "f04be8d866e1445c8d82fd88267286da"),
         (
             "rounded rectangle, EI in Hz, chip from feed, tilted part, offset tool",
             vec![
@@ -104,7 +104,7 @@ pub(crate) fn pinned() -> [Pinned; 4] {
                 ("workpiece_frame", json!({"xyz_mm":[10,20,30],"rpy_deg":[10,-20,30]})),
                 ("tool_frame", json!({"xyz_mm":[0,50,120],"rpy_deg":[0,30,0]})),
             ],
-            "e5fc71aaa87314b49fde77dc2dd7c246",
+            "a8ab439b14ae76eb0de16847a0e3fcce",
         ),
         (
             "points, ZVDD, another branch",
@@ -113,7 +113,7 @@ pub(crate) fn pinned() -> [Pinned; 4] {
                 ("shaper", json!({"kind":"zvdd","frequency_rad_s":60,"damping":0.02})),
                 ("start_branch", json!({"shoulder":"front","elbow":"negative","wrist":"flipped"})),
             ],
-            "fc80585d69c40049f247c7a5a41bf615",
+            "f6eaf09b17fbb88369dcb67eb7f8470c",
         ),
         (
             "arc without shaper",
@@ -124,7 +124,7 @@ pub(crate) fn pinned() -> [Pinned; 4] {
                 ),
                 ("shaper", json!("none")),
             ],
-            "a81ac2018fcd71cd71e9e980bb5ea067",
+            "e4119b5c399995deba0df752da9df247",
         ),
     ]
 }
