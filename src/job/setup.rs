@@ -118,7 +118,7 @@ impl Job {
             robot,
             path,
             workpiece,
-            source,
+            listing,
             tempo,
             shaper,
             mode,
