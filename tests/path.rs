@@ -7,7 +7,7 @@ mod common;
 use armill::math::Pose;
 use armill::motion::Trajectory;
 use armill::motion::trajectory::Tempo;
-use armill::path::{Path, Segment, shape};
+use armill::path::{Move, MovePace, Path, Program, Segment, shape};
 use common::{any_vector, between};
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -212,5 +212,121 @@ fn speed_and_acceleration_stay_within_what_was_asked() {
             assert!(second.abs() <= 2.0 * tempo.acceleration * (1.0 + 1e-6) + 1e-6, "{second}");
         }
         assert_eq!(*s.last().unwrap(), path.length());
+    }
+}
+
+/// A smooth chain of lines along x with their own speeds.
+fn straight(paces: &[(f64, MovePace)]) -> Path {
+    let mut from = 0.0;
+    let moves = paces
+        .iter()
+        .map(|&(length, pace)| {
+            let point = |x: f64| Vector3::new(x, 0.0, 0.0);
+            let segment = Segment::Line { from: point(from), to: point(from + length) };
+            from += length;
+            Move { segment, axis_from: Vector3::z(), axis_to: Vector3::z(), pace, spindle: None, line: 1 }
+        })
+        .collect();
+    Path::of_program(&Program { moves, ..Program::default() }).unwrap()
+}
+
+#[test]
+fn feeds_change_without_a_stop_and_within_the_acceleration() {
+    let mut random = fastrand::Rng::with_seed(25);
+    let tempo = Tempo {
+        feed: 0.08,
+        rapid: 0.5,
+        acceleration: 0.4,
+        sample_time: 1e-3,
+        corner_angle: 0.1,
+        corner_dwell: 0.1,
+        settle: 0.0,
+    };
+    for _ in 0..50 {
+        let paces: Vec<_> = (0..8)
+            .map(|_| {
+                let pace = match random.u8(0..3) {
+                    0 => MovePace::Rapid,
+                    1 => MovePace::JobFeed,
+                    _ => MovePace::Feed(between(&mut random, 0.01, 0.3)),
+                };
+                (between(&mut random, 1e-4, 0.1), pace)
+            })
+            .collect();
+        let path = straight(&paces);
+        let trajectory = Trajectory::new(&path, &tempo);
+        assert!(trajectory.stops.is_empty());
+        let limit = |s: f64| {
+            let index = (0..8).rev().find(|&i| path.start(i) <= s).unwrap();
+            match path.moves()[index].pace {
+                MovePace::Rapid => tempo.rapid,
+                MovePace::Feed(feed) => feed,
+                MovePace::JobFeed => tempo.feed,
+            }
+        };
+        let pace = &trajectory.pace;
+        for k in 0..trajectory.len() {
+            // A sample on a junction belongs to the next move.
+            let allowed = limit(pace.arc_length[k]).max(limit((pace.arc_length[k] - 1e-9).max(0.0)));
+            assert!(pace.speed[k] <= allowed * (1.0 + 1e-9), "{} > {allowed}", pace.speed[k]);
+            if k > 0 {
+                let change = (pace.speed[k] - pace.speed[k - 1]).abs();
+                assert!(change <= tempo.acceleration * 1e-3 * (1.0 + 1e-6), "{change}");
+                let step = pace.arc_length[k] - pace.arc_length[k - 1];
+                let mean = (pace.speed[k] + pace.speed[k - 1]) / 2.0;
+                assert!(
+                    (step - mean * 1e-3).abs() < 1e-3 * tempo.acceleration * 1e-3,
+                    "distance is the integral of speed"
+                );
+            }
+            let slow = k > 5 && k + 6 < trajectory.len() && pace.speed[k] < 1e-3;
+            assert!(!slow || (1..6).any(|i| pace.speed[k + i] > pace.speed[k]), "no stop in between");
+        }
+    }
+}
+
+#[test]
+fn rapids_do_not_cut_and_waits_are_waited() {
+    let mut program = Program {
+        moves: straight(&[(0.05, MovePace::Rapid), (0.05, MovePace::JobFeed)]).moves().to_vec(),
+        ..Program::default()
+    };
+    program.dwells.push(armill::path::program::Dwell { after: 1, time: 0.3, line: 2 });
+    let path = Path::of_program(&program).unwrap();
+    let tempo = Tempo {
+        feed: 0.1,
+        rapid: 0.2,
+        acceleration: 1.0,
+        sample_time: 1e-3,
+        corner_angle: 0.1,
+        corner_dwell: 0.0,
+        settle: 0.0,
+    };
+    let trajectory = Trajectory::new(&path, &tempo);
+    let resting = (0..trajectory.len()).filter(|&k| trajectory.pace.arc_length[k] == 0.05).count();
+    assert!((299..=302).contains(&resting), "{resting} samples at rest");
+    for (s, engaged) in trajectory.pace.arc_length.iter().zip(&trajectory.pace.engaged) {
+        assert!(*s == 0.05 || *engaged == if *s < 0.05 { 0.0 } else { 1.0 });
+    }
+    // Rapid: 0.05 m at up to 0.2 m/s; then 0.05 m at 0.1 m/s; both from rest to rest with 1 m/s^2; and the wait.
+    let expected = (0.05 / 0.2 + 0.2) + 0.3 + (0.05 / 0.1 + 0.1);
+    assert!((trajectory.moving as f64 * 1e-3 - expected).abs() < 3e-3);
+}
+
+#[test]
+fn the_tool_axis_turns_evenly_along_a_move() {
+    let (from, to) = (Vector3::z(), Vector3::new(0.6, 0.0, 0.8));
+    let line = Segment::Line { from: Vector3::zeros(), to: Vector3::new(0.1, 0.0, 0.0) };
+    let step =
+        Move { segment: line, axis_from: from, axis_to: to, pace: MovePace::JobFeed, spindle: None, line: 1 };
+    let path = Path::of_program(&Program { moves: vec![step], ..Program::default() }).unwrap();
+    assert!(path.is_multi_axis());
+    let whole = 0.6_f64.asin();
+    for part in [0.0, 0.25, 0.5, 1.0] {
+        let axis = path.axis(0.1 * part);
+        assert!((axis.x - (whole * part).sin()).abs() < 1e-15 && axis.y == 0.0);
+        let orientation = path.orientation(&axis);
+        assert!((orientation.column(2) + axis).norm() < 1e-15, "TCP z is the approach");
+        assert!((orientation.determinant() - 1.0).abs() < 1e-14);
     }
 }
