@@ -116,7 +116,9 @@ export class Form {
     const wide = grouped || editor.inputs[0].tagName === "TEXTAREA" || field.kind === "text";
     const node = make("div", { className: wide ? "field wide" : "field" }, title, editor.node, reset, error, help, note);
     const row = { field, editor, node, reset, error, note, notes, mistake: false };
-    node.addEventListener("input", () => this.#edited(row));
+    // Some assistive tools and drivers choose an option with "change" alone.
+    const kind = editor.inputs[0].tagName === "SELECT" ? "change" : "input";
+    node.addEventListener(kind, () => this.#edited(row));
     reset.addEventListener("click", () => {
       this.#setError(row, "");
       this.#job.reset(field);

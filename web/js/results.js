@@ -31,7 +31,6 @@ export function showSummary(summary) {
   byId("branch").textContent = summary.branch;
   byId("fingerprint").textContent = summary.fingerprint;
   showWarnings(summary.warnings);
-  showThesis(summary.thesis);
 }
 
 function showTolerance({ converged, tolerance_mm, after_mm }) {
@@ -67,11 +66,12 @@ function warningItem({ code, message, from_s, to_s }) {
   return item;
 }
 
-function showThesis(rows = []) {
-  const cells = rows.map(({ quantity, source, printed, ours, reason }) =>
-    make("tr", { className: reason ? "differs" : "" },
+/** The table "Thesis, recomputed". */
+export function showThesis(rows) {
+  const cells = rows.map(({ quantity, source, printed, ours, agrees, reason }) =>
+    make("tr", { className: agrees ? "" : "differs" },
       make("th", { scope: "row" }, quantity), make("td", {}, source), make("td", { className: "digits" }, printed),
-      make("td", { className: "digits" }, ours), make("td", {}, reason || "They agree.")),
+      make("td", { className: "digits" }, ours), make("td", {}, `${agrees ? "Agrees." : "Differs."} ${reason}`)),
   );
   byId("thesis").tBodies[0].replaceChildren(...cells);
 }
