@@ -226,8 +226,9 @@ function asText(field) {
 
 function helpText(field) {
   const { min, max, kind } = field;
+  const boundless = min <= -1e6 && max >= 1e6; // only there to keep arithmetic finite
   const range =
-    min != null && max != null ? `${plainNumber(min)} to ${plainNumber(max)}` : min != null ? `At least ${plainNumber(min)}` : max != null ? `At most ${plainNumber(max)}` : "";
+    boundless ? "" : min != null && max != null ? `${plainNumber(min)} to ${plainNumber(max)}` : min != null ? `At least ${plainNumber(min)}` : max != null ? `At most ${plainNumber(max)}` : "";
   const standard = typeof field.default === "number" || kind === "vector" ? `default ${Array.isArray(field.default) ? field.default.join(", ") : plainNumber(field.default)}` : "";
   const hint = [range, standard].filter(Boolean).join(", ");
   return [field.help, hint && `${hint[0].toUpperCase()}${hint.slice(1)}.`].filter(Boolean).join(" ");
