@@ -1,14 +1,415 @@
-//! The built page in a real browser. `cargo xtask test` builds and serves the page, starts the driver and runs these.
+//! The built page in a real browser, used as a person would. `cargo xtask test` builds and serves the page, starts the driver
+//! and runs these. Numbers on the page are compared with native runs of the same job, bit for bit.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 #[path = "page/browser.rs"]
 pub mod browser;
+mod common;
 
-use browser::{DESKTOP, Result, visit};
+use armill::Report;
+use armill::report::Statistics;
+use browser::{DESKTOP, Key, PHONE, Page, Result, visit};
+use common::{column, run};
+use serde_json::{Value, json};
+
+/// Waits until the page shows the result of what stands in its inputs.
+async fn current(page: &Page) -> Result {
+    page.wait_for("document.querySelector('#results').dataset.state === 'current'", 60.0).await
+}
+
+/// Waits until the page says that its result is an older one.
+async fn stale(page: &Page) -> Result {
+    page.wait_for("document.querySelector('#results').dataset.state === 'stale'", 60.0).await
+}
+
+/// A number of the page in full precision.
+async fn number(page: &Page, id: &str) -> Result<f64> {
+    let value = page.js(&format!("return document.getElementById('{id}').dataset.value")).await?;
+    Ok(value.as_str().ok_or(format!("#{id} shows no number"))?.parse()?)
+}
+
+async fn text(page: &Page, id: &str) -> Result<String> {
+    let value = page.js(&format!("return document.getElementById('{id}').textContent")).await?;
+    Ok(value.as_str().unwrap_or_default().to_owned())
+}
+
+/// Opens the group of inputs `name`.
+async fn unfold(page: &Page, name: &str) -> Result {
+    page.js(&format!("document.getElementById('group-{name}').open = true")).await.map(|_| ())
+}
+
+/// Every figure of the page equals the native report's, to the last bit.
+async fn shows(page: &Page, report: &Report) -> Result {
+    current(page).await?;
+    let summary = report.summary();
+    let pairs: [(&str, Statistics); 5] = [
+        ("before", summary.before_mm.both),
+        ("after", summary.after_mm),
+        ("deflection", summary.before_mm.deflection),
+        ("shaping", summary.before_mm.shaping),
+        ("compensated", summary.after_mm),
+    ];
+    for (id, statistics) in pairs {
+        assert_eq!(
+            number(page, &format!("{id}-mean")).await?.to_bits(),
+            statistics.mean.to_bits(),
+            "#{id}-mean"
+        );
+        assert_eq!(
+            number(page, &format!("{id}-max")).await?.to_bits(),
+            statistics.max.to_bits(),
+            "#{id}-max"
+        );
+    }
+    assert_eq!(number(page, "passes").await? as usize, summary.passes);
+    assert_eq!(number(page, "samples").await? as usize, summary.samples);
+    assert_eq!(text(page, "verdict").await?, summary.verdict);
+    assert_eq!(text(page, "fingerprint").await?, summary.fingerprint);
+    Ok(())
+}
 
 #[test]
-fn the_page_opens() -> Result {
+fn opens_with_the_thesis_case_and_follows_the_inputs() -> Result {
     visit("/", DESKTOP, async |page| {
-        assert!(page.js("return document.title").await?.as_str().is_some_and(|title| !title.is_empty()));
+        shows(page, &run(&[])).await?;
+        let listed = page
+            .js("return [...document.querySelectorAll('#warnings-list li')].map(li => li.dataset.code)")
+            .await?;
+        let codes: Vec<&str> = run(&[]).warnings.iter().map(|warning| warning.code).collect();
+        assert_eq!(listed, json!(codes));
+
+        // Feed: a decimal comma counts. Every figure follows, the mean force does not.
+        page.type_into("#motion-feed_mm_s", "80,5").await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(80.5))])).await?;
+        page.type_into("#motion-feed_mm_s", "1e2").await?;
+        shows(page, &run(&[])).await?;
+
+        unfold(page, "material").await?;
+        page.choose("#material-preset", "al-7075-t6").await?;
+        let aluminium = ("material", json!({"preset": "al-7075-t6"}));
+        let report = run(std::slice::from_ref(&aluminium));
+        shows(page, &report).await?;
+        // The page adds up the parts itself: the last bit may differ.
+        assert!((number(page, "force").await? - report.mean_force().norm()).abs() < 1e-9);
+        assert_eq!(
+            number(page, "shaping-max").await?,
+            run(&[]).summary().before_mm.shaping.max,
+            "the shaper is as it was"
+        );
+
+        unfold(page, "shaper").await?;
+        page.choose("#shaper-kind", "none").await?;
+        shows(page, &run(&[aluminium.clone(), ("shaper", json!("none"))])).await?;
+        page.choose("#shaper-kind", "zv").await?;
+        let zv = json!({"kind": "zv", "frequency_rad_s": 18, "damping": 0.1});
+        shows(page, &run(&[aluminium, ("shaper", zv)])).await?;
+
+        page.click("#reset").await?;
+        shows(page, &run(&[])).await
+    })
+}
+
+#[test]
+fn invalid_input_is_answered_beside_the_field_and_the_last_result_stays() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        let error = async |id: &str| text(page, &format!("{id}-error")).await;
+        let marked = async |id: &str| {
+            page.js(&format!(
+                "return document.getElementById('{id}').getAttribute('aria-invalid') === 'true'"
+            ))
+            .await
+        };
+        for (typed, told) in
+            [("-5", "legal is 0.001 to 10000 mm/s"), ("fast", "not a number"), ("", "needed")]
+        {
+            page.type_into("#motion-feed_mm_s", typed).await?;
+            stale(page).await?;
+            assert!(
+                error("motion-feed_mm_s").await?.contains(told),
+                "{typed}: {}",
+                error("motion-feed_mm_s").await?
+            );
+            assert_eq!(marked("motion-feed_mm_s").await?, true);
+            assert_eq!(
+                number(page, "before-max").await?,
+                run(&[]).summary().before_mm.both.max,
+                "the last result stays"
+            );
+            assert!(text(page, "status").await?.contains("last valid result"));
+            assert_eq!(page.value("#motion-feed_mm_s").await?, typed, "nothing that was typed is lost");
+        }
+        page.type_into("#motion-feed_mm_s", "100").await?;
+        shows(page, &run(&[])).await?;
+        assert_eq!(marked("motion-feed_mm_s").await?, false);
+        assert_eq!(error("motion-feed_mm_s").await?, "");
+
+        // What only the core can know: the tooth would leave before it enters.
+        unfold(page, "cutting").await?;
+        page.type_into("#cutting-exit_deg", "45").await?;
+        stale(page).await?;
+        assert!(error("cutting-exit_deg").await?.contains("more than entry_deg = 90"));
+        page.type_into("#cutting-exit_deg", "180").await?;
+        shows(page, &run(&[])).await?;
+
+        // A component of a vector.
+        page.type_into("#path-center_mm-y", "1e9").await?;
+        stale(page).await?;
+        assert_eq!(marked("path-center_mm-y").await?, true);
+        assert_eq!(marked("path-center_mm-x").await?, false);
+        Ok(())
+    })
+}
+
+#[test]
+fn an_unreachable_path_says_where() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        page.type_into("#path-radius_mm", "1500").await?;
+        stale(page).await?;
+        let alert = text(page, "alert").await?;
+        let error = common::refused(&[("path.radius_mm", json!(1500))]).to_string();
+        for part in ["sample 0", "from the shoulder", "the arm reaches 200.0 to 1100.0 mm"] {
+            assert!(error.contains(part) && alert.contains(part), "{alert}");
+        }
+        assert_eq!(
+            number(page, "before-max").await?,
+            run(&[]).summary().before_mm.both.max,
+            "the last result stays"
+        );
+        page.type_into("#path-radius_mm", "250").await?;
+        shows(page, &run(&[("path.radius_mm", json!(250))])).await?;
+        assert_eq!(text(page, "alert").await?, "");
+        Ok(())
+    })
+}
+
+#[test]
+fn every_kind_of_path_is_entered() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        let line = json!({"kind":"line","from_mm":[600,-200,100],"to_mm":[600,200,100]});
+        page.choose("#path-kind", "line").await?;
+        shows(page, &run(&[("path", line)])).await?;
+        page.choose("#path-kind", "rectangle").await?;
+        page.type_into("#path-corner_radius_mm", "25").await?;
+        // The circle's centre is kept.
+        let center = page
+            .js("return ['x','y','z'].map(a => Number(document.getElementById(`path-center_mm-${a}`).value))")
+            .await?;
+        let rectangle = json!({"kind":"rectangle","center_mm":center,"width_mm":300,"height_mm":200,"corner_radius_mm":25});
+        shows(page, &run(&[("path", rectangle)])).await?;
+        page.choose("#path-kind", "csv").await?;
+        page.type_into("#path-text", "x;y;z\n600;-100;100\n650;0;110\n600;100;100").await?;
+        let rows = json!({"kind":"csv","text":"x;y;z\n600;-100;100\n650;0;110\n600;100;100"});
+        shows(page, &run(&[("path", rows)])).await?;
+        page.type_into("#path-text", "600,-100,100\n650,zero,110").await?;
+        stale(page).await?;
+        let error = text(page, "path-text-error").await?;
+        assert!(error.to_lowercase().contains("line 2, column 5") && error.contains("zero"), "{error}");
+        assert!(page.value("#path-text").await?.contains("zero"), "nothing that was typed is lost");
+        page.choose("#path-kind", "circle").await?;
+        shows(page, &run(&[])).await
+    })
+}
+
+#[test]
+fn a_trap_is_survived() -> Result {
+    visit("/", DESKTOP, async |page| {
+        page.expect_error("internal error");
+        page.expect_error("asked for");
+        current(page).await?;
+        page.type_into("#motion-feed_mm_s", "120").await?;
+        let job = ("motion.feed_mm_s", json!(120));
+        shows(page, &run(std::slice::from_ref(&job))).await?;
+        page.js("return import('./js/core.js').then(core => core.trap())").await?;
+        page.wait_for("document.querySelector('#alert').textContent.includes('started again')", 20.0).await?;
+        // The job is kept and computed anew; the next change works as before.
+        assert_eq!(page.value("#motion-feed_mm_s").await?, "120");
+        shows(page, &run(&[job])).await?;
+        page.type_into("#motion-feed_mm_s", "90").await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(90))])).await
+    })
+}
+
+#[test]
+fn downloads_hold_the_columns() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        let report = run(&[]);
+        page.click("#download-columns").await?;
+        let columns = page.downloaded("armill-columns.csv").await?;
+        let mut rows = columns.lines();
+        let keys: Vec<&str> = rows.next().unwrap().split(',').collect();
+        let native = report.columns();
+        assert_eq!(keys, native.iter().map(|column| column.key.as_str()).collect::<Vec<_>>());
+        for (k, row) in rows.enumerate() {
+            for (cell, column) in row.split(',').zip(&native) {
+                assert_eq!(
+                    cell.parse::<f64>()?.to_bits(),
+                    column.values[k].to_bits(),
+                    "{} of sample {k}",
+                    column.key
+                );
+            }
+        }
+        page.click("#download-compensated").await?;
+        let path = page.downloaded("armill-compensated-path.csv").await?;
+        let x = column(&report, "compensated_x_mm");
+        assert_eq!(path.lines().count(), report.samples() + 1);
+        for (row, x) in path.lines().skip(1).zip(x) {
+            assert_eq!(row.split(',').nth(1).unwrap().parse::<f64>()?.to_bits(), x.to_bits());
+        }
+        page.click("#download-job").await?;
+        let job = armill::Job::from_json(&page.downloaded("armill-job.json").await?)?;
+        assert_eq!(armill::run(&job)?.fingerprint(), report.fingerprint());
+        Ok(())
+    })
+}
+
+#[test]
+fn every_view_draws_its_charts() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        for view in ["overview", "path", "forces", "deflection", "error", "joints", "shaper"] {
+            page.click(&format!("#tab-{view}")).await?;
+            let names: Vec<&str> = armill::chart::CATALOG
+                .iter()
+                .filter(|entry| entry.view == view)
+                .map(|entry| entry.name)
+                .collect();
+            assert!(!names.is_empty());
+            for name in names {
+                let drawn = format!(
+                    "document.querySelector('#panel-{view} #chart-{name} svg.plot .series, #panel-{view} #chart-{name} svg .series')"
+                );
+                page.wait_for(&drawn, 30.0).await?;
+                let caption = page
+                    .js(&format!("return document.querySelector('#chart-{name} figcaption').textContent"))
+                    .await?;
+                assert!(
+                    caption.as_str().is_some_and(|caption| caption.len() > 10),
+                    "{name} says what it shows"
+                );
+            }
+        }
+        page.click("#tab-thesis").await?;
+        page.wait_for("document.querySelectorAll('#thesis tbody tr').length >= 10", 30.0).await?;
+        let rows = armill::report::thesis::rows(&run(&[]))?;
+        let shown = page
+            .js("return [...document.querySelectorAll('#thesis tbody tr')].map(tr => [...tr.cells].slice(0, 4).map(td => td.textContent))")
+            .await?;
+        let native: Vec<Value> =
+            rows.iter().map(|row| json!([row.quantity, row.source, row.printed, row.ours])).collect();
+        assert_eq!(shown, json!(native));
+        Ok(())
+    })
+}
+
+#[test]
+fn by_keyboard_alone() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        let focus = async || {
+            let id = page.js("return document.activeElement.id || document.activeElement.className").await?;
+            Ok::<String, Box<dyn std::error::Error>>(id.as_str().unwrap_or_default().to_owned())
+        };
+        let tab_to = async |id: &str| -> Result {
+            for _ in 0..120 {
+                if focus().await? == id {
+                    return Ok(());
+                }
+                page.press(char::from(Key::Tab)).await?;
+            }
+            Err(format!("#{id} is not reached by Tab").into())
+        };
+        tab_to("motion-feed_mm_s").await?;
+        // Tabbing into a field selects it.
+        page.press("70").await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(70))])).await?;
+        page.js("document.activeElement.blur(); window.scrollTo(0, 0)").await?;
+        tab_to("tab-overview").await?;
+        page.press(char::from(Key::Right)).await?;
+        assert_eq!(focus().await?, "tab-path");
+        page.wait_for(
+            "!document.querySelector('#panel-path').hidden && document.querySelector('#chart-path svg')",
+            20.0,
+        )
+        .await?;
+        page.press(char::from(Key::End)).await?;
+        assert_eq!(focus().await?, "tab-thesis");
+        page.js("document.activeElement.blur(); document.querySelector('.skip').focus()").await?;
+        tab_to("download-compensated").await?;
+        page.press(char::from(Key::Enter)).await?;
+        assert!(page.downloaded("armill-compensated-path.csv").await?.starts_with("time_s,"));
+        Ok(())
+    })
+}
+
+#[test]
+fn a_long_run_shows_progress_and_can_be_cancelled() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        // Some 800 000 samples: long enough to watch on any machine.
+        page.type_into("#motion-sample_time_s", "2.5e-5").await?;
+        page.wait_for("document.querySelector('#results').classList.contains('slow')", 20.0).await?;
+        page.wait_for("document.querySelector('#progress').value > 0", 60.0).await?;
+        // The page answers meanwhile: a tab is changed and its charts of the last result are drawn.
+        page.click("#tab-shaper").await?;
+        page.wait_for("document.querySelector('#chart-shaper-step svg')", 30.0).await?;
+        assert_eq!(
+            page.js("return document.querySelector('#results').dataset.state").await?,
+            "computing",
+            "it still runs"
+        );
+        page.click("#cancel").await?;
+        stale(page).await?;
+        assert!(text(page, "status").await?.contains("Cancelled"));
+        assert_eq!(number(page, "samples").await? as usize, run(&[]).samples(), "the last result stays");
+        page.type_into("#motion-sample_time_s", "0.002").await?;
+        shows(page, &run(&[("motion.sample_time_s", json!(0.002))])).await
+    })
+}
+
+#[test]
+fn fits_a_phone_and_the_dark() -> Result {
+    visit("/", PHONE, async |page| {
+        current(page).await?;
+        for view in ["overview", "path", "error", "thesis"] {
+            page.js(&format!("document.getElementById('tab-{view}').click()")).await?;
+            let wider = page
+                .js("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
+                .await?;
+            assert_eq!(wider, 0, "no sideways scrolling in {view}");
+        }
+        // The verdict comes first, the inputs fold.
+        let order = page
+            .js("const top = id => document.getElementById(id).getBoundingClientRect().top; return [top('verdict'), top('inputs'), top('views')]")
+            .await?;
+        let order: Vec<f64> = serde_json::from_value(order)?;
+        assert!(order[0] < order[1] && order[1] < order[2], "{order:?}");
+        let visible = "return document.getElementById('inputs-body').checkVisibility()";
+        assert_eq!(page.js(visible).await?, false);
+        page.click("#inputs-toggle").await?;
+        assert_eq!(page.js(visible).await?, true);
+        let background = "return getComputedStyle(document.body).backgroundColor";
+        let light = page.js(background).await?;
+        page.prefer_dark(true).await?;
+        assert_ne!(page.js(background).await?, light);
+        Ok(())
+    })
+}
+
+#[test]
+fn nothing_moves_when_results_arrive() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        page.js("window.shift = 0; new PerformanceObserver(list => { for (const e of list.getEntries()) window.shift += e.value; }).observe({ type: 'layout-shift', buffered: true })").await?;
+        page.wait_for("document.querySelector('#chart-before-after svg')", 20.0).await?;
+        page.js("return new Promise(done => setTimeout(done, 300))").await?;
+        let shift = page.js("return window.shift").await?.as_f64().unwrap();
+        // 0.1 is what browsers call good.
+        assert!(shift < 0.1, "layout shift {shift}");
         Ok(())
     })
 }

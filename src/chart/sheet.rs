@@ -236,7 +236,7 @@ impl Sheet<'_> {
         series.push(Series {
             key: "resultant",
             label: "resultant",
-            class: "both",
+            class: "s4",
             x: &degrees,
             y: &resultant,
             markers: false,

@@ -92,13 +92,14 @@ impl Report {
     }
 }
 
-/// A length [m] in mm with three significant digits, as read.
+/// A length [m] in mm as read: three significant digits, but no finer than a tenth of a micrometre, which no machine knows.
 fn millimetres(length: f64) -> String {
     let mm = length / MM;
-    if mm == 0.0 {
-        return "0".into();
+    if mm > 0.0 && mm < 5e-5 {
+        return "less than 0.0001".into();
     }
-    let digits = (2.0 - crate::math::log10(mm.abs()).floor()).clamp(0.0, 9.0) as usize;
+    let magnitude = if mm == 0.0 { 0.0 } else { crate::math::log10(mm.abs()).floor() };
+    let digits = (2.0 - magnitude).clamp(0.0, 4.0) as usize;
     let text = format!("{mm:.digits$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
@@ -121,6 +122,8 @@ mod tests {
             (0.0, "0"),
             (0.1234, "123"),
             (1.0e-4, "0.1"),
+            (7.88e-7, "0.0008"),
+            (1e-9, "less than 0.0001"),
         ] {
             assert_eq!(millimetres(m), text);
         }

@@ -217,8 +217,8 @@ impl Page {
     pub async fn downloaded(&self, file: &str) -> Result<String> {
         let path = self.downloads.join(file);
         let start = Instant::now();
-        // The browser writes under another name until the file is complete.
-        while !path.exists() {
+        // The browser writes under another name; the file's own may stand there empty until it is complete.
+        while fs::metadata(&path).map_or(0, |file| file.len()) == 0 {
             if start.elapsed() > DOWNLOAD {
                 let present: Vec<_> =
                     fs::read_dir(&self.downloads)?.flatten().map(|entry| entry.file_name()).collect();

@@ -4,9 +4,8 @@ import * as core from "./core.js";
 import { debounced, make } from "./dom.js";
 
 const SVG = "http://www.w3.org/2000/svg";
-const SPATIAL = new Set(["path"]);
 
-let available = []; // { name, title, view, figure } of the shown result
+let available = []; // { name, title, view, figure, kind } of the shown result
 let panel = null;
 let turn = 0; // drawing that is no longer the latest one stops
 const figures = new Map(); // chart name -> Figure
@@ -67,9 +66,9 @@ class Figure {
   #chart;
   #lines = [];
 
-  constructor({ name, title, figure, view }) {
+  constructor({ name, title, figure, kind }) {
     this.name = name;
-    this.spatial = SPATIAL.has(view) && !/time|coordinate/i.test(name);
+    this.spatial = kind === "space";
     this.#title = make("h3", {}, title);
     const source = make("span", { className: "source" }, figure ? `Thesis fig. ${figure}` : "");
     this.node = make("figure", { className: "chart-figure", id: `chart-${name}` },

@@ -38,6 +38,9 @@ export function cancel() {
 /** Resolves if `json` is a valid job, else rejects with the error. */
 export const check = (json) => (spare ??= spawn()).ask("check", json);
 
+/** The thesis's printed figures beside ours; they are the default job's, whatever is shown. */
+export const thesis = () => (spare ??= spawn()).ask("thesis");
+
 /** One chart of the shown result, drawn at `options.width` pixels. */
 export const chart = (name, options) => askShown("chart", name, options);
 

@@ -13,6 +13,9 @@ export class Mistake extends Error {
   }
 }
 
+/** The order in which tables of the field print a row. */
+const DH_ORDER = ["alpha_deg", "a_mm", "d_mm", "theta_offset_deg"];
+
 export const idOf = (path) => path.replaceAll(".", "-");
 
 export function editorFor(field) {
@@ -115,7 +118,7 @@ function vector(field) {
 function table(field) {
   const id = idOf(field.path);
   const sample = field.default[0];
-  const columns = typeof sample !== "object" ? [null] : Object.keys(sample);
+  const columns = typeof sample !== "object" ? [null] : Object.keys(sample).sort((a, b) => DH_ORDER.indexOf(a) - DH_ORDER.indexOf(b));
   const heads = columns[0] === null ? [""] : columns.length === 2 ? ["lowest", "highest"] : columns.map(heading);
   const rowName = (row) => (field.path.startsWith("robot.") ? `J${row + 1}` : `${row + 1}`);
   const cells = field.default.map((_, row) =>

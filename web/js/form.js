@@ -116,7 +116,9 @@ export class Form {
     const wide = grouped || editor.inputs[0].tagName === "TEXTAREA" || field.kind === "text";
     const node = make("div", { className: wide ? "field wide" : "field" }, title, editor.node, reset, error, help, note);
     const row = { field, editor, node, reset, error, note, notes, mistake: false };
-    node.addEventListener("input", () => this.#edited(row));
+    // Some assistive tools and drivers choose an option with "change" alone.
+    const kind = editor.inputs[0].tagName === "SELECT" ? "change" : "input";
+    node.addEventListener(kind, () => this.#edited(row));
     reset.addEventListener("click", () => {
       this.#setError(row, "");
       this.#job.reset(field);
@@ -224,8 +226,9 @@ function asText(field) {
 
 function helpText(field) {
   const { min, max, kind } = field;
+  const boundless = min <= -1e6 && max >= 1e6; // only there to keep arithmetic finite
   const range =
-    min != null && max != null ? `${plainNumber(min)} to ${plainNumber(max)}` : min != null ? `At least ${plainNumber(min)}` : max != null ? `At most ${plainNumber(max)}` : "";
+    boundless ? "" : min != null && max != null ? `${plainNumber(min)} to ${plainNumber(max)}` : min != null ? `At least ${plainNumber(min)}` : max != null ? `At most ${plainNumber(max)}` : "";
   const standard = typeof field.default === "number" || kind === "vector" ? `default ${Array.isArray(field.default) ? field.default.join(", ") : plainNumber(field.default)}` : "";
   const hint = [range, standard].filter(Boolean).join(", ");
   return [field.help, hint && `${hint[0].toUpperCase()}${hint.slice(1)}.`].filter(Boolean).join(" ");

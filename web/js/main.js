@@ -7,7 +7,7 @@ import { download } from "./download.js";
 import { Form } from "./form.js";
 import { Job } from "./job.js";
 import { formatNumber } from "./number.js";
-import { showSummary } from "./results.js";
+import { showSummary, showThesis } from "./results.js";
 import { makeTabs } from "./tabs.js";
 
 const TYPING_MS = 150; // results follow this long after the last key
@@ -19,12 +19,16 @@ let form;
 let standard; // the default job
 let hasResult = false;
 let slow; // timer that shows the progress
+let typing = false; // there are edits that no run has been started for yet
 
 const state = (name) => (results.dataset.state = name);
 const say = (text) => (byId("status").textContent = text);
 const lastValid = () => (hasResult ? " Showing the last valid result." : "");
 
-const compute = debounced(() => form.flawed || core.run(job.json), TYPING_MS);
+const compute = debounced(() => {
+  typing = false;
+  if (!form.flawed) core.run(job.json);
+}, TYPING_MS);
 
 /** After every edit: compute, or say what is wrong and keep the last result. */
 function edited() {
@@ -35,6 +39,7 @@ function edited() {
   }
   form.clearErrors();
   state("computing");
+  typing = true;
   compute();
 }
 
@@ -78,6 +83,7 @@ const events = {
     setCharts(charts);
     for (const id of ["download-compensated", "download-columns"]) byId(id).disabled = false;
     if (form.flawed) return stale();
+    if (typing) return; // shown, but of an earlier edit
     state("current");
     say(`${formatNumber(summary.samples, 1)} samples in ${formatNumber(took / 1000, 2)} s`);
   },
@@ -145,6 +151,16 @@ async function save(format, name) {
   }
 }
 
+/** Fills the panel "Thesis, recomputed" when it is first looked at: its rows stay the same. */
+async function recomputeThesis() {
+  if (byId("thesis").tBodies[0].rows.length) return;
+  try {
+    showThesis(await core.thesis());
+  } catch {
+    // The Worker was taken away for a newer run; the next look asks again.
+  }
+}
+
 function wire() {
   byId("cancel").addEventListener("click", () => core.cancel());
   byId("reset").addEventListener("click", () => load(standard));
@@ -155,7 +171,10 @@ function wire() {
   byId("download-compensated").addEventListener("click", () => save("compensated-csv", "armill-compensated-path.csv"));
   byId("inputs-toggle").addEventListener("click", () => foldInputs(byId("inputs").classList.contains("open")));
   byId("form").addEventListener("submit", (event) => event.preventDefault());
-  const tabs = makeTabs(document.querySelector("[role=tablist]"), showPanel);
+  const tabs = makeTabs(document.querySelector("[role=tablist]"), (panel) => {
+    showPanel(panel);
+    if (panel.id === "panel-thesis") recomputeThesis();
+  });
   showPanel(tabs.current());
 }
 

@@ -22,6 +22,13 @@ export function formatNumber(value, digits = 3) {
   return minus(group(text));
 }
 
+/** A length in mm: three digits, but no finer than a tenth of a micrometre, which no machine knows. */
+export function formatLength(mm) {
+  const size = Math.abs(mm);
+  if (size > 0 && size < 5e-5) return "<0.0001";
+  return size > 0 && size < 0.01 ? minus(String(Number(mm.toFixed(4)))) : formatNumber(mm);
+}
+
 /** `value` as an input field shows it: all its digits, nothing added. */
 export function plainNumber(value) {
   if (typeof value !== "number" || !Number.isFinite(value)) return "";

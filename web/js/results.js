@@ -1,24 +1,24 @@
 // Writes a summary into the page: verdict, large numbers, warnings, tables.
 
 import { byId, make, sentence } from "./dom.js";
-import { formatNumber, plainNumber } from "./number.js";
+import { formatLength, formatNumber, plainNumber } from "./number.js";
 
 /** Puts a number on the page: rounded to read, in full in `data-value`. */
-function put(id, value, digits = 3) {
+function put(id, value, format = formatNumber) {
   const element = byId(id);
-  element.textContent = formatNumber(value, digits);
+  element.textContent = format(value);
   element.dataset.value = String(value);
 }
 
 export function showSummary(summary) {
   const { before_mm: before, after_mm: after } = summary;
   byId("verdict").textContent = summary.verdict;
-  put("before-mean", before.both.mean);
-  put("before-max", before.both.max);
-  put("after-mean", after.mean);
-  put("after-max", after.max);
+  put("before-mean", before.both.mean, formatLength);
+  put("before-max", before.both.max, formatLength);
+  put("after-mean", after.mean, formatLength);
+  put("after-max", after.max, formatLength);
   put("passes", summary.passes);
-  put("force", Math.hypot(...summary.mean_force_n), 4);
+  put("force", Math.hypot(...summary.mean_force_n), (force) => formatNumber(force, 4));
   put("duration", summary.duration_s);
   byId("force-parts").textContent = summary.mean_force_n.map((part) => formatNumber(part, 4)).join(", ");
   byId("force-parts").title = "x, y, z in the tool frame";
@@ -27,11 +27,10 @@ export function showSummary(summary) {
   showErrors(before, after);
   byId("fact-tolerance").textContent = plainNumber(summary.tolerance_mm);
   put("samples", summary.samples);
-  byId("history").textContent = summary.history_max_mm.map((value) => formatNumber(value)).join(" → ");
+  byId("history").textContent = summary.history_max_mm.map(formatLength).join(" → ");
   byId("branch").textContent = summary.branch;
   byId("fingerprint").textContent = summary.fingerprint;
   showWarnings(summary.warnings);
-  showThesis(summary.thesis);
 }
 
 function showTolerance({ converged, tolerance_mm, after_mm }) {
@@ -45,8 +44,8 @@ function showTolerance({ converged, tolerance_mm, after_mm }) {
 function showErrors(before, after) {
   const rows = { deflection: before.deflection, shaping: before.shaping, both: before.both, compensated: after };
   for (const [name, { mean, max }] of Object.entries(rows)) {
-    put(`${name}-mean`, mean);
-    put(`${name}-max`, max);
+    put(`${name}-mean`, mean, formatLength);
+    put(`${name}-max`, max, formatLength);
   }
 }
 
@@ -67,11 +66,12 @@ function warningItem({ code, message, from_s, to_s }) {
   return item;
 }
 
-function showThesis(rows = []) {
-  const cells = rows.map(({ quantity, source, printed, ours, reason }) =>
-    make("tr", { className: reason ? "differs" : "" },
+/** The table "Thesis, recomputed". */
+export function showThesis(rows) {
+  const cells = rows.map(({ quantity, source, printed, ours, agrees, reason }) =>
+    make("tr", { className: agrees ? "" : "differs" },
       make("th", { scope: "row" }, quantity), make("td", {}, source), make("td", { className: "digits" }, printed),
-      make("td", { className: "digits" }, ours), make("td", {}, reason || "They agree.")),
+      make("td", { className: "digits" }, ours), make("td", {}, `${agrees ? "Agrees." : "Differs."} ${reason}`)),
   );
   byId("thesis").tBodies[0].replaceChildren(...cells);
 }

@@ -31,6 +31,7 @@ const answers = {
   chart: (name, options) => run.chart(name, options),
   export: (format) => run.export(format),
   release,
+  thesis: () => armill.thesis_recomputed(),
   trap: () => armill.trap(),
 };
 
