@@ -5,6 +5,7 @@
 pub mod segment;
 pub mod shape;
 pub mod csv;
+pub mod program;
 
 pub use segment::Segment;
 
