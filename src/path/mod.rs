@@ -6,6 +6,7 @@ pub mod segment;
 pub mod shape;
 pub mod csv;
 pub mod program;
+pub mod gcode;
 
 pub use segment::Segment;
 
