@@ -7,6 +7,7 @@ pub mod segment;
 pub mod shape;
 pub mod csv;
 pub mod program;
+pub mod gcode;
 
 pub use program::{Listing, Move, MovePace, Program};
 pub use segment::Segment;
