@@ -4,8 +4,11 @@
 
 pub mod segment;
 pub mod shape;
-pub mod csv;
 pub mod program;
+pub mod unit;
+mod draft;
+pub mod apt;
+pub mod csv;
 
 pub use segment::Segment;
 
