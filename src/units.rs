@@ -4,6 +4,8 @@
 pub const MM: f64 = 1e-3;
 /// One inch [m].
 pub const INCH: f64 = 25.4e-3;
+/// One minute [s].
+pub const MINUTE: f64 = 60.0;
 /// One degree [rad].
 pub const DEG: f64 = std::f64::consts::PI / 180.0;
 /// One revolution a minute [1/s].

@@ -5,9 +5,12 @@
 
 pub mod segment;
 pub mod shape;
-pub mod csv;
 pub mod program;
 pub mod gcode;
+pub mod unit;
+mod draft;
+pub mod apt;
+pub mod csv;
 
 pub use program::{Listing, Move, MovePace, Program};
 pub use segment::Segment;

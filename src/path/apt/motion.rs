@@ -1,0 +1,150 @@
+//! Statements that move the tool: GOTO, FROM, CIRCLE, MOVARC.
+
+use super::reader::{Feed, Reader};
+use super::statement::{Place, Statement};
+use crate::error::Error;
+use crate::path::draft::{self, Circle, Target};
+use crate::path::program::MovePace;
+use crate::units::{DEG, MM};
+use nalgebra::Vector3;
+
+impl<'a> Reader<'a> {
+    pub(super) fn no_circle_waits(&self) -> Result<(), Error> {
+        match &self.circle {
+            Some((_, place)) => {
+                Err(self.error(place, "an arc without an end", "the GOTO of the arc's end follows it"))
+            }
+            None => Ok(()),
+        }
+    }
+
+    pub(super) fn go(&mut self, statement: &Statement<'a>, made: Option<Circle>) -> Result<(), Error> {
+        let place = statement.place;
+        if let Some(line) = self.home {
+            let found = format!("a move after GOHOME (line {line})");
+            let expected = "where home lies is not said: write RAPID and the GOTO that it means";
+            return Err(self.error(&place, found, expected));
+        }
+        let before = self.draft.pose;
+        let (point, axis) = self.point_and_axis(statement)?;
+        let pace = if before.is_some() { self.pace(&place)? } else { MovePace::JobFeed };
+        self.rapid = false;
+        let spindle = self.speed.filter(|_| self.spinning);
+        let target = Target { point, axis, pace, spindle, line: place.line };
+        let done = match self.circle.take() {
+            Some((circle, _)) => {
+                self.made = Some(circle);
+                self.draft.arc_to(circle, target)
+            }
+            None => {
+                if let (Some(circle), Some((from, _))) = (made, before)
+                    && pace != MovePace::Rapid
+                    && circle.passes(&from)
+                    && circle.passes(&point)
+                {
+                    self.draft.remark("chord", place.line, || {
+                        "a straight move between two points of the arc before it: if the CAM system writes several points to a CIRCLE, \
+                         let it write the end only".into()
+                    });
+                }
+                self.draft.line_to(target)
+            }
+        };
+        done.map_err(|fault| fault.at(self.field, place.position()))
+    }
+
+    /// The pace of the move that stands at `place`.
+    fn pace(&mut self, place: &Place<'_>) -> Result<MovePace, Error> {
+        if self.rapid {
+            return Ok(MovePace::Rapid);
+        }
+        let feed = match self.feed {
+            Some(Feed::PerTime(feed)) => feed,
+            Some(Feed::PerTurn(feed)) => match self.speed {
+                Some(speed) if self.spinning => feed * speed,
+                _ => {
+                    let expected = "write SPINDL/RPM,n,CLW before it, or the feed in MMPM or IPM";
+                    return Err(self.error(place, "a feed per revolution without a spindle speed", expected));
+                }
+            },
+            None => {
+                self.draft.remark("no-feed", place.line, || "no FEDRAT yet: the job's feed is used".into());
+                return Ok(MovePace::JobFeed);
+            }
+        };
+        draft::feed(feed).map(MovePace::Feed).map_err(|fault| fault.at(self.field, place.position()))
+    }
+
+    pub(super) fn start(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
+        self.no_circle_waits()?;
+        let (point, axis) = self.point_and_axis(statement)?;
+        let place = statement.place;
+        if let Some((from, _)) = self.draft.pose
+            && (from - point).norm() > MM * 1e-3
+        {
+            let expected = "FROM says where the path starts: write RAPID and GOTO to go on elsewhere";
+            return Err(self.error(&place, "FROM at another point than the tool's", expected));
+        }
+        let target = Target { point, axis, pace: MovePace::JobFeed, spindle: None, line: place.line };
+        self.draft
+            .pose
+            .map_or_else(|| self.draft.line_to(target), |_| Ok(()))
+            .map_err(|fault| fault.at(self.field, place.position()))
+    }
+
+    pub(super) fn arc(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
+        self.no_circle_waits()?;
+        let place = statement.place;
+        let tokens = self.tokens(statement)?;
+        let (values, angle) = tokens.split_at(tokens.len().min(7));
+        let movarc = statement.word == "MOVARC";
+        let known = match angle {
+            [] => values.len() == 7 && !movarc,
+            [word, _] => movarc && word.is("ANGLE"),
+            _ => false,
+        };
+        if !known {
+            let place = tokens.get(7).map_or(statement.end(), |token| token.place);
+            let expected = if movarc {
+                "an arc is MOVARC/xc,yc,zc,i,j,k,r,ANGLE,a"
+            } else {
+                "an arc is CIRCLE/xc,yc,zc,i,j,k,r; for longer ones (Siemens NX writes eleven values) let the CAM system write straight moves"
+            };
+            return Err(self.error(
+                &place,
+                format!("{} with {} values", statement.word, tokens.len()),
+                expected,
+            ));
+        }
+        let numbers: Vec<f64> = values.iter().map(|token| self.number(token)).collect::<Result<_, _>>()?;
+        let center = self.point(&numbers[..3], values)?;
+        let axis = self
+            .draft
+            .direction(Vector3::from_column_slice(&numbers[3..6]), place.line)
+            .map_err(|fault| fault.at(self.field, values[3].place.position()))?;
+        let radius = numbers[6] * self.unit.in_m();
+        if radius <= 0.0 {
+            return Err(self.error(
+                &values[6].place,
+                format!("the radius {}", numbers[6]),
+                "a radius is larger than 0",
+            ));
+        }
+        draft::coordinate(radius).map_err(|fault| fault.at(self.field, values[6].place.position()))?;
+        let sweep = angle.get(1).map(|token| match self.number(token)? {
+            degrees if degrees > 0.0 && degrees <= 360e3 => Ok(degrees * DEG),
+            degrees => Err(self.error(
+                &token.place,
+                format!("the angle {degrees} deg"),
+                "an angle is above 0, 1000 turns at most",
+            )),
+        });
+        if !movarc {
+            self.draft.remark("circle-sense", place.line, || {
+                "CIRCLE is read as counter-clockwise about its vector, as PTC Creo means it; other systems may mean the other way".into()
+            });
+        }
+        self.circle = Some((Circle { center, axis, radius, sweep: sweep.transpose()? }, place));
+        Ok(())
+    }
+}

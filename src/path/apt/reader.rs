@@ -1,0 +1,182 @@
+//! The state that APT statements leave behind, and which of them does what.
+
+use super::statement::{Place, Statement, Statements};
+use super::{Options, words};
+use crate::error::Error;
+use crate::path::draft::{Circle, Draft, Fault};
+use crate::path::program::{Ignored, Program};
+use crate::path::unit::LengthUnit;
+use nalgebra::Vector3;
+
+/// A feed as it was said.
+#[derive(Clone, Copy)]
+pub(super) enum Feed {
+    /// \[m/s\]
+    PerTime(f64),
+    /// \[m\] a revolution
+    PerTurn(f64),
+}
+
+pub(super) struct Reader<'a> {
+    pub(super) field: &'a str,
+    pub(super) draft: Draft,
+    pub(super) unit: LengthUnit,
+    pub(super) unit_said: bool,
+    /// Line of the first length that was read.
+    pub(super) first_length: Option<usize>,
+    pub(super) feed: Option<Feed>,
+    /// Spindle speed [1/s], and whether it is on.
+    pub(super) speed: Option<f64>,
+    pub(super) spinning: bool,
+    pub(super) rapid: bool,
+    pub(super) multax: Option<bool>,
+    /// Axis of the points that come without one.
+    pub(super) fixed_axis: Option<Vector3<f64>>,
+    /// The circle that waits for the end of its arc, and where it was said.
+    pub(super) circle: Option<(Circle, Place<'a>)>,
+    /// The circle of the arc that was just made.
+    pub(super) made: Option<Circle>,
+    /// Line of a `GOHOME`.
+    pub(super) home: Option<usize>,
+    /// Where the coordinates' frame lies, as said first.
+    pub(super) frame: Option<String>,
+    /// Line of `FINI`.
+    pub(super) ended: Option<usize>,
+}
+
+pub(super) fn read(text: &str, options: &Options<'_>) -> Result<Program, Error> {
+    let mut reader = Reader {
+        field: options.field,
+        draft: Draft::default(),
+        unit: options.unit,
+        unit_said: false,
+        first_length: None,
+        feed: None,
+        speed: None,
+        spinning: true,
+        rapid: false,
+        multax: None,
+        fixed_axis: None,
+        circle: None,
+        made: None,
+        home: None,
+        frame: None,
+        ended: None,
+    };
+    let mut statements = Statements::new(text, options.field);
+    for statement in statements.by_ref() {
+        reader.follow(&statement?)?;
+    }
+    reader.finish(statements.count)
+}
+
+impl<'a> Reader<'a> {
+    fn finish(mut self, lines: usize) -> Result<Program, Error> {
+        self.no_circle_waits()?;
+        if self.draft.program.moves.is_empty() {
+            let expected = "a path has two GOTO points or more that are not all the same";
+            return Err(
+                Fault::new("the end of a text without a move", expected).at(self.field, (lines.max(1), 1))
+            );
+        }
+        let unit = self.unit.name();
+        if let (false, Some(line)) = (self.unit_said, self.first_length) {
+            self.draft.remark("unit-assumed", line, || {
+                format!("the text has no UNITS statement: lengths are read in {unit}")
+            });
+        }
+        Ok(self.draft.finish(unit, lines))
+    }
+
+    fn follow(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
+        let place = &statement.place;
+        if let Some(line) = self.ended {
+            let expected = format!("nothing follows FINI (line {line})");
+            return Err(self.error(place, statement.written(), expected));
+        }
+        let made = self.made.take();
+        match statement.word.as_str() {
+            "GOTO" => self.go(statement, made)?,
+            "FROM" => self.start(statement)?,
+            "CIRCLE" | "MOVARC" => self.arc(statement)?,
+            "RAPID" => {
+                self.words(statement, &[])?;
+                self.rapid = true;
+            }
+            "FEDRAT" => self.feed(statement)?,
+            "SPINDL" => self.spindle(statement)?,
+            "UNITS" => self.units(statement)?,
+            "MULTAX" => self.multax = Some(self.words(statement, &["ON", "OFF"])? != Some("OFF")),
+            "TLAXIS" => {
+                let (numbers, _) = self.numbers(statement, &[3])?;
+                let axis = self.draft.direction(Vector3::from_column_slice(&numbers), place.line);
+                self.fixed_axis = Some(axis.map_err(|fault| fault.at(self.field, place.position()))?);
+            }
+            "DELAY" | "DWELL" => self.dwell(statement)?,
+            "GOHOME" => {
+                self.home = Some(place.line);
+                self.ignore(statement);
+                self.draft.remark("home", place.line, || "the way home is not part of the path".into());
+            }
+            "FINI" => self.ended = Some(place.line),
+            "MSYS" | "ORIGIN" => {
+                let frame = statement.written();
+                if self.frame.as_ref().is_some_and(|first| *first != frame) {
+                    let expected =
+                        "one frame for the whole program: let the CAM system write one file for each";
+                    return Err(self.error(place, frame, expected));
+                }
+                self.frame = Some(frame);
+                self.ignore(statement);
+            }
+            word if words::HARMLESS.contains(&word) => {
+                if matches!(word, "LOADTL" | "LOAD") && !self.draft.program.moves.is_empty() {
+                    self.draft.remark("tool-change", place.line, || {
+                        "the tool changes here; the job's one tool is used for all moves".into()
+                    });
+                }
+                self.ignore(statement);
+            }
+            word if words::CONTROLLER.contains(&word) => {
+                self.draft.remark("controller-text", place.line, || {
+                    format!(
+                        "{}: text for the controller is not followed; it must not move the tool",
+                        statement.written()
+                    )
+                });
+                self.ignore(statement);
+            }
+            word => self.other(word, statement)?,
+        }
+        Ok(())
+    }
+
+    /// Words that are refused, unless they only switch off what was never on.
+    fn other(&mut self, word: &str, statement: &Statement<'a>) -> Result<(), Error> {
+        let place = &statement.place;
+        if let Some(advice) = words::refused(word) {
+            let tokens = self.tokens(statement)?;
+            if let ([token], "CUTCOM" | "CYCLE" | "TRACUT" | "COPY") = (tokens.as_slice(), word)
+                && (token.is("OFF") || token.is("NOMORE"))
+            {
+                self.ignore(statement);
+                return Ok(());
+            }
+            return Err(self.error(place, statement.written(), advice));
+        }
+        if word.contains('=') {
+            let expected =
+                "definitions belong to part programs: let the CAM system write CLDATA (GOTO points)";
+            return Err(self.error(place, statement.written(), expected));
+        }
+        let expected = match words::nearest(word) {
+            Some(known) => format!("did you mean {known}?"),
+            None => "a word of APT, such as GOTO, RAPID or FEDRAT".into(),
+        };
+        Err(self.error(place, format!("the unknown word \"{word}\""), expected))
+    }
+
+    pub(super) fn ignore(&mut self, statement: &Statement<'_>) {
+        self.draft.program.ignored.push(Ignored { word: statement.written(), line: statement.place.line });
+    }
+}

@@ -1,0 +1,134 @@
+//! Statements that hold for what follows: FEDRAT, SPINDL, UNITS; and waits.
+
+use super::reader::{Feed, Reader};
+use super::statement::Statement;
+use crate::error::Error;
+use crate::path::draft;
+use crate::path::program::Dwell;
+use crate::path::unit::LengthUnit;
+use crate::units::{INCH, MINUTE, MM, RPM};
+
+impl<'a> Reader<'a> {
+    pub(super) fn feed(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
+        let tokens = self.tokens(statement)?;
+        let (value, word) = match tokens.as_slice() {
+            [value] => (value, None),
+            [first, second] if first.number().is_some() => (first, Some(second)),
+            [first, second] => (second, Some(first)),
+            _ => {
+                let found = format!("FEDRAT with {} values", tokens.len());
+                return Err(self.error(&statement.end(), found, "a feed is FEDRAT/f or FEDRAT/f,MMPM"));
+            }
+        };
+        let number = self.number(value)?;
+        let (inch, mm) = (INCH * number, MM * number);
+        let own = self.unit.in_m() * number;
+        let unit = word.map_or(String::new(), |word| word.text.to_ascii_uppercase());
+        self.feed = Some(match unit.as_str() {
+            "" | "PERMIN" => Feed::PerTime(own / MINUTE),
+            "PERREV" => Feed::PerTurn(own),
+            "MMPM" => Feed::PerTime(mm / MINUTE),
+            "IPM" => Feed::PerTime(inch / MINUTE),
+            "MMPR" => Feed::PerTurn(mm),
+            "IPR" => Feed::PerTurn(inch),
+            _ => {
+                let place = word.map_or(value.place, |word| word.place);
+                return Err(self.error(&place, format!("\"{unit}\""), "a feed is in MMPM, IPM, MMPR or IPR"));
+            }
+        });
+        if number <= 0.0 {
+            return Err(self.error(&value.place, format!("the feed {number}"), "a feed is larger than 0"));
+        }
+        match self.feed {
+            Some(Feed::PerTime(feed)) => {
+                draft::feed(feed).map_err(|fault| fault.at(self.field, value.place.position()))?;
+            }
+            _ => {
+                draft::coordinate(own).map_err(|fault| fault.at(self.field, value.place.position()))?;
+            }
+        }
+        let line = statement.place.line;
+        match (unit.starts_with('I'), unit.starts_with("MM"), self.unit) {
+            (true, _, LengthUnit::Mm) | (_, true, LengthUnit::Inch) => {
+                let lengths = self.unit.name();
+                self.draft.remark("feed-unit", line, || {
+                    format!("the feed is in {unit}, but lengths are in {lengths}")
+                });
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    pub(super) fn spindle(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
+        let tokens = self.tokens(statement)?;
+        let mut speed = None;
+        for token in &tokens {
+            match token.number() {
+                Some(rpm) if speed.is_none() && rpm > 0.0 && rpm <= 1e6 => speed = Some(rpm * RPM),
+                Some(rpm) => {
+                    let expected = "one speed above 0, 1000000 rpm at most; SPINDL/OFF stops the spindle";
+                    return Err(self.error(&token.place, format!("the spindle speed {rpm}"), expected));
+                }
+                None if token.is("RPM") || token.is("CLW") || token.is("ON") => {}
+                None if token.is("OFF") && tokens.len() == 1 => {
+                    self.spinning = false;
+                    return Ok(());
+                }
+                None => {
+                    let expected = if token.is("CCLW") {
+                        "the cutting model is for a clockwise spindle: use a right-hand tool and CLW"
+                    } else if token.is("SFM") || token.is("SMM") {
+                        "surface speed needs a diameter: let the CAM system write RPM"
+                    } else {
+                        "the spindle is SPINDL/RPM,n,CLW or SPINDL/ON or SPINDL/OFF"
+                    };
+                    return Err(self.error(&token.place, format!("\"{}\"", token.text), expected));
+                }
+            }
+        }
+        self.speed = speed.or(self.speed);
+        self.spinning = true;
+        Ok(())
+    }
+
+    pub(super) fn units(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
+        let place = &statement.place;
+        let unit = match self.words(statement, &["MM", "INCHES", "INCH", "IN"])? {
+            Some("MM") => LengthUnit::Mm,
+            Some(_) => LengthUnit::Inch,
+            None => return Err(self.error(&statement.end(), "nothing", "UNITS is followed by MM or INCHES")),
+        };
+        if let (Some(line), true) = (self.first_length, unit != self.unit) {
+            let found =
+                format!("{} after lengths in {} (line {line})", statement.written(), self.unit.name());
+            return Err(self.error(
+                place,
+                found,
+                "UNITS stands before the first length and holds to the end",
+            ));
+        }
+        self.unit = unit;
+        self.unit_said = true;
+        Ok(())
+    }
+
+    pub(super) fn dwell(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
+        let tokens = self.tokens(statement)?;
+        let token = match tokens.as_slice() {
+            [token] => token,
+            [word, token] if word.is("DWELL") => token,
+            _ => {
+                let place = tokens.get(1).map_or(statement.end(), |token| token.place);
+                return Err(self.error(&place, statement.written(), "a wait is DELAY/t, in seconds"));
+            }
+        };
+        let time = self.number(token)?;
+        if !(0.0..=3600.0).contains(&time) {
+            return Err(self.error(&token.place, format!("a wait of {time} s"), "a wait is 0 to 3600 s"));
+        }
+        let after = self.draft.program.moves.len();
+        self.draft.program.dwells.push(Dwell { after, time, line: statement.place.line });
+        Ok(())
+    }
+}

@@ -1,0 +1,196 @@
+//! Statements of an APT text: lines joined at `$`, comments cut at `$$`, a major word and what follows its slash.
+
+use crate::error::Error;
+use std::str::Lines;
+
+/// Words whose text is for people or for the controller: the whole line is theirs, `$` included.
+const FREE_TEXT: [&str; 6] = ["PARTNO", "PPRINT", "REMARK", "INSERT", "TPRINT", "LETTER"];
+
+/// A place in the text.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place<'a> {
+    /// From 1.
+    pub(super) line: usize,
+    text: &'a str,
+    byte: usize,
+}
+
+impl Place<'_> {
+    /// Line and column, both from 1; columns count characters.
+    pub(super) fn position(&self) -> (usize, usize) {
+        (self.line, self.text[..self.byte].chars().count() + 1)
+    }
+}
+
+/// What stands between two commas.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Token<'a> {
+    pub(super) text: &'a str,
+    pub(super) place: Place<'a>,
+}
+
+impl Token<'_> {
+    /// The number that it is, if it is one.
+    pub(super) fn number(&self) -> Option<f64> {
+        let numeric = self.text.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
+        // `inf` and `nan` are words here.
+        if numeric { self.text.parse().ok().filter(|value: &f64| value.is_finite()) } else { None }
+    }
+
+    /// Whether it is this word, in any case.
+    pub(super) fn is(&self, word: &str) -> bool {
+        self.text.eq_ignore_ascii_case(word)
+    }
+}
+
+/// One statement.
+pub(super) struct Statement<'a> {
+    /// The major word: upper case, blanks squeezed.
+    pub(super) word: String,
+    /// Where the major word stands.
+    pub(super) place: Place<'a>,
+    /// What follows the slash, piece by piece of each line.
+    rest: Vec<Place<'a>>,
+    slash: bool,
+}
+
+impl<'a> Statement<'a> {
+    /// What follows the slash, cut at commas; none if there is no slash.
+    ///
+    /// # Errors
+    /// The place of a continued line that has no comma before it.
+    pub(super) fn tokens(&self) -> Result<Vec<Token<'a>>, Place<'a>> {
+        let mut tokens: Vec<Token<'a>> = Vec::with_capacity(6);
+        let mut wanted = self.slash;
+        for place in &self.rest {
+            let mut byte = place.byte;
+            for cell in place.text[byte..].split(',') {
+                let comma = byte + cell.len() < place.text.len();
+                let trimmed = cell.trim();
+                let token = Place { byte: byte + cell.len() - cell.trim_start().len(), ..*place };
+                byte += cell.len() + 1;
+                if trimmed.is_empty() && (!comma || !wanted) {
+                    // The line ends at a comma, or starts with one that the line before left out.
+                    wanted |= comma;
+                    continue;
+                }
+                if !wanted {
+                    return Err(token);
+                }
+                tokens.push(Token { text: trimmed, place: token });
+                wanted = comma;
+            }
+        }
+        if wanted {
+            tokens.push(Token { text: "", place: self.end() });
+        }
+        Ok(tokens)
+    }
+
+    /// Where the statement ends.
+    pub(super) fn end(&self) -> Place<'a> {
+        let last = self.rest.last().copied().unwrap_or(self.place);
+        Place { byte: last.text.trim_end().len(), ..last }
+    }
+
+    /// The statement as written, blanks squeezed.
+    pub(super) fn written(&self) -> String {
+        let mut text = self.word.clone();
+        text.push(if self.slash { '/' } else { ' ' });
+        for place in &self.rest {
+            text.extend(place.text[place.byte..].split_whitespace().flat_map(|part| [part, " "]));
+        }
+        text.trim_end().to_string()
+    }
+}
+
+/// The statements of a text in order.
+pub(super) struct Statements<'a> {
+    lines: std::iter::Enumerate<Lines<'a>>,
+    field: &'a str,
+    /// Lines seen.
+    pub(super) count: usize,
+}
+
+impl<'a> Statements<'a> {
+    pub(super) fn new(text: &'a str, field: &'a str) -> Self {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        Self { lines: text.lines().enumerate(), field, count: 0 }
+    }
+
+    /// The next line with words on it, its end in bytes, and whether it goes on.
+    fn line(&mut self) -> Option<(Place<'a>, bool)> {
+        for (index, text) in self.lines.by_ref() {
+            self.count = index + 1;
+            let byte = text.len() - text.trim_start().len();
+            let free = FREE_TEXT
+                .iter()
+                .any(|word| text[byte..].get(..word.len()).is_some_and(|s| s.eq_ignore_ascii_case(word)));
+            let dollar = if free { None } else { text.find('$') };
+            let goes_on = dollar.is_some_and(|at| !text[at + 1..].starts_with('$'));
+            let text = text[..dollar.unwrap_or(text.len())].trim_end();
+            if goes_on || byte < text.len() {
+                return Some((Place { line: index + 1, text, byte: byte.min(text.len()) }, goes_on));
+            }
+        }
+        None
+    }
+}
+
+impl<'a> Iterator for Statements<'a> {
+    type Item = Result<Statement<'a>, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let (mut place, mut goes_on) = self.line()?;
+        let first = place;
+        let body = &place.text[place.byte..];
+        let free = FREE_TEXT
+            .iter()
+            .find(|word| body.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word)));
+        let (word, length) = match (free, body.find('/')) {
+            (Some(word), _) => (word.to_string(), word.len()),
+            (None, Some(slash)) => (squeezed(&body[..slash]), slash),
+            (None, None) => (squeezed(body), body.len()),
+        };
+        place.byte += length;
+        let mut slash = body[length..].starts_with('/');
+        if slash {
+            place.byte += 1;
+        }
+        let mut rest = Vec::with_capacity(1);
+        if place.byte < place.text.len() {
+            rest.push(place);
+        }
+        while goes_on {
+            let Some((next, more)) = self.line() else {
+                return Some(Err(Error::Text {
+                    field: self.field.into(),
+                    line: place.line,
+                    column: place.text.chars().count() + 1,
+                    found: "the end of the text after $".into(),
+                    expected: "$ says that the statement goes on in the next line".into(),
+                }));
+            };
+            (place, goes_on) = (next, more);
+            if !slash && rest.is_empty() && place.text[place.byte..].starts_with('/') {
+                slash = true;
+                place.byte += 1;
+            }
+            if place.byte < place.text.len() {
+                rest.push(place);
+            }
+        }
+        Some(Ok(Statement { word, place: first, rest, slash }))
+    }
+}
+
+/// Upper case, with single blanks.
+fn squeezed(text: &str) -> String {
+    let mut words = text.split_whitespace();
+    let mut squeezed = words.next().unwrap_or_default().to_ascii_uppercase();
+    for word in words {
+        squeezed.push(' ');
+        squeezed.push_str(&word.to_ascii_uppercase());
+    }
+    squeezed
+}

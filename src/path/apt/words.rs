@@ -1,0 +1,107 @@
+//! The major words of APT that are known but do not make a path: those that do no harm, and those that would change it.
+//!
+//! Words from ISO 4343:2000 (NC processor output, post processor commands), PTC's and Siemens's manuals and CATIA's output.
+
+/// Words that neither move the tool nor change where it goes: listed, not followed.
+pub(super) const HARMLESS: [&str; 48] = [
+    "AIR",
+    "AUTOPS",
+    "BREAK",
+    "CHECK",
+    "CLAMP",
+    "CLEARP",
+    "CLPRNT",
+    "CLRSRF",
+    "COOLNT",
+    "CUTTER",
+    "DISPLY",
+    "END",
+    "END-OF-PATH",
+    "INTOL",
+    "LEADER",
+    "LETTER",
+    "LINTOL",
+    "LOAD",
+    "LOADTL",
+    "MACHIN",
+    "MACHTL",
+    "MAXANG",
+    "MAXDP",
+    "MAXVEL",
+    "NOPOST",
+    "NUMPTS",
+    "OPSTOP",
+    "OUTTOL",
+    "OVRIDE",
+    "PAINT",
+    "PARTNO",
+    "PIVOTZ",
+    "PPRINT",
+    "PRINT",
+    "REMARK",
+    "RESET",
+    "REWIND",
+    "SAFETY",
+    "SELCTL",
+    "SELECT",
+    "SEQNO",
+    "STOP",
+    "TLDATA",
+    "TMARK",
+    "TOLER",
+    "TOOLNO",
+    "TPRINT",
+    "TOOL PATH",
+];
+
+/// Words whose text goes to the controller as it stands: listed with a remark, because it may move the tool.
+pub(super) const CONTROLLER: [&str; 3] = ["AUXFUN", "INSERT", "PREFUN"];
+
+/// Words of the reader itself, for suggestions.
+pub(super) const READ: [&str; 17] = [
+    "CIRCLE", "CUTCOM", "CYCLE", "DELAY", "DWELL", "FEDRAT", "FINI", "FROM", "GOHOME", "GOTO", "MOVARC",
+    "MULTAX", "ORIGIN", "RAPID", "SPINDL", "TLAXIS", "UNITS",
+];
+
+/// What to do about a word that changes the path in a way that is not followed here.
+pub(super) fn refused(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "TRACUT" | "TRANS" | "COPY" | "ROTATE" | "MIRROR" | "SCALE" | "REFSYS" | "MATRIX" | "CSYS" => {
+            "transformed copies are not followed: let the CAM system write the points where the tool goes"
+        }
+        "INDEX" | "ROTABL" | "ROTHED" | "TLROT" | "HEAD" | "PIVOT" => {
+            "rotary axes are not followed: let the CAM system write GOTO/x,y,z,i,j,k in the workpiece's frame (MULTAX/ON)"
+        }
+        "CUTCOM" => {
+            "cutter compensation bends the path: let the CAM system compensate, and write the tool centre's path"
+        }
+        "CYCLE" | "PITCH" | "THREAD" | "HELIX" => {
+            "cycles are not followed: let the CAM system write them out as GOTO (\"expand cycles\")"
+        }
+        "GODLTA" | "MODE" => "moves are absolute here: write GOTO/x,y,z",
+        "GO" | "GOLFT" | "GORGT" | "GOFWD" | "GOBACK" | "GOUP" | "GODOWN" | "OFFSET" | "INDIRV"
+        | "INDIRP" | "PSIS" | "TLON" | "TLLFT" | "TLRGT" | "TLON,GOFWD" | "TLLFT,GOFWD" | "TLRGT,GOFWD"
+        | "THICK" | "TLONPS" | "TLOFPS" => {
+            "part geometry is not followed: let the CAM system write arcs as CIRCLE or as points, in CLDATA (GOTO)"
+        }
+        "RETRCT" | "RETURN" | "GOCLER" => {
+            "a retract to a plane is not followed: write RAPID and the GOTO that it means"
+        }
+        "ARCDAT" | "ARCMOV" | "ARCSLP" | "NURBS" | "SPLINE" | "POLY" => {
+            "this kind of curve is not followed: let the CAM system write CIRCLE or points"
+        }
+        "MACRO" | "CALL" | "TERMAC" | "LOOPST" | "LOOPND" | "IF" | "JUMPTO" | "DO" | "INCLUD" | "READ"
+        | "RESERV" => "programs within the program are not followed: let the CAM system write the points",
+        _ => return None,
+    })
+}
+
+/// The known word that looks most like this one.
+pub(super) fn nearest(word: &str) -> Option<&'static str> {
+    let known = READ.iter().chain(&HARMLESS).chain(&CONTROLLER);
+    known
+        .map(|candidate| (strsim::jaro_winkler(word, candidate), *candidate))
+        .filter(|(likeness, _)| *likeness > 0.85)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| candidate)
+}
