@@ -79,3 +79,14 @@ impl<'de, W: Word> Deserialize<'de> for Choice<W> {
         deserializer.deserialize_any(Visitor(std::marker::PhantomData))
     }
 }
+
+/// Declares an enumeration of the job whose values are written in lower case.
+macro_rules! choice {
+    ($(#[$doc:meta])* $name:ident { $($(#[$item_doc:meta])* $item:ident),+ $(,)? }) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+        #[serde(rename_all = "lowercase")]
+        pub enum $name { $($(#[$item_doc])* $item),+ }
+    };
+}
+pub(super) use choice;

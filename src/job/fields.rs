@@ -3,10 +3,18 @@
 //! The page builds its form from this table and the job is checked against it: one range, written once.
 
 use crate::error::Error;
-use crate::job::{Job, PathKind};
+use crate::job::Job;
 use crate::robot::library;
 use serde::Serialize;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// What a fresh field for pasted points shows.
+const EXAMPLE_ROWS: &str = "x, y, z\n600, -200, 100\n700, 0, 100\n600, 200, 100\n";
+/// What a fresh field for a G-code program shows.
+const EXAMPLE_GCODE: &str = "G21 G90 G17\nS4000 M3\nG0 X600 Y-100 Z120\nG1 Z100 F3000\nG1 Y40\nG2 X640 Y80 I40 J0\nG1 X700\nG0 Z120\nM30\n";
+/// What a fresh field for an APT program shows.
+const EXAMPLE_APT: &str = "UNITS/MM\nSPINDL/RPM,4000,CLW\nFROM/600,-100,120\nFEDRAT/3000,MMPM\nGOTO/600,-100,100\nGOTO/650,0,100,0.1,0,0.99498743710662\nGOTO/700,100,100\nFINI\n";
 
 /// How a value is entered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -52,6 +60,9 @@ pub struct Field {
     pub max: Option<f64>,
     /// Value that a fresh field shows.
     pub default: Value,
+    /// Values that a fresh field shows instead where the field in `when` has one of these words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub defaults: Option<BTreeMap<&'static str, Value>>,
     /// What it is and where to find it.
     pub help: &'static str,
     /// Shown only if another field has one of some values.
@@ -100,6 +111,7 @@ fn field(
         min: None,
         max: None,
         default,
+        defaults: None,
         help,
         when: None,
     }
@@ -113,6 +125,11 @@ impl Field {
 
     fn words(mut self, words: &[(&'static str, &'static str)]) -> Self {
         self.choices = words.iter().map(|&(value, label)| Word { value, label }).collect();
+        self
+    }
+
+    fn defaults(mut self, defaults: &[(&'static str, &'static str)]) -> Self {
+        self.defaults = Some(defaults.iter().map(|&(word, text)| (word, json!(text))).collect());
         self
     }
 
@@ -147,7 +164,9 @@ pub fn fields() -> Vec<Field> {
         field("start_branch.shoulder", "Shoulder", "", Choice, json!("front"), "The arm faces the first point, or reaches over its back.").words(&[("front", "facing the point"), ("back", "over its back")]),
         field("start_branch.elbow", "Elbow", "", Choice, json!("positive"), "Sign of the elbow angle from the stretched arm (RX-90: of q3).").words(&[("positive", "positive"), ("negative", "negative")]),
         field("start_branch.wrist", "Wrist", "", Choice, json!("near"), "The wrist with the smaller turn of joint 4, or the one turned by 180 degrees.").words(&[("near", "smaller q4"), ("flipped", "flipped")]),
-        field("path.kind", "Shape", "", Choice, json!("circle"), "What the tool tip is to follow, in the workpiece frame, tool upright.").words(&[("circle", "Circle"), ("arc", "Arc"), ("rectangle", "Rectangle"), ("line", "Straight line"), ("csv", "Points, pasted"), ("polyline", "Points, listed (JSON)")]),
+        field("path.kind", "Shape", "", Choice, json!("circle"), "What the tool tip is to follow, in the workpiece frame, tool upright.").words(&[("circle", "Circle"), ("arc", "Arc"), ("rectangle", "Rectangle"), ("line", "Straight line"), ("gcode", "G-code program"),
+                ("apt", "APT / CLDATA program"),
+                ("csv", "Points, pasted"), ("polyline", "Points, listed (JSON)")]),
         field("path.center_mm", "Centre", "mm", Vector, json!([0, 0, 0]), "Centre of the shape.").range(-20000.0, 20000.0).when("path.kind", &["circle", "arc", "rectangle"]),
         field("path.radius_mm", "Radius", "mm", Number, json!(300), "Radius of the circle or arc.").range(0.001, 10000.0).when("path.kind", round),
         field("path.normal", "Normal", "", Vector, json!([0.2, 0.3, 0.5]), "Direction the circle runs counter-clockwise about; its length does not matter.").range(-1e6, 1e6).when("path.kind", round),
@@ -159,7 +178,11 @@ pub fn fields() -> Vec<Field> {
         field("path.from_mm", "From", "mm", Vector, json!([600, -200, 100]), "Start of the line.").range(-20000.0, 20000.0).when("path.kind", &["line"]),
         field("path.to_mm", "To", "mm", Vector, json!([600, 200, 100]), "End of the line.").range(-20000.0, 20000.0).when("path.kind", &["line"]),
         field("path.points_mm", "Points", "mm", Table, json!([[600, -200, 100], [700, 0, 100], [600, 200, 100]]), "Straight lines through these points.").range(-20000.0, 20000.0).when("path.kind", &["polyline"]),
-        field("path.text", "Points", "mm", Text, json!("x, y, z\n600, -200, 100\n700, 0, 100\n600, 200, 100\n"), "One point a line: x, y, z, separated by comma, semicolon, tab or blank; a header row may come first.").when("path.kind", &["csv"]),
+        field("path.text", "Program", "", Text, json!(EXAMPLE_ROWS), "As it comes from CAM; drop a file here. Points: one a line, x, y, z, with tool axis i, j, k and feed where they are needed, separated by comma, semicolon, tab or blank.").when("path.kind", &["csv", "gcode", "apt"]).defaults(&[("csv", EXAMPLE_ROWS), ("gcode", EXAMPLE_GCODE), ("apt", EXAMPLE_APT)]),
+        field("path.unit", "Unit of lengths", "", Choice, json!("mm"), "Of a text that does not say its own.").words(&[("mm", "mm"), ("inch", "inch")]).when("path.kind", &["csv", "apt"]),
+        field("path.feed_unit", "Unit of feeds", "", Choice, json!("mm/s"), "Of rows that do not say their own.").words(&[("mm/s", "mm/s"), ("mm/min", "mm/min"), ("inch/min", "inch/min")]).when("path.kind", &["csv"]),
+        field("path.tool_length_offsets_mm", "Tool length offsets", "mm", Table, json!([]), "For G43 H: one row an offset, the number H and the length that is added to Z. Leave it empty if the tool frame holds the whole tool.").range(-5000.0, 5000.0).when("path.kind", &["gcode"]),
+        field("path.work_offsets_mm", "Work offsets", "mm", Table, json!([]), "G54, G55 and so on, one row each: x, y, z from the workpiece frame. Leave it empty if the program's zero is the workpiece frame.").range(-20000.0, 20000.0).when("path.kind", &["gcode"]),
         field("motion.feed_mm_s", "Feed", "mm/s", Number, json!(100), "Highest speed along the path.").range(0.001, 10000.0),
         field("motion.rapid_mm_s", "Rapid speed", "mm/s", Number, json!(250), "Speed of a program's positioning moves, which do not cut.").range(0.001, 20000.0).when("path.kind", &["gcode", "apt"]),
         field("motion.acceleration_mm_s2", "Acceleration", "mm/s²", Number, json!(200), "Along the path, at starts and stops.").range(0.01, 1e6),
@@ -240,7 +263,3 @@ pub(crate) fn check_path_keys(job: &Job) -> Result<(), Error> {
     }
     Ok(())
 }
-
-/// The kinds of path, for tests that every one has its fields.
-pub const PATH_KINDS: [PathKind; 6] =
-    [PathKind::Circle, PathKind::Arc, PathKind::Line, PathKind::Rectangle, PathKind::Polyline, PathKind::Csv];

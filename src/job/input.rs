@@ -1,6 +1,7 @@
 //! The job's keys, one to one as in the JSON. Values are as typed, not yet checked.
 
-use crate::job::choice::{Choice, Dwell, FeedPerTooth};
+use crate::job::choice::{Choice, Dwell, FeedPerTooth, choice};
+use crate::job::path::{Path, PathKind};
 use serde::{Deserialize, Serialize};
 
 /// The whole question. `Job::default()` is the thesis's case.
@@ -120,16 +121,6 @@ pub struct Branch {
     pub wrist: Wrist,
 }
 
-/// Declares an enumeration of the job whose values are written in lower case.
-macro_rules! choice {
-    ($(#[$doc:meta])* $name:ident { $($(#[$item_doc:meta])* $item:ident),+ $(,)? }) => {
-        $(#[$doc])*
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-        #[serde(rename_all = "lowercase")]
-        pub enum $name { $($(#[$item_doc])* $item),+ }
-    };
-}
-
 choice! {
     /// Shoulder of the start branch.
     Shoulder { #[default] /** Facing the point. */ Front, /** Over its back. */ Back }
@@ -141,18 +132,6 @@ choice! {
 choice! {
     /// Wrist of the start branch.
     Wrist { #[default] /** Smaller |q4|. */ Near, /** Turned by 180 degrees. */ Flipped }
-}
-choice! {
-    /// What the path is made from.
-    PathKind {
-        #[default]
-        /** Full circle. */ Circle,
-        /** Part of a circle. */ Arc,
-        /** One straight line. */ Line,
-        /** Rectangle with sharp or rounded corners. */ Rectangle,
-        /** Straight lines through points. */ Polyline,
-        /** Straight lines through pasted rows of x, y, z. */ Csv,
-    }
 }
 choice! {
     /// Kind of input shaper.
@@ -172,57 +151,6 @@ impl ShaperKind {
             ShaperKind::Zvdd => "zvdd",
             ShaperKind::Ei => "ei",
         }
-    }
-}
-
-/// The desired path in the workpiece frame; which keys belong to it depends on `kind`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Path {
-    /// What it is made from.
-    pub kind: PathKind,
-    /// Centre of a circle, an arc or a rectangle.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub center_mm: Option<[f64; 3]>,
-    /// Radius of a circle or an arc.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub radius_mm: Option<f64>,
-    /// Normal of a circle or an arc, of any length; default +Z.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub normal: Option<[f64; 3]>,
-    /// Start of an arc, from the projection of +X.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub start_deg: Option<f64>,
-    /// Sweep of an arc, counter-clockwise about the normal if positive.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub sweep_deg: Option<f64>,
-    /// Start of a line.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub from_mm: Option<[f64; 3]>,
-    /// End of a line.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub to_mm: Option<[f64; 3]>,
-    /// Size of a rectangle along X.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub width_mm: Option<f64>,
-    /// Size of a rectangle along Y.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub height_mm: Option<f64>,
-    /// Radius of a rectangle's corners; default 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub corner_radius_mm: Option<f64>,
-    /// Points of a polyline.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub points_mm: Option<Vec<[f64; 3]>>,
-    /// Pasted rows.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub text: Option<String>,
-}
-
-impl Path {
-    /// A path of a kind, with none of its keys.
-    pub fn of(kind: PathKind) -> Self {
-        Self { kind, ..Self::default() }
     }
 }
 

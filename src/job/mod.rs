@@ -5,13 +5,15 @@
 
 mod input;
 mod choice;
+mod path;
 mod read;
 mod setup;
 pub mod fields;
 
 pub use choice::{Choice, Dwell, FeedPerTooth};
 pub use input::{
-    Branch, Compensation, Cutting, DhRow, Elbow, Frame, Job, Material, Motion, Path, PathKind, Robot, Shaper,
+    Branch, Compensation, Cutting, DhRow, Elbow, Frame, Job, Material, Motion, Robot, Shaper,
     ShaperKind, ShaperSpec, Shoulder, Source, Tool, Wrist,
 };
+pub use path::{FeedUnit, Path, PathKind, Unit};
 pub use setup::Setup;

@@ -5,12 +5,12 @@ use crate::cutting::along::ChipLoad;
 use crate::cutting::{Coefficients, Cut, material};
 use crate::deviation::Sources;
 use crate::error::Error;
-use crate::job::{Choice, Elbow, Frame, Job, PathKind, Shaper, ShaperSpec, Shoulder, Source, Wrist, fields};
+use crate::job::{Choice, Elbow, Frame, Job, Shaper, ShaperSpec, Shoulder, Source, Wrist, fields};
 use crate::math::Pose;
 use crate::motion::joints::StartBranch;
 use crate::motion::trajectory::Tempo;
 use crate::motion::{self, shaper};
-use crate::path::{Listing, Path, csv, shape};
+use crate::path::{Listing, Path};
 use crate::robot::{Link, Robot, library};
 use crate::units::{DEG, HZ, MM, N_PER_MM, N_PER_MM2, RPM};
 use nalgebra::Vector3;
@@ -61,7 +61,8 @@ impl Job {
         fields::check_ranges(self)?;
         let robot = self.arm()?.with_tool(frame(&self.tool_frame));
         let workpiece = frame(&self.workpiece_frame);
-        let path = self.desired_path()?.placed(&workpiece);
+        let (path, listing) = self.desired_path()?;
+        let path = path.placed(&workpiece);
         let (shaper, mode) = self.input_shaper()?;
         let cut = self.cut()?;
         let teeth_per_second = self.cutting.spindle_rpm * RPM * f64::from(self.tool.flutes);
@@ -113,7 +114,6 @@ impl Job {
             ));
         }
         let sources = Sources { deflection: has(Source::Deflection), shaping: has(Source::Shaping) };
-        let listing = None;
         Ok(Setup {
             robot,
             path,
@@ -169,66 +169,6 @@ impl Job {
             given.joint_limits_deg.map(|ranges| ranges.map(|[low, high]| (low * DEG, high * DEG))).or(limits);
         let compliance = given.joint_compliance_rad_per_nm.unwrap_or(compliance);
         Robot::new(given.name.clone().unwrap_or_else(|| name.to_owned()), links, limits, compliance)
-    }
-
-    fn desired_path(&self) -> Result<Path, Error> {
-        let given = &self.path;
-        fields::check_path_keys(self)?;
-        let need = |key: &str| missing(&format!("path.{key}"), "this kind of path needs it");
-        let vector = |value: Option<[f64; 3]>, key: &str| {
-            value.ok_or_else(|| need(key)).map(|v| Vector3::from(v) * MM)
-        };
-        let length = |value: Option<f64>, key: &str| value.ok_or_else(|| need(key)).map(|v| v * MM);
-        let normal = Vector3::from(given.normal.unwrap_or([0.0, 0.0, 1.0]));
-        if normal.norm() < 1e-9 {
-            return Err(invalid("path.normal", "(0, 0, 0)", "a direction; its length does not matter"));
-        }
-        let points_field = if given.kind == PathKind::Csv { "path.text" } else { "path.points_mm" };
-        let segments = match given.kind {
-            PathKind::Circle => {
-                let center = vector(given.center_mm, "center_mm")?;
-                vec![shape::circle(center, length(given.radius_mm, "radius_mm")?, normal)]
-            }
-            PathKind::Arc => {
-                let center = vector(given.center_mm, "center_mm")?;
-                let sweep = given.sweep_deg.ok_or_else(|| need("sweep_deg"))? * DEG;
-                let start = given.start_deg.unwrap_or(0.0) * DEG;
-                vec![shape::arc(center, length(given.radius_mm, "radius_mm")?, normal, start, sweep)]
-            }
-            PathKind::Line => {
-                shape::polyline(&[vector(given.from_mm, "from_mm")?, vector(given.to_mm, "to_mm")?])
-            }
-            PathKind::Rectangle => {
-                let (width, height) =
-                    (length(given.width_mm, "width_mm")?, length(given.height_mm, "height_mm")?);
-                let radius = given.corner_radius_mm.unwrap_or(0.0) * MM;
-                let largest = width.min(height) / 2.0;
-                if radius > largest {
-                    let (value, max) = (radius / MM, largest / MM);
-                    let field = "path.corner_radius_mm".into();
-                    return Err(Error::OutOfRange { field, value, min: 0.0, max, unit: "mm" });
-                }
-                shape::rectangle(vector(given.center_mm, "center_mm")?, width, height, radius)
-            }
-            PathKind::Polyline => {
-                let points = given.points_mm.as_ref().ok_or_else(|| need("points_mm"))?;
-                let points: Vec<_> = points.iter().map(|point| Vector3::from(*point) * MM).collect();
-                shape::polyline(&points)
-            }
-            PathKind::Csv => {
-                shape::polyline(&csv::points(given.text.as_ref().ok_or_else(|| need("text"))?, "path.text")?)
-            }
-        };
-        Path::new(segments).ok_or_else(|| {
-            let (field, expected) = match given.kind {
-                PathKind::Polyline | PathKind::Csv => {
-                    (points_field, "two points or more that are not all the same")
-                }
-                PathKind::Line => ("path.to_mm", "another point than from_mm"),
-                _ => ("path.sweep_deg", "a sweep that is not zero"),
-            };
-            invalid(field, "a path without length", expected)
-        })
     }
 
     fn input_shaper(&self) -> Result<(motion::Shaper, Option<(f64, f64)>), Error> {
@@ -327,11 +267,11 @@ fn frame(given: &Frame) -> Pose {
     Pose::from_xyz_rpy(Vector3::from(given.xyz_mm) * MM, given.rpy_deg.map(|angle| angle * DEG))
 }
 
-fn invalid(field: &str, value: impl ToString, expected: impl Into<String>) -> Error {
+pub(super) fn invalid(field: &str, value: impl ToString, expected: impl Into<String>) -> Error {
     Error::Invalid { field: field.into(), value: value.to_string(), expected: expected.into() }
 }
 
-fn missing(field: &str, expected: &str) -> Error {
+pub(super) fn missing(field: &str, expected: &str) -> Error {
     Error::Missing { field: field.into(), expected: expected.into() }
 }
 

@@ -1,17 +1,19 @@
 //! The figures of a report that a person reads first, as one small object.
 
 use crate::deviation::{Deviation, contour};
+use crate::path::{Listing, MovePace, Path};
 use crate::report::{Report, Warning};
-use crate::units::MM;
+use crate::units::{DEG, MM};
 use nalgebra::Vector3;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
-/// Mean and largest contour error [mm] over all samples.
+/// Mean and largest error over all samples, in mm (of an angle: in deg).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Statistics {
-    /// Mean [mm].
+    /// Mean.
     pub mean: f64,
-    /// Largest [mm].
+    /// Largest.
     pub max: f64,
 }
 
@@ -20,6 +22,13 @@ impl Statistics {
     pub fn of(errors: &[Vector3<f64>]) -> Self {
         let (mean, max) = contour::mean_and_max(errors);
         Self { mean: mean / MM, max: max / MM }
+    }
+
+    /// Of angles [rad], in deg.
+    pub fn of_angles(angles: &[f64]) -> Self {
+        let mean = angles.iter().sum::<f64>() / angles.len().max(1) as f64;
+        let max = angles.iter().copied().fold(0.0, f64::max);
+        Self { mean: mean / DEG, max: max / DEG }
     }
 }
 
@@ -51,6 +60,10 @@ pub struct Summary {
     pub before_mm: Before,
     /// Contour error after compensation, every source acting [mm].
     pub after_mm: Statistics,
+    /// Angle between actual and desired tool axis before compensation, every source acting [deg].
+    pub before_axis_deg: Statistics,
+    /// The same after compensation; it is corrected only along a path whose tool axis turns [deg].
+    pub after_axis_deg: Statistics,
     /// Number of the pass whose path is commanded.
     pub passes: usize,
     /// Whether the loop reached the tolerance for the sources it compensates.
@@ -63,12 +76,88 @@ pub struct Summary {
     pub history_mean_mm: Vec<f64>,
     /// The verdict in words.
     pub verdict: String,
+    /// What was understood of the program, where the path came from one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub program: Option<Understood>,
     /// Name of the robot.
     pub robot: String,
     /// The arm's branch at the start, in words.
     pub branch: String,
     /// What is odd but workable.
     pub warnings: Vec<Warning>,
+}
+
+/// What was understood of a program.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Understood {
+    /// `gcode`, `apt` or `csv`.
+    pub language: &'static str,
+    /// Unit of length of the text.
+    pub unit: &'static str,
+    /// Lines of the text.
+    pub lines: usize,
+    /// Moves that cut.
+    pub cutting_moves: usize,
+    /// Moves that do not.
+    pub rapid_moves: usize,
+    /// Whether the tool axis turns.
+    pub multi_axis: bool,
+    /// Smallest x, y, z of the moves' ends in the workpiece frame [mm].
+    pub lowest_mm: [f64; 3],
+    /// Largest x, y, z of the moves' ends in the workpiece frame [mm].
+    pub highest_mm: [f64; 3],
+    /// Smallest and largest feed that the program states [mm/s].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub feeds_mm_s: Option<[f64; 2]>,
+    /// Words without effect, each with the lines it stands in.
+    pub ignored: Vec<IgnoredWord>,
+}
+
+/// A word that is understood and has no effect on the path.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct IgnoredWord {
+    /// As written.
+    pub word: String,
+    /// Lines, from 1.
+    pub lines: Vec<usize>,
+}
+
+impl Understood {
+    fn of(listing: &Listing, path: &Path) -> Self {
+        let program = &listing.program;
+        let (mut lowest, mut highest) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        let mut feeds: Option<[f64; 2]> = None;
+        for step in &program.moves {
+            for s in [0.0, step.segment.length()] {
+                let point = step.segment.point(s) / MM;
+                for axis in 0..3 {
+                    lowest[axis] = f64::min(lowest[axis], point[axis]);
+                    highest[axis] = f64::max(highest[axis], point[axis]);
+                }
+            }
+            if let MovePace::Feed(feed) = step.pace {
+                let [least, most] = feeds.unwrap_or([feed / MM; 2]);
+                feeds = Some([least.min(feed / MM), most.max(feed / MM)]);
+            }
+        }
+        let mut words: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+        for ignored in &program.ignored {
+            words.entry(&ignored.word).or_default().push(ignored.line);
+        }
+        let rapid_moves = program.moves.iter().filter(|step| step.pace == MovePace::Rapid).count();
+        Self {
+            language: listing.language,
+            unit: program.unit,
+            lines: program.lines,
+            cutting_moves: program.moves.len() - rapid_moves,
+            rapid_moves,
+            multi_axis: path.is_multi_axis(),
+            lowest_mm: lowest,
+            highest_mm: highest,
+            feeds_mm_s: feeds,
+            ignored: words.into_iter().map(|(word, lines)| IgnoredWord { word: word.to_owned(), lines }).collect(),
+        }
+    }
 }
 
 impl Report {
@@ -86,7 +175,7 @@ impl Report {
             "{}, elbow {}, q4 = {:.1} deg",
             if start.front { "arm facing the point" } else { "arm over its back" },
             if start.elbow_positive { "positive" } else { "negative" },
-            self.joints.q.first().map_or(0.0, |q| q[3] / crate::units::DEG)
+            self.joints.q.first().map_or(0.0, |q| q[3] / DEG)
         );
         Summary {
             fingerprint: self.fingerprint(),
@@ -100,12 +189,15 @@ impl Report {
                 both: statistics(&self.before),
             },
             after_mm: statistics(&self.after),
+            before_axis_deg: Statistics::of_angles(&self.before.axis_error),
+            after_axis_deg: Statistics::of_angles(&self.after.axis_error),
             passes: self.compensation.passes,
             converged: self.compensation.converged,
             tolerance_mm: self.setup.goal.tolerance / MM,
             history_max_mm: mm(&self.compensation.history_max),
             history_mean_mm: mm(&self.compensation.history_mean),
             verdict: self.verdict(),
+            program: self.setup.listing.as_ref().map(|listing| Understood::of(listing, &self.plan.path)),
             robot: self.plan.robot.name().to_owned(),
             branch,
             warnings: self.warnings.clone(),

@@ -78,6 +78,7 @@ pub(crate) fn warnings(
     singularities(plan, joints, &mut warnings);
     cut(setup, plan, &mut warnings);
     corners(setup, plan, shaping_only, &mut warnings);
+    program(setup, &mut warnings);
     if let Some(error) = &compensation.stopped {
         let message =
             format!("a compensated path could not be commanded ({error}); the last one that could is kept");
@@ -94,6 +95,13 @@ pub(crate) fn warnings(
         warnings.push(Warning::new("tolerance-not-met", message));
     }
     warnings
+}
+
+/// What the reader of the program found odd, with its line.
+fn program(setup: &Setup, warnings: &mut Vec<Warning>) {
+    for remark in setup.listing.iter().flat_map(|listing| &listing.program.remarks) {
+        warnings.push(Warning::new(remark.code, format!("line {}: {}", remark.line, remark.message)));
+    }
 }
 
 fn limits(plan: &Plan, joints: &JointTrajectory, compensation: &Compensation, warnings: &mut Vec<Warning>) {

@@ -1,0 +1,230 @@
+//! The job's path: its keys, and the way from there to a path in SI.
+
+use crate::error::Error;
+use crate::job::choice::choice;
+use crate::job::setup::{invalid, missing};
+use crate::job::{Job, fields};
+use crate::path::unit::{self, LengthUnit};
+use crate::path::{self, Listing, Program, apt, csv, gcode, shape};
+use crate::units::{DEG, MM};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+choice! {
+    /// What the path is made from.
+    PathKind {
+        #[default]
+        /** Full circle. */ Circle,
+        /** Part of a circle. */ Arc,
+        /** One straight line. */ Line,
+        /** Rectangle with sharp or rounded corners. */ Rectangle,
+        /** Straight lines through points. */ Polyline,
+        /** Straight lines through pasted rows of x, y, z, with tool axis and feed where they are given. */ Csv,
+        /** A G-code program. */ Gcode,
+        /** An APT or CLDATA program. */ Apt,
+    }
+}
+choice! {
+    /// Unit of length of a text that does not say its own.
+    Unit { #[default] /** Millimetres. */ Mm, /** Inches. */ Inch }
+}
+
+/// Unit of the feeds in a text that does not say its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum FeedUnit {
+    /// Millimetres a second.
+    #[default]
+    #[serde(rename = "mm/s")]
+    MmPerS,
+    /// Millimetres a minute.
+    #[serde(rename = "mm/min")]
+    MmPerMin,
+    /// Inches a minute.
+    #[serde(rename = "inch/min")]
+    InchPerMin,
+}
+
+/// The desired path in the workpiece frame; which keys belong to it depends on `kind`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Path {
+    /// What it is made from.
+    pub kind: PathKind,
+    /// Centre of a circle, an arc or a rectangle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub center_mm: Option<[f64; 3]>,
+    /// Radius of a circle or an arc.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius_mm: Option<f64>,
+    /// Normal of a circle or an arc, of any length; default +Z.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal: Option<[f64; 3]>,
+    /// Start of an arc, from the projection of +X.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start_deg: Option<f64>,
+    /// Sweep of an arc, counter-clockwise about the normal if positive.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sweep_deg: Option<f64>,
+    /// Start of a line.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from_mm: Option<[f64; 3]>,
+    /// End of a line.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub to_mm: Option<[f64; 3]>,
+    /// Size of a rectangle along X.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width_mm: Option<f64>,
+    /// Size of a rectangle along Y.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height_mm: Option<f64>,
+    /// Radius of a rectangle's corners; default 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub corner_radius_mm: Option<f64>,
+    /// Points of a polyline.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub points_mm: Option<Vec<[f64; 3]>>,
+    /// Text of a program, or pasted rows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub text: Option<String>,
+    /// Unit of length of rows, or of an APT text, that do not say their own; default mm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<Unit>,
+    /// Unit of the feeds of rows that do not say their own; default mm/s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub feed_unit: Option<FeedUnit>,
+    /// Tool length offsets of a G-code program: rows of the number H and the offset.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tool_length_offsets_mm: Option<Vec<(u32, f64)>>,
+    /// Work offsets of a G-code program: G54, G55 and so on, in this order.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub work_offsets_mm: Option<Vec<[f64; 3]>>,
+    /// Whether lines of a G-code program that start with a slash are left out; default true.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub block_delete: Option<bool>,
+}
+
+impl Path {
+    /// A path of a kind, with none of its keys.
+    pub fn of(kind: PathKind) -> Self {
+        Self { kind, ..Self::default() }
+    }
+}
+
+/// JSON path of the text of a program.
+const TEXT: &str = "path.text";
+
+impl Job {
+    /// The desired path in the workpiece frame, with the program it was read from, if it was.
+    pub(super) fn desired_path(&self) -> Result<(path::Path, Option<Listing>), Error> {
+        fields::check_path_keys(self)?;
+        let kind = self.path.kind;
+        let language = match kind {
+            PathKind::Csv => "csv",
+            PathKind::Gcode => "gcode",
+            PathKind::Apt => "apt",
+            _ => return self.shape().map(|path| (path, None)),
+        };
+        let text = self.path.text.as_ref().ok_or_else(|| need("text"))?;
+        let program = self.program(kind, text)?;
+        let path = path::Path::of_program(&program).ok_or_else(|| {
+            invalid(TEXT, "a text without a move", "two positions or more that are not all the same")
+        })?;
+        Ok((path, Some(Listing { language, text: text.clone(), program })))
+    }
+
+    fn program(&self, kind: PathKind, text: &str) -> Result<Program, Error> {
+        let given = &self.path;
+        let unit = match given.unit.unwrap_or_default() {
+            Unit::Mm => LengthUnit::Mm,
+            Unit::Inch => LengthUnit::Inch,
+        };
+        match kind {
+            PathKind::Apt => apt::program(text, &apt::Options { field: TEXT, unit }),
+            PathKind::Gcode => {
+                let lengths = given.tool_length_offsets_mm.iter().flatten();
+                let mut work_offsets = [None; 9];
+                let given_offsets = given.work_offsets_mm.as_deref().unwrap_or_default();
+                if given_offsets.len() > work_offsets.len() {
+                    let value = format!("{} offsets", given_offsets.len());
+                    return Err(invalid("path.work_offsets_mm", value, "G54 to G59, G59.1, G59.2, G59.3: nine at most"));
+                }
+                for (place, offset) in work_offsets.iter_mut().zip(given_offsets) {
+                    *place = Some(Vector3::from(*offset) * MM);
+                }
+                let options = gcode::Options {
+                    field: TEXT.into(),
+                    work_offsets,
+                    tool_length_offsets: lengths.map(|&(number, length)| (number, length * MM)).collect(),
+                    block_delete: given.block_delete.unwrap_or(true),
+                    ..gcode::Options::default()
+                };
+                gcode::program(text, &options, |_| {})
+            }
+            _ => {
+                let feed_unit = match given.feed_unit.unwrap_or_default() {
+                    FeedUnit::MmPerS => unit::FeedUnit::MmPerS,
+                    FeedUnit::MmPerMin => unit::FeedUnit::MmPerMin,
+                    FeedUnit::InchPerMin => unit::FeedUnit::InchPerMin,
+                };
+                csv::program(text, &csv::Options { field: TEXT, unit, feed_unit })
+            }
+        }
+    }
+
+    /// A path drawn from a shape.
+    fn shape(&self) -> Result<path::Path, Error> {
+        let given = &self.path;
+        let vector = |value: Option<[f64; 3]>, key: &str| {
+            value.ok_or_else(|| need(key)).map(|v| Vector3::from(v) * MM)
+        };
+        let length = |value: Option<f64>, key: &str| value.ok_or_else(|| need(key)).map(|v| v * MM);
+        let normal = Vector3::from(given.normal.unwrap_or([0.0, 0.0, 1.0]));
+        if normal.norm() < 1e-9 {
+            return Err(invalid("path.normal", "(0, 0, 0)", "a direction; its length does not matter"));
+        }
+        let segments = match given.kind {
+            PathKind::Circle => {
+                let center = vector(given.center_mm, "center_mm")?;
+                vec![shape::circle(center, length(given.radius_mm, "radius_mm")?, normal)]
+            }
+            PathKind::Arc => {
+                let center = vector(given.center_mm, "center_mm")?;
+                let sweep = given.sweep_deg.ok_or_else(|| need("sweep_deg"))? * DEG;
+                let start = given.start_deg.unwrap_or(0.0) * DEG;
+                vec![shape::arc(center, length(given.radius_mm, "radius_mm")?, normal, start, sweep)]
+            }
+            PathKind::Line => {
+                shape::polyline(&[vector(given.from_mm, "from_mm")?, vector(given.to_mm, "to_mm")?])
+            }
+            PathKind::Rectangle => {
+                let (width, height) =
+                    (length(given.width_mm, "width_mm")?, length(given.height_mm, "height_mm")?);
+                let radius = given.corner_radius_mm.unwrap_or(0.0) * MM;
+                let largest = width.min(height) / 2.0;
+                if radius > largest {
+                    let (value, max) = (radius / MM, largest / MM);
+                    let field = "path.corner_radius_mm".into();
+                    return Err(Error::OutOfRange { field, value, min: 0.0, max, unit: "mm" });
+                }
+                shape::rectangle(vector(given.center_mm, "center_mm")?, width, height, radius)
+            }
+            _ => {
+                let points = given.points_mm.as_ref().ok_or_else(|| need("points_mm"))?;
+                let points: Vec<_> = points.iter().map(|point| Vector3::from(*point) * MM).collect();
+                shape::polyline(&points)
+            }
+        };
+        path::Path::new(segments).ok_or_else(|| {
+            let (field, expected) = match given.kind {
+                PathKind::Polyline => ("path.points_mm", "two points or more that are not all the same"),
+                PathKind::Line => ("path.to_mm", "another point than from_mm"),
+                _ => ("path.sweep_deg", "a sweep that is not zero"),
+            };
+            invalid(field, "a path without length", expected)
+        })
+    }
+}
+
+fn need(key: &str) -> Error {
+    missing(&format!("path.{key}"), "this kind of path needs it")
+}
