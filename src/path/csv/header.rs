@@ -1,0 +1,143 @@
+//! Which column is what, and in which unit.
+
+use crate::path::draft::Fault;
+use crate::path::unit::{FeedUnit, LengthUnit};
+
+/// How many columns a text may have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Width {
+    /// x, y, z and nothing else.
+    Points,
+    /// x, y, z, and also an axis and a feed.
+    Any,
+}
+
+/// The cells that hold the parts of a row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Columns {
+    pub(super) count: usize,
+    pub(super) point: [usize; 3],
+    pub(super) axis: Option<[usize; 3]>,
+    pub(super) feed: Option<usize>,
+    /// Unit of length that the header gives.
+    pub(super) unit: Option<LengthUnit>,
+    /// Unit of feed that the header gives.
+    pub(super) feed_unit: Option<FeedUnit>,
+    /// Whether a header named them.
+    pub(super) named: bool,
+}
+
+/// What columns may be called, in lower case: the parts of a row in the order that a text without header has.
+const NAMES: [&[&str]; 7] = [
+    &["x", "px", "posx"],
+    &["y", "py", "posy"],
+    &["z", "pz", "posz"],
+    &["i", "nx", "ax", "ux", "axisi", "axisx"],
+    &["j", "ny", "ay", "uy", "axisj", "axisy"],
+    &["k", "nz", "az", "uz", "axisk", "axisz"],
+    &["feed", "f", "feedrate"],
+];
+
+impl Columns {
+    /// What the cells are without a header.
+    pub(super) fn of_count(count: usize, width: Width) -> Result<Self, Fault> {
+        let (axis, feed) = match (count, width) {
+            (3, _) => (None, None),
+            (4, Width::Any) => (None, Some(3)),
+            (6, Width::Any) => (Some([3, 4, 5]), None),
+            (7, Width::Any) => (Some([3, 4, 5]), Some(6)),
+            (_, Width::Points) => {
+                return Err(Fault::new(format!("{count} numbers"), "a row is three numbers: x, y, z"));
+            }
+            (_, Width::Any) => {
+                let expected = "a row is x, y, z, then i, j, k or not, then a feed or not; a header may name the columns";
+                return Err(Fault::new(format!("{count} numbers"), expected));
+            }
+        };
+        Ok(Self { count, point: [0, 1, 2], axis, feed, unit: None, feed_unit: None, named: false })
+    }
+
+    /// What the names of a header say; a fault comes with the index of its cell.
+    pub(super) fn of_names(names: &[&str], width: Width) -> Result<Self, (usize, Fault)> {
+        let mut places = [None; 7];
+        let (mut unit, mut feed_unit) = (None, None);
+        for (index, name) in names.iter().enumerate() {
+            let fault = |expected: &str| (index, Fault::new(format!("the column \"{name}\""), expected));
+            let unknown = match width {
+                Width::Points => "the columns are x, y, z",
+                Width::Any => {
+                    "the columns are x, y, z, i, j, k and feed, with or without a unit: x [mm], y_in"
+                }
+            };
+            let (part, said) = part_and_unit(name).ok_or_else(|| fault(unknown))?;
+            if width == Width::Points && part > 2 {
+                return Err(fault(unknown));
+            }
+            if places[part].replace(index).is_some() {
+                return Err(fault("each column stands once"));
+            }
+            match (part, said.as_str()) {
+                (_, "") => {}
+                (0..3, said) => {
+                    let read = length_unit(said).ok_or_else(|| fault("lengths are in mm or in"))?;
+                    if unit.replace(read).is_some_and(|before| before != read) {
+                        return Err(fault("x, y and z have the same unit"));
+                    }
+                }
+                (6, said) => {
+                    feed_unit =
+                        Some(speed_unit(said).ok_or_else(|| fault("feeds are in mm/s, mm/min or in/min"))?);
+                }
+                _ => return Err(fault("i, j and k have no unit")),
+            }
+        }
+        let all = |part: usize| Some([places[part]?, places[part + 1]?, places[part + 2]?]);
+        let end =
+            |expected: &str| (names.len().saturating_sub(1), Fault::new("the end of the header", expected));
+        let point = all(0).ok_or_else(|| end("the columns x, y and z are there"))?;
+        let axis = all(3);
+        if axis.is_none() && places[3..6].iter().any(Option::is_some) {
+            return Err(end("of i, j and k all three are there, or none"));
+        }
+        Ok(Self { count: names.len(), point, axis, feed: places[6], unit, feed_unit, named: true })
+    }
+}
+
+/// Which part of a row a name stands for, and the unit that it carries: `x_mm`, `Feed rate [mm/min]`.
+fn part_and_unit(name: &str) -> Option<(usize, String)> {
+    let name = name.to_lowercase();
+    let apart = |c: char| c.is_whitespace() || "_-/.:[]()".contains(c);
+    let mut words: Vec<&str> = name.split(apart).filter(|word| !word.is_empty() && *word != "per").collect();
+    let part_of = |name: &str| NAMES.iter().position(|names| names.contains(&name));
+    // Two words may be one name: axis i, pos x, feed rate.
+    let joined = words.get(..2).map(<[&str]>::concat);
+    let part = match joined.and_then(|joined| part_of(&joined)) {
+        Some(part) => {
+            words.drain(..2);
+            part
+        }
+        None => {
+            let part = part_of(words.first()?)?;
+            words.remove(0);
+            part
+        }
+    };
+    Some((part, words.join("/")))
+}
+
+fn length_unit(text: &str) -> Option<LengthUnit> {
+    match text {
+        "mm" => Some(LengthUnit::Mm),
+        "in" | "inch" | "inches" => Some(LengthUnit::Inch),
+        _ => None,
+    }
+}
+
+fn speed_unit(text: &str) -> Option<FeedUnit> {
+    match text {
+        "mm/s" | "mm/sec" => Some(FeedUnit::MmPerS),
+        "mm/min" | "mmpm" => Some(FeedUnit::MmPerMin),
+        "in/min" | "inch/min" | "inches/min" | "ipm" => Some(FeedUnit::InchPerMin),
+        _ => None,
+    }
+}

@@ -1,0 +1,85 @@
+//! Points typed or pasted as text, one row a line: `x, y, z[, i, j, k][, feed]`.
+//!
+//! Cells are separated by semicolon, comma, tab or blanks. A comma is the decimal sign where something else separates the cells
+//! (`1,5; 2,5; 3,5`). A first row of names says which column is what, in any order, and may give units: `x [mm]`, `feed_mm_min`.
+//! Without it, three cells are x, y, z; four end in a feed; six end in an axis; seven have both. Blank lines and what follows `#`
+//! are passed over, and so is a line that starts with `;` and a word.
+//!
+//! The path runs straight from row to row. The axis (i, j, k) points from tip to spindle; a row's feed is that of the move that ends there.
+
+mod header;
+mod row;
+
+use crate::error::Error;
+use crate::path::draft::{self, Draft, Target};
+use crate::path::program::{MovePace, Program};
+use crate::path::unit::{FeedUnit, LengthUnit};
+use header::Width;
+use nalgebra::Vector3;
+use row::Rows;
+
+/// What the text itself may leave open.
+#[derive(Debug, Clone, Copy)]
+pub struct Options<'a> {
+    /// JSON path of the text, for errors.
+    pub field: &'a str,
+    /// Unit of x, y, z; the same unit or none may stand in the header.
+    pub unit: LengthUnit,
+    /// Unit of the feed; the header's unit holds where it gives one.
+    pub feed_unit: FeedUnit,
+}
+
+/// Reads rows of points, with or without tool axis and feed, into a program of straight moves.
+///
+/// A row at the place of the one before makes no move. Rows of whole numbers like `1,5,2,5`, without a header, are refused
+/// where nothing in the text says whether the commas are decimal signs.
+///
+/// # Errors
+/// [`Error::Text`] with line and column of the first cell that is not what its column needs.
+pub fn program(text: &str, options: &Options<'_>) -> Result<Program, Error> {
+    let mut draft = Draft::default();
+    let mut rows = Rows::new(text, options.field, options.unit, Width::Any);
+    while let Some(row) = rows.next_row()? {
+        let columns = row.columns;
+        let unit = columns.unit.unwrap_or(options.unit);
+        let feed_unit = columns.feed_unit.unwrap_or(options.feed_unit);
+        if (unit, feed_unit) != (options.unit, options.feed_unit) && draft.pose.is_none() {
+            draft.remark("header-unit", row.line, || {
+                format!("the header's units hold: lengths in {}, feeds in {}", unit.name(), feed_unit.name())
+            });
+        }
+        let axis = match columns.axis {
+            Some([i, j, k]) => draft
+                .direction(Vector3::new(row.numbers[i], row.numbers[j], row.numbers[k]), row.line)
+                .map_err(|fault| fault.at(options.field, row.position(i)))?,
+            None => Vector3::z(),
+        };
+        let pace = match columns.feed {
+            Some(cell) => draft::feed(row.numbers[cell] * feed_unit.in_m_per_s())
+                .map(MovePace::Feed)
+                .map_err(|fault| fault.at(options.field, row.position(cell)))?,
+            None => MovePace::JobFeed,
+        };
+        draft
+            .line_to(Target { point: row.point, axis, pace, spindle: None, line: row.line })
+            .map_err(|fault| fault.at(options.field, row.position(columns.axis.map_or(0, |axis| axis[0]))))?;
+    }
+    if draft.program.moves.is_empty() {
+        let expected = "a path has two rows or more that are not all the same point";
+        return Err(rows.error((rows.lines().max(1), 1), "the end of a text without a move", expected));
+    }
+    Ok(draft.finish(rows.unit().name(), rows.lines()))
+}
+
+/// Reads rows of x, y, z \[mm, where the header says nothing else\] into points \[m\].
+///
+/// # Errors
+/// [`Error::Text`] with line and column of the first thing that is not a number, or of a row that has not three of them.
+pub fn points(text: &str, field: &str) -> Result<Vec<Vector3<f64>>, Error> {
+    let mut points = Vec::new();
+    let mut rows = Rows::new(text, field, LengthUnit::Mm, Width::Points);
+    while let Some(row) = rows.next_row()? {
+        points.push(row.point);
+    }
+    Ok(points)
+}

@@ -1,0 +1,285 @@
+//! Rows of numbers: lines cut into cells, and what a comma means.
+
+use super::header::{Columns, Width};
+use crate::error::Error;
+use crate::path::draft::{self, Fault};
+use crate::path::unit::LengthUnit;
+use nalgebra::Vector3;
+use std::str::Lines;
+
+/// What separates the cells of a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Separator {
+    Semicolon,
+    Comma,
+    Blank,
+}
+
+/// What commas were in the rows so far.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Comma {
+    Separator,
+    Decimal,
+}
+
+/// One row of numbers.
+pub(super) struct Row<'a> {
+    /// From 1.
+    pub(super) line: usize,
+    pub(super) columns: Columns,
+    /// The numbers in the order of the text; as many as there are columns.
+    pub(super) numbers: [f64; 7],
+    /// x, y, z \[m\].
+    pub(super) point: Vector3<f64>,
+    text: &'a str,
+    starts: [usize; 7],
+}
+
+impl Row<'_> {
+    /// Line and column of a cell.
+    pub(super) fn position(&self, cell: usize) -> (usize, usize) {
+        position(self.line, self.text, self.starts[cell])
+    }
+}
+
+/// The rows of a text in order.
+pub(super) struct Rows<'a> {
+    lines: std::iter::Enumerate<Lines<'a>>,
+    count: usize,
+    field: &'a str,
+    unit: LengthUnit,
+    width: Width,
+    columns: Option<Columns>,
+    comma: Option<Comma>,
+    /// Whether a decimal point has been seen.
+    decimal_point: bool,
+    /// Whether a row has shown that its commas separate.
+    settled: bool,
+    /// The first row whose commas may be either, and where it stands.
+    ambiguous: Option<((usize, usize), &'a str)>,
+    cells: Vec<(usize, &'a str)>,
+}
+
+impl<'a> Rows<'a> {
+    pub(super) fn new(text: &'a str, field: &'a str, unit: LengthUnit, width: Width) -> Self {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        Self {
+            lines: text.lines().enumerate(),
+            count: 0,
+            field,
+            unit,
+            width,
+            columns: None,
+            comma: None,
+            decimal_point: false,
+            settled: false,
+            ambiguous: None,
+            cells: Vec::with_capacity(8),
+        }
+    }
+
+    /// Lines seen.
+    pub(super) fn lines(&self) -> usize {
+        self.count
+    }
+
+    /// The unit of length that holds.
+    pub(super) fn unit(&self) -> LengthUnit {
+        self.columns.and_then(|columns| columns.unit).unwrap_or(self.unit)
+    }
+
+    pub(super) fn error(&self, position: (usize, usize), found: &str, expected: &str) -> Error {
+        Fault::new(found, expected).at(self.field, position)
+    }
+
+    /// The next row of numbers.
+    pub(super) fn next_row(&mut self) -> Result<Option<Row<'a>>, Error> {
+        while let Some((index, line)) = self.lines.next() {
+            self.count = index + 1;
+            let text = line.split('#').next().unwrap_or_default();
+            if is_passed_over(text) {
+                continue;
+            }
+            let separator = separate(text, &mut self.cells);
+            let columns = match self.columns {
+                Some(columns) => columns,
+                None => {
+                    let (columns, header) = self.columns_of(text)?;
+                    self.columns = Some(columns);
+                    if header {
+                        continue;
+                    }
+                    columns
+                }
+            };
+            return self.row(text, separator, columns).map(Some);
+        }
+        match self.ambiguous {
+            Some((position, row)) => {
+                let expected = "nothing says whether the commas are decimal signs: name the columns in a first line (x,y,z,feed), \
+                                or separate the cells by semicolons";
+                Err(self.error(position, &format!("\"{row}\""), expected))
+            }
+            None => Ok(None),
+        }
+    }
+
+    /// The columns that the first line tells of, and whether it is a header.
+    fn columns_of(&mut self, text: &'a str) -> Result<(Columns, bool), Error> {
+        let line = self.count;
+        let named = |cell: &str| cell.trim_matches('"').chars().next().is_some_and(char::is_alphabetic);
+        let unit = |cell: &str| cell.starts_with(['[', '(']);
+        if !self.cells.iter().all(|(_, cell)| named(cell) || unit(cell))
+            || !self.cells.iter().any(|(_, cell)| named(cell))
+        {
+            let columns = Columns::of_count(self.cells.len(), self.width);
+            let most = if self.width == Width::Points { 3 } else { 7 };
+            return columns
+                .map(|columns| (columns, false))
+                .map_err(|fault| self.miscounted(text, most, fault));
+        }
+        // Between blanks, a unit in brackets belongs to the name before it.
+        let mut names: Vec<(usize, &str)> = Vec::new();
+        for (start, cell) in &self.cells {
+            match names.last_mut() {
+                Some((first, name)) if unit(cell) => *name = text[*first..start + cell.len()].trim(),
+                _ => names.push((*start, cell)),
+            }
+        }
+        let texts: Vec<&str> = names.iter().map(|(_, name)| name.trim_matches('"')).collect();
+        Columns::of_names(&texts, self.width).map(|columns| (columns, true)).map_err(|(cell, fault)| {
+            let start = names.get(cell).map_or(0, |(start, _)| *start);
+            fault.at(self.field, position(line, text, start))
+        })
+    }
+
+    /// The error of a line with the wrong number of cells; a cell that is no number tells more than their count.
+    fn miscounted(&self, text: &str, count: usize, fault: Fault) -> Error {
+        let of = |start: usize| position(self.count, text, start);
+        let wrong = self.cells.iter().find(|(_, cell)| number(cell, true).is_none());
+        match (wrong, self.cells.get(count).or(self.cells.last())) {
+            (Some((start, cell)), _) => not_a_number(cell).at(self.field, of(*start)),
+            (None, last) => fault.at(self.field, of(last.map_or(0, |(start, _)| *start))),
+        }
+    }
+
+    fn row(&mut self, text: &'a str, separator: Separator, columns: Columns) -> Result<Row<'a>, Error> {
+        let line = self.count;
+        if self.cells.len() != columns.count {
+            let mut expected = format!("a row has {} cells here, as the first line says", columns.count);
+            if separator == Separator::Comma {
+                expected.push_str("; where commas are decimal signs, semicolons separate");
+            }
+            let fault = Fault::new(format!("{} cells", self.cells.len()), expected);
+            return Err(self.miscounted(text, columns.count, fault));
+        }
+        let (mut numbers, mut starts) = ([0.0; 7], [0; 7]);
+        for (index, (start, cell)) in self.cells.iter().enumerate() {
+            let fail = |fault: Fault| fault.at(self.field, position(line, text, *start));
+            numbers[index] =
+                number(cell, separator != Separator::Comma).ok_or_else(|| fail(not_a_number(cell)))?;
+            starts[index] = *start;
+            self.decimal_point |= cell.contains('.');
+            let comma = match separator {
+                Separator::Comma => Some(Comma::Separator),
+                _ => cell.contains(',').then_some(Comma::Decimal),
+            };
+            if comma.is_some_and(|comma| *self.comma.get_or_insert(comma) != comma) {
+                let expected = "in the whole text, commas are either decimal signs or separators";
+                return Err(fail(Fault::new(format!("\"{}\"", text.trim()), expected)));
+            }
+            if self.comma == Some(Comma::Decimal) && self.decimal_point {
+                return Err(fail(Fault::new(
+                    format!("\"{cell}\""),
+                    "decimal signs are either points or commas, in the whole text",
+                )));
+            }
+        }
+        if separator == Separator::Comma && !columns.named && columns.count.is_multiple_of(2) && !self.settled
+        {
+            // A point, an exponent, or a sign where a fraction would stand.
+            let shows = |(index, (_, cell)): (usize, &(usize, &str))| {
+                cell.contains(['.', 'e', 'E']) || (index % 2 == 1 && cell.starts_with(['-', '+']))
+            };
+            self.settled = self.cells.iter().enumerate().any(shows);
+            let here = (position(line, text, self.cells[0].0), text.trim());
+            self.ambiguous = if self.settled { None } else { self.ambiguous.or(Some(here)) };
+        }
+        let mut point = Vector3::zeros();
+        for (value, cell) in point.iter_mut().zip(columns.point) {
+            let fail = |fault: Fault| fault.at(self.field, position(line, text, starts[cell]));
+            *value = draft::coordinate(numbers[cell] * self.unit().in_m()).map_err(fail)?;
+        }
+        Ok(Row { line, columns, numbers, point, text, starts })
+    }
+}
+
+/// Line and column, both from 1; columns count characters.
+fn position(line: usize, text: &str, byte: usize) -> (usize, usize) {
+    (line, text[..byte].chars().count() + 1)
+}
+
+fn not_a_number(cell: &str) -> Fault {
+    Fault::new(format!("\"{cell}\""), "a number, such as 12.5")
+}
+
+/// The number of a cell; with a decimal comma where one is allowed.
+fn number(cell: &str, comma: bool) -> Option<f64> {
+    // `inf` and `nan` are no numbers here.
+    if !cell.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b) || (comma && b == b',')) {
+        return None;
+    }
+    let value: f64 = match cell.split_once(',') {
+        Some((whole, fraction))
+            if !whole.contains('.') && fraction.starts_with(|c: char| c.is_ascii_digit()) =>
+        {
+            format!("{whole}.{fraction}").parse().ok()?
+        }
+        Some(_) => return None,
+        None => cell.parse().ok()?,
+    };
+    value.is_finite().then_some(value)
+}
+
+/// Whether a line holds no row: nothing but separators, or a comment that starts with a semicolon and a word.
+fn is_passed_over(text: &str) -> bool {
+    let rest = text.trim_start();
+    let comment =
+        rest.strip_prefix(';').is_some_and(|words| words.trim_start().starts_with(char::is_alphabetic));
+    comment || rest.chars().all(|c| c.is_whitespace() || c == ',' || c == ';')
+}
+
+/// Cuts a line into cells, each with its byte in the line. One separator may end the line.
+fn separate<'a>(text: &'a str, cells: &mut Vec<(usize, &'a str)>) -> Separator {
+    let mut cut = |separator: Separator| {
+        cells.clear();
+        let ends = |c: char| match separator {
+            Separator::Semicolon => c == ';',
+            Separator::Comma => c == ',',
+            Separator::Blank => c.is_whitespace(),
+        };
+        let mut start = 0;
+        for piece in text.trim_end().split_inclusive(ends) {
+            let cell = piece.strip_suffix(ends).unwrap_or(piece);
+            let lead = cell.len() - cell.trim_start().len();
+            if separator != Separator::Blank || !cell.trim().is_empty() {
+                cells.push((start + lead, cell.trim()));
+            }
+            start += piece.len();
+        }
+        separator
+    };
+    if text.contains(';') {
+        return cut(Separator::Semicolon);
+    }
+    // Commas are decimal signs where blanks separate and each has a digit on both sides: in `1,5 2,5`, not in `1, 2`.
+    let inner_blank = |cell: &str| cell.trim().contains(char::is_whitespace);
+    let digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
+    let bytes = text.as_bytes();
+    let between_digits =
+        |(at, _): (usize, &str)| at > 0 && digit(bytes.get(at - 1)) && digit(bytes.get(at + 1));
+    if text.split(',').any(inner_blank) && text.match_indices(',').all(between_digits) {
+        return cut(Separator::Blank);
+    }
+    if text.contains(',') { cut(Separator::Comma) } else { cut(Separator::Blank) }
+}
