@@ -2,6 +2,8 @@
 
 /// One millimetre [m].
 pub const MM: f64 = 1e-3;
+/// One inch [m].
+pub const INCH: f64 = 25.4e-3;
 /// One degree [rad].
 pub const DEG: f64 = std::f64::consts::PI / 180.0;
 /// One revolution a minute [1/s].

@@ -93,7 +93,7 @@ impl Report {
 }
 
 /// A length [m] in mm with three significant digits, as read.
-fn millimetres(length: f64) -> String {
+pub(crate) fn millimetres(length: f64) -> String {
     let mm = length / MM;
     if mm == 0.0 {
         return "0".into();
