@@ -21,7 +21,9 @@ pub fn program(report: &Report, command: &Command) -> String {
         if tilted { format!("GOTO/{x},{y},{z},{i},{j},{k}") } else { format!("GOTO/{x},{y},{z}") }
     };
     let mut lines = vec!["PARTNO/ARMILL".to_owned()];
-    lines.extend(header::wrapped(&header::lines(report, Some(command)), 68).iter().map(|line| format!("$$ {line}")));
+    lines.extend(
+        header::wrapped(&header::lines(report, Some(command)), 68).iter().map(|line| format!("$$ {line}")),
+    );
     lines.push(format!("UNITS/{unit}"));
     if tilted {
         lines.push("MULTAX/ON".into());

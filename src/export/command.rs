@@ -111,7 +111,10 @@ impl Command {
             return Err(Error::Invalid {
                 field: "thinning_mm".into(),
                 value: millimetres(thinning),
-                expected: format!("the samples stray {} mm from the thinned path; state more", millimetres(deviation)),
+                expected: format!(
+                    "the samples stray {} mm from the thinned path; state more",
+                    millimetres(deviation)
+                ),
             });
         }
         let start = start.unwrap_or(Point { position: path.point(0.0), axis: path.axis(0.0) });
@@ -178,7 +181,8 @@ fn pieces(report: &Report, path: &Path, back: &Pose) -> Vec<Piece> {
             let t = ((end - before) / (after - before)).clamp(0.0, 1.0);
             let turned = sample(k - 1).axis * (1.0 - t) + sample(k).axis * t;
             points.push(Point {
-                position: path.point(end) + back.direction(&(correction[k - 1] * (1.0 - t) + correction[k] * t)),
+                position: path.point(end)
+                    + back.direction(&(correction[k - 1] * (1.0 - t) + correction[k] * t)),
                 axis: turned.normalize(),
             });
         }

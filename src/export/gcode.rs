@@ -31,9 +31,10 @@ pub fn program(report: &Report, command: &Command) -> Result<String, Error> {
             expected: "the tool axis is not +Z all along, which this G-code cannot say: use apt".into(),
         });
     }
-    let original = report.setup.listing.as_ref().filter(|listing| {
-        listing.language == "gcode" && command.blocks.is_sorted_by_key(|block| block.line)
-    });
+    let original =
+        report.setup.listing.as_ref().filter(|listing| {
+            listing.language == "gcode" && command.blocks.is_sorted_by_key(|block| block.line)
+        });
     let unit = match &report.setup.listing {
         Some(listing) if listing.program.unit == "inch" => Unit { word: "G20", size: INCH, decimals: 6 },
         _ => Unit { word: "G21", size: MM, decimals: 5 },
@@ -101,7 +102,10 @@ impl Writer {
 
     fn wait(&mut self, block: &Block) {
         if block.wait > 0.0 {
-            self.line(&format!("G4 P{} (seconds at rest, until the shaped command has settled or as programmed)", number(block.wait, 4)));
+            self.line(&format!(
+                "G4 P{} (seconds at rest, until the shaped command has settled or as programmed)",
+                number(block.wait, 4)
+            ));
         }
     }
 
@@ -165,7 +169,9 @@ impl Writer {
         let stays = moves == 1 && blocks.len() == 1 && source.simple;
         let was = if stays || !source.dropped { String::new() } else { format!("(was: {})", source.code) };
         let one: String = match (stays, blocks) {
-            (true, [block, ..]) => block.points.iter().map(|point| self.words(point, block.rapid, block.feed)).collect(),
+            (true, [block, ..]) => {
+                block.points.iter().map(|point| self.words(point, block.rapid, block.feed)).collect()
+            }
             _ => String::new(),
         };
         let after = if stays || moves == 0 { source.after.as_str() } else { "" };
@@ -270,7 +276,8 @@ fn uncommented(line: &str) -> (String, String) {
         match c {
             ';' if !inside => {
                 // Brackets within would end the comment early.
-                let rest: String = line[at + 1..].chars().map(|c| if "()".contains(c) { ' ' } else { c }).collect();
+                let rest: String =
+                    line[at + 1..].chars().map(|c| if "()".contains(c) { ' ' } else { c }).collect();
                 comments.push_str(&format!("({})", rest.trim()));
                 break;
             }

@@ -36,14 +36,25 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
             command.points(),
             millimetres(command.deviation)
         ));
-        lines.push(format!("Positions in the workpiece frame, in the robot base at {}", placed(&setup.workpiece)));
+        lines.push(format!(
+            "Positions in the workpiece frame, in the robot base at {}",
+            placed(&setup.workpiece)
+        ));
     }
     lines.push(format!("Tool tip on the flange at {}", placed(report.plan.robot.tool())));
-    lines.push("Base, flange and joint zeros are the robot model's: compare them with the controller's".into());
+    lines.push(
+        "Base, flange and joint zeros are the robot model's: compare them with the controller's".into(),
+    );
     if let Some((frequency, damping)) = setup.mode {
         lines.push(format!(
             "These are commands before the input shaper, {frequency} rad/s, damping {damping}: it must act on them"
         ));
+    }
+    if command.is_some() && setup.sources.shaping && report.compensation.passes > 0 {
+        lines.push(
+            "The correction for shaping holds for this run's own timing; points that are timed otherwise keep less of it, joint commands at the sample time keep all"
+                .into(),
+        );
     }
     lines.push(
         "Warning: a controller's own blending or absolute-accuracy option adds its own error to these figures".into(),
@@ -66,9 +77,16 @@ fn placed(frame: &Pose) -> String {
     )
 }
 
-/// A name as any controller reads it: other characters than letters, digits, blanks and `-_.,` become blanks.
+/// A name as any controller reads it: umlauts lose their dots, what else is not a letter, a digit, a blank or `-_.,` becomes a blank.
 fn ascii(name: &str) -> String {
-    name.chars().map(|c| if c.is_ascii_alphanumeric() || "-_.,".contains(c) { c } else { ' ' }).collect()
+    let plain = |c: char| match c {
+        'ä' => 'a',
+        'ö' => 'o',
+        'ü' => 'u',
+        _ if c.is_ascii_alphanumeric() || "-_.,".contains(c) => c,
+        _ => ' ',
+    };
+    name.chars().map(plain).collect()
 }
 
 /// A number with at most so many decimals and at least one: some controls read a number without a point in least increments.

@@ -38,7 +38,10 @@ pub fn program(report: &Report, command: &Command) -> String {
         }
         if spindle != Some(block.spindle) {
             spindle = Some(block.spindle);
-            lines.push(format!("; spindle clockwise at {} rpm: switch it by your own signals", number(block.rpm(), 2)));
+            lines.push(format!(
+                "; spindle clockwise at {} rpm: switch it by your own signals",
+                number(block.rpm(), 2)
+            ));
         }
         if block.wait > 0.0 {
             lines.push(format!("WAIT SEC {}", number(block.wait, 4)));

@@ -78,7 +78,8 @@ pub fn export(report: &Report, id: &str, options: &Options) -> Result<Export, Er
         });
     };
     let file_name = format!("armill-{id}.{}", format.extension);
-    let table = |text| Ok(Export { text, file_name: file_name.clone(), points: report.samples(), deviation: 0.0 });
+    let table =
+        |text| Ok(Export { text, file_name: file_name.clone(), points: report.samples(), deviation: 0.0 });
     match id {
         "columns-csv" => return table(csv::columns(report)),
         "compensated-csv" => return table(csv::compensated(report)),

@@ -18,9 +18,13 @@ pub fn program(report: &Report, command: &Command) -> String {
     let mut lines = vec!["MODULE ArmillPath".to_owned()];
     lines.extend(header::lines(report, Some(command)).iter().map(|line| format!("  ! {line}")));
     lines.extend([
-        "  ! z0 may round a point by up to 0.3 mm; write fine instead to stop exactly at every point.".to_owned(),
+        "  ! z0 may round a point by up to 0.3 mm; write fine instead to stop exactly at every point."
+            .to_owned(),
         "  ! Mass 1 kg and its centre are placeholders: enter the spindle's own load before running.".into(),
-        format!("  PERS tooldata tMill:=[TRUE,{},[1,[0,0,0.001],[1,0,0,0],0,0,0]];", frame(report.plan.robot.tool())),
+        format!(
+            "  PERS tooldata tMill:=[TRUE,{},[1,[0,0,0.001],[1,0,0,0],0,0,0]];",
+            frame(report.plan.robot.tool())
+        ),
         format!(
             "  PERS wobjdata wPart:=[FALSE,TRUE,\"\",{},[[0,0,0],[1,0,0,0]]];",
             frame(&report.setup.workpiece)
@@ -54,7 +58,10 @@ pub fn program(report: &Report, command: &Command) -> String {
         }
         if spindle != Some(block.spindle) {
             spindle = Some(block.spindle);
-            lines.push(format!("    ! spindle clockwise at {} rpm: switch it by your own signals", number(block.rpm(), 2)));
+            lines.push(format!(
+                "    ! spindle clockwise at {} rpm: switch it by your own signals",
+                number(block.rpm(), 2)
+            ));
         }
         if block.wait > 0.0 {
             lines.push(format!("    WaitTime \\InPos,{};", number(block.wait, 4)));

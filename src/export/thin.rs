@@ -32,7 +32,11 @@ impl Point {
             // The tip stands still while the axis turns.
             let turn = to.axis - from.axis;
             let turned = turn.norm_squared();
-            let t = if turned > 0.0 { ((self.axis - from.axis).dot(&turn) / turned).clamp(0.0, 1.0) } else { 0.0 };
+            let t = if turned > 0.0 {
+                ((self.axis - from.axis).dot(&turn) / turned).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
             (self.position - from.position).norm().max(axis_at(t))
         }
     }

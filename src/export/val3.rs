@@ -47,7 +47,10 @@ pub fn program(report: &Report, command: &Command) -> String {
         }
         if spindle != Some(block.spindle) {
             spindle = Some(block.spindle);
-            lines.push(format!("  // spindle clockwise at {} rpm: switch it by your own signals", number(block.rpm(), 2)));
+            lines.push(format!(
+                "  // spindle clockwise at {} rpm: switch it by your own signals",
+                number(block.rpm(), 2)
+            ));
         }
         if block.wait > 0.0 {
             lines.extend(["  waitEndMove()".into(), format!("  delay({})", number(block.wait, 4))]);
@@ -60,7 +63,9 @@ pub fn program(report: &Report, command: &Command) -> String {
             lines.extend([format!("  pPath.trsf={}", at(point)), "  movel(pPath,tMill,mPath)".into()]);
         }
     }
-    lines.extend(["  waitEndMove()", "end", "    ]]></Code>", "  </Program>", "</Programs>", ""].map(String::from));
+    lines.extend(
+        ["  waitEndMove()", "end", "    ]]></Code>", "  </Program>", "</Programs>", ""].map(String::from),
+    );
     lines.join("\n")
 }
 
