@@ -1,6 +1,8 @@
 //! What several test files need: jobs made from a patch, random arms, random joint values.
 #![allow(dead_code, reason = "each test file uses a part of this")]
 
+pub(crate) mod program;
+
 use armill::robot::{Joints, Link, Robot};
 use armill::{Job, Report};
 use nalgebra::Vector3;
