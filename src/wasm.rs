@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::job::fields;
 use crate::report::{Report, thesis};
 use crate::robot::library::ROBOTS;
+use crate::units::MM;
 use crate::{Job, Stage, export};
 use js_sys::{Float64Array, Function, Reflect};
 use serde::{Deserialize, Serialize};
@@ -41,6 +42,7 @@ export interface Chart {
   name: string; title: string; description: string; svg: string; width: number; height: number;
   plot: { left: number; top: number; width: number; height: number }; x: Axis; y: Axis; series: { key: string; label: string; class: string }[];
 }
+export interface Format { id: string; name: string; extension: string; note: string; }
 export interface ThesisRow { quantity: string; source: string; printed: string; ours: string; agrees: boolean; reason: string; }
 "#;
 
@@ -72,6 +74,12 @@ pub fn default_job() -> String {
 #[wasm_bindgen(unchecked_return_type = "Field[]")]
 pub fn fields() -> Result<JsValue, JsValue> {
     object(&fields::fields())
+}
+
+/// Every kind of file that a run can be exported to.
+#[wasm_bindgen(unchecked_return_type = "Format[]")]
+pub fn formats() -> Result<JsValue, JsValue> {
+    object(&export::FORMATS.to_vec())
 }
 
 #[derive(Serialize)]
@@ -212,16 +220,12 @@ impl Run {
         object(&chart::chart(&self.report, name, &options).map_err(|error| thrown(&error))?)
     }
 
-    /// A file to take away: `columns-csv` or `compensated-csv`.
-    pub fn export(&self, format: &str) -> Result<String, JsValue> {
-        match format {
-            "columns-csv" => Ok(export::csv::columns(&self.report)),
-            "compensated-csv" => Ok(export::csv::compensated(&self.report)),
-            other => Err(thrown(&Error::Invalid {
-                field: "format".into(),
-                value: format!("\"{other}\""),
-                expected: "columns-csv or compensated-csv".into(),
-            })),
+    /// A file to take away, in one of [`formats`]; `thinning_mm` is how far its points may stray from the samples (a tenth of the tolerance, if it is not given).
+    pub fn export(&self, format: &str, thinning_mm: Option<f64>) -> Result<String, JsValue> {
+        let options = export::Options { thinning: thinning_mm.map(|thinning| thinning * MM) };
+        match export::export(&self.report, format, &options) {
+            Ok(export) => Ok(export.text),
+            Err(error) => Err(thrown(&error)),
         }
     }
 

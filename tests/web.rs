@@ -123,10 +123,10 @@ fn progress_is_told_and_files_come_out() {
     let run = wasm::run(&wasm::default_job(), Some(told.clone().unchecked_into())).unwrap();
     assert!(number(&told, "told.length") >= 5.0);
     assert_eq!(text(&told, "told.0.1"), "joint commands");
-    let csv = run.export("compensated-csv").unwrap();
+    let csv = run.export("compensated-csv", None).unwrap();
     assert!(csv.starts_with("time_s,compensated_x_mm"));
-    assert!(run.export("columns-csv").unwrap().lines().count() > 19_000);
-    assert!(run.export("dxf").is_err());
+    assert!(run.export("columns-csv", None).unwrap().lines().count() > 19_000);
+    assert!(run.export("dxf", None).is_err());
 }
 
 #[wasm_bindgen_test]

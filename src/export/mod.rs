@@ -1,3 +1,100 @@
-//! Files to take away.
+//! Files to take away: tables of numbers, and the compensated path as a program for a machine or a robot.
 
+pub mod thin;
+pub mod orientation;
+pub mod command;
+pub mod header;
 pub mod csv;
+pub mod gcode;
+pub mod apt;
+pub mod krl;
+pub mod rapid;
+pub mod val3;
+pub mod fanuc;
+
+use crate::error::Error;
+use crate::report::Report;
+use command::Command;
+
+/// A kind of file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+pub struct Format {
+    /// Stable slug.
+    pub id: &'static str,
+    /// What a person reads.
+    pub name: &'static str,
+    /// Ending of the file's name.
+    pub extension: &'static str,
+    /// What is in it, and what to look out for.
+    pub note: &'static str,
+}
+
+/// Every kind of file.
+#[rustfmt::skip]
+pub const FORMATS: [Format; 10] = [
+    Format { id: "columns-csv", name: "All columns", extension: "csv", note: "Every column of the report, one row a sample." },
+    Format { id: "compensated-csv", name: "Compensated samples", extension: "csv", note: "Time, position in the base frame and joint commands, one row a sample." },
+    Format { id: "path-csv", name: "Compensated points", extension: "csv", note: "Thinned points in the workpiece frame with tool axis and feed." },
+    Format { id: "joints-csv", name: "Joint commands", extension: "csv", note: "Time and six joint values at the sample time." },
+    Format { id: "gcode", name: "G-code", extension: "nc", note: "Three axes; a program read from G-code keeps its block numbers and auxiliary words." },
+    Format { id: "apt", name: "APT", extension: "apt", note: "Cutter location text, with the tool axis where it turns." },
+    Format { id: "krl", name: "KUKA KRL", extension: "src", note: "Exact stop at every point until you turn blending on. Not tried on a controller." },
+    Format { id: "rapid", name: "ABB RAPID", extension: "mod", note: "Zones z0, stops fine; enter the tool's load. Not tried on a controller." },
+    Format { id: "val3", name: "Staubli VAL3", extension: "pgx", note: "One program; declare frame, tool, point and motion descriptor. Not tried on a controller." },
+    Format { id: "fanuc", name: "FANUC LS", extension: "ls", note: "Exact stop at every point; enter the frames, check CONFIG. Not tried on a controller." },
+];
+
+/// What a person may choose.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Options {
+    /// Thinning tolerance [m]; `None`: a tenth of the job's tolerance, from [`command::FINEST`] to [`command::COARSEST`].
+    pub thinning: Option<f64>,
+}
+
+/// A file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Export {
+    /// Its text.
+    pub text: String,
+    /// A name for it.
+    pub file_name: String,
+    /// Number of points, or of samples where nothing is thinned.
+    pub points: usize,
+    /// Largest distance of a commanded sample from the moves written [m], measured; 0 where nothing is thinned.
+    pub deviation: f64,
+}
+
+/// Writes the file of the format `id`.
+///
+/// # Errors
+/// [`Error::Invalid`] for a format that is not in [`FORMATS`] or cannot say the path; else see [`Command::new`].
+pub fn export(report: &Report, id: &str, options: &Options) -> Result<Export, Error> {
+    let Some(format) = FORMATS.iter().find(|format| format.id == id) else {
+        let known: Vec<_> = FORMATS.iter().map(|format| format.id).collect();
+        return Err(Error::Invalid {
+            field: "format".into(),
+            value: format!("\"{id}\""),
+            expected: format!("there are {}", known.join(", ")),
+        });
+    };
+    let file_name = format!("armill-{id}.{}", format.extension);
+    let table =
+        |text| Ok(Export { text, file_name: file_name.clone(), points: report.samples(), deviation: 0.0 });
+    match id {
+        "columns-csv" => return table(csv::columns(report)),
+        "compensated-csv" => return table(csv::compensated(report)),
+        "joints-csv" => return table(csv::joints(report)),
+        _ => {}
+    }
+    let command = Command::new(report, options.thinning)?;
+    let text = match id {
+        "gcode" => gcode::program(report, &command)?,
+        "apt" => apt::program(report, &command),
+        "krl" => krl::program(report, &command),
+        "rapid" => rapid::program(report, &command),
+        "val3" => val3::program(report, &command),
+        "fanuc" => fanuc::program(report, &command),
+        _ => csv::path(report, &command),
+    };
+    Ok(Export { text, file_name, points: command.points(), deviation: command.deviation })
+}

@@ -93,7 +93,7 @@ impl Report {
 }
 
 /// A length [m] in mm as read: three significant digits, but no finer than a tenth of a micrometre, which no machine knows.
-fn millimetres(length: f64) -> String {
+pub(crate) fn millimetres(length: f64) -> String {
     let mm = length / MM;
     if mm > 0.0 && mm < 5e-5 {
         return "less than 0.0001".into();

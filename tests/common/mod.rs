@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test file uses a part of this")]
 
 pub(crate) mod moves;
+pub(crate) mod program;
 
 use armill::robot::{Joints, Link, Robot};
 use armill::{Job, Report};

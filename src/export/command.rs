@@ -1,0 +1,199 @@
+//! The compensated path as a program: the commanded samples of each move, thinned, in the workpiece frame.
+//!
+//! A sample belongs to the move that holds its arc length; a block ends where the correction at the move's own end puts it. Samples
+//! at rest in a corner belong to the move that follows: while the tool waits, the correction goes over from one direction of feed to the next.
+
+use crate::error::Error;
+use crate::export::thin::{self, Point};
+use crate::math::Pose;
+use crate::path::{MovePace, Path};
+use crate::report::{Report, millimetres};
+use crate::units::{MM, RPM};
+use nalgebra::{Matrix3, Vector3};
+
+/// Finest thinning tolerance [m]; what is written is rounded to [`RESOLUTION`].
+pub const FINEST: f64 = 1e-7;
+/// Coarsest thinning tolerance [m].
+pub const COARSEST: f64 = 1e-2;
+/// Positions are written in steps of this size [m].
+pub const RESOLUTION: f64 = 1e-8;
+
+/// The compensated path as moves of a program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Command {
+    /// Where it starts.
+    pub start: Point,
+    /// One for each move of the path, in order.
+    pub blocks: Vec<Block>,
+    /// Thinning tolerance [m].
+    pub thinning: f64,
+    /// Largest distance of a commanded sample from the moves as written [m], measured.
+    pub deviation: f64,
+    /// Number of commanded samples.
+    pub samples: usize,
+    /// The desired path in the workpiece frame.
+    path: Path,
+}
+
+/// One move of the path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Block {
+    /// Line of the original program, from 1; 0 if there is none.
+    pub line: usize,
+    /// Whether it positions without cutting.
+    pub rapid: bool,
+    /// Speed along the path [m/s].
+    pub feed: f64,
+    /// Spindle speed [1/s]: the program's where it has said one, otherwise the job's.
+    pub spindle: f64,
+    /// Time at rest before it [s].
+    pub wait: f64,
+    /// Whether the tool comes to rest at its end.
+    pub stops: bool,
+    /// Ends of its straight moves, in order; none if the block moves less than can be written.
+    pub points: Vec<Point>,
+}
+
+impl Command {
+    /// The compensated path of a report, thinned to `thinning` [m]: a tenth of the job's tolerance, but not below [`FINEST`], if none is stated.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a tolerance that is not from [`FINEST`] to [`COARSEST`]; [`Error::Invalid`] if what is left strays
+    /// further from the samples than that.
+    pub fn new(report: &Report, thinning: Option<f64>) -> Result<Self, Error> {
+        let thinning = thinning.unwrap_or((report.setup.goal.tolerance / 10.0).clamp(FINEST, COARSEST));
+        if !(FINEST..=COARSEST).contains(&thinning) {
+            return Err(Error::OutOfRange {
+                field: "thinning_mm".into(),
+                value: thinning / MM,
+                min: FINEST / MM,
+                max: COARSEST / MM,
+                unit: "mm",
+            });
+        }
+        let back = report.setup.workpiece.inverse();
+        let path = report.plan.path.placed(&back);
+        let pieces = pieces(report, &path, &back);
+        let mut start = None;
+        let mut deviation = 0.0_f64;
+        let mut blocks = Vec::with_capacity(pieces.len());
+        for (index, piece) in pieces.iter().enumerate() {
+            let kept = thin::thin(&piece.points, thinning - RESOLUTION);
+            let mut written: Vec<Point> = kept.iter().map(|&k| rounded(&piece.points[k])).collect();
+            deviation = deviation.max(thin::deviation(&piece.points, &kept, &written));
+            start.get_or_insert(written[0]);
+            written.dedup();
+            written.remove(0);
+            let step = &path.moves()[index];
+            let feed = match step.pace {
+                MovePace::Rapid => report.setup.tempo.rapid,
+                MovePace::Feed(feed) => feed,
+                MovePace::JobFeed => report.setup.tempo.feed,
+            };
+            blocks.push(Block {
+                line: step.line,
+                rapid: step.pace == MovePace::Rapid,
+                feed,
+                spindle: step
+                    .spindle
+                    .unwrap_or(report.setup.teeth_per_second / f64::from(report.setup.cut.flutes)),
+                wait: piece.wait,
+                stops: true,
+                points: written,
+            });
+        }
+        let ends = path.moves().len();
+        for (index, block) in blocks.iter_mut().enumerate().take(ends - 1) {
+            let end = path.start(index + 1);
+            block.stops = report.plan.trajectory.stops.iter().any(|corner| corner.s == end);
+        }
+        if deviation > thinning {
+            return Err(Error::Invalid {
+                field: "thinning_mm".into(),
+                value: millimetres(thinning),
+                expected: format!(
+                    "the samples stray {} mm from the thinned path; state more",
+                    millimetres(deviation)
+                ),
+            });
+        }
+        let start = start.unwrap_or(Point { position: path.point(0.0), axis: path.axis(0.0) });
+        Ok(Self { start, blocks, thinning, deviation, samples: report.samples(), path })
+    }
+
+    /// Number of points, the start included.
+    pub fn points(&self) -> usize {
+        1 + self.blocks.iter().map(|block| block.points.len()).sum::<usize>()
+    }
+
+    /// Whether the tool axis is other than +Z of the workpiece frame anywhere.
+    pub fn is_tilted(&self) -> bool {
+        let tilted = |point: &Point| (point.axis - Vector3::z()).norm() > 1e-9;
+        tilted(&self.start) || self.blocks.iter().flat_map(|block| &block.points).any(tilted)
+    }
+
+    /// Orientation of the TCP in the workpiece frame (see [`Path::orientation`]).
+    pub fn orientation(&self, point: &Point) -> Matrix3<f64> {
+        self.path.orientation(&point.axis)
+    }
+}
+
+impl Block {
+    /// Spindle speed [rev/min].
+    pub fn rpm(&self) -> f64 {
+        self.spindle / RPM
+    }
+}
+
+/// The commanded samples of one move, from its start to its end, and the rest before it [s].
+struct Piece {
+    points: Vec<Point>,
+    wait: f64,
+}
+
+fn pieces(report: &Report, path: &Path, back: &Pose) -> Vec<Piece> {
+    let trajectory = &report.plan.trajectory;
+    let arc_length = &trajectory.pace.arc_length;
+    let correction = &report.compensation.correction;
+    let sample = |k: usize| Point {
+        position: back.point(&(trajectory.position[k] + correction[k])),
+        axis: back.direction(&report.compensation.axis[k]),
+    };
+    let last = arc_length.len() - 1;
+    let mut k = 0;
+    let mut previous_end = None;
+    let mut pieces = Vec::with_capacity(path.moves().len());
+    for index in 0..path.moves().len() {
+        let (start, end) = (path.start(index), path.start(index + 1));
+        let is_last = index + 1 == path.moves().len();
+        let mut points: Vec<Point> = previous_end.into_iter().collect();
+        let mut resting = 0;
+        while k <= last && (is_last || arc_length[k] < end) {
+            if index > 0 && arc_length[k] == start && trajectory.pace.speed[k] == 0.0 {
+                resting += 1;
+            }
+            points.push(sample(k));
+            k += 1;
+        }
+        if !is_last && k > 0 && k <= last {
+            // Samples seldom fall on the end of a move: the correction there lies between those of its neighbours.
+            let (before, after) = (arc_length[k - 1], arc_length[k]);
+            let t = ((end - before) / (after - before)).clamp(0.0, 1.0);
+            let turned = sample(k - 1).axis * (1.0 - t) + sample(k).axis * t;
+            points.push(Point {
+                position: path.point(end)
+                    + back.direction(&(correction[k - 1] * (1.0 - t) + correction[k] * t)),
+                axis: turned.normalize(),
+            });
+        }
+        previous_end = points.last().copied();
+        // One sample alone that happens to fall on a corner is no wait.
+        let wait = if resting > 1 { resting as f64 * trajectory.sample_time } else { 0.0 };
+        pieces.push(Piece { points, wait });
+    }
+    pieces
+}
+
+fn rounded(point: &Point) -> Point {
+    Point { position: point.position.map(|x| (x / RESOLUTION).round() * RESOLUTION), axis: point.axis }
+}

@@ -1,0 +1,117 @@
+//! What stands at the top of every program: where it comes from, what it promises and what it does not.
+
+use crate::deviation::contour;
+use crate::export::command::Command;
+use crate::export::orientation::roll_pitch_yaw;
+use crate::math::Pose;
+use crate::report::{Report, millimetres};
+use crate::units::{DEG, MM};
+
+/// The lines of the header, plain ASCII without brackets, for any language's comments. No date: the same run gives the same text.
+pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
+    let setup = &report.setup;
+    let (_, reached) = contour::mean_and_max(&report.after.contour_error);
+    let (_, before) = contour::mean_and_max(&report.before.contour_error);
+    let sources = match (setup.sources.deflection, setup.sources.shaping) {
+        _ if report.compensation.passes == 0 => "not compensated",
+        (true, true) => "compensated for deflection and shaping",
+        (true, false) => "compensated for deflection",
+        _ => "compensated for shaping",
+    };
+    let mut lines = vec![
+        format!("Armill {}, run {}", env!("CARGO_PKG_VERSION"), report.fingerprint()),
+        format!("Path {sources}, robot model {}", ascii(report.plan.robot.name())),
+        format!(
+            "Tolerance asked {} mm, largest contour error reached {} mm, {} mm without compensation, simulated",
+            millimetres(setup.goal.tolerance),
+            millimetres(reached),
+            millimetres(before)
+        ),
+    ];
+    if let Some(command) = command {
+        lines.push(format!(
+            "Thinned to {} mm: {} samples to {} points, largest deviation measured {} mm",
+            millimetres(command.thinning),
+            command.samples,
+            command.points(),
+            millimetres(command.deviation)
+        ));
+        lines.push(format!(
+            "Positions in the workpiece frame, in the robot base at {}",
+            placed(&setup.workpiece)
+        ));
+    }
+    lines.push(format!("Tool tip on the flange at {}", placed(report.plan.robot.tool())));
+    lines.push(
+        "Base, flange and joint zeros are the robot model's: compare them with the controller's".into(),
+    );
+    if let Some((frequency, damping)) = setup.mode {
+        lines.push(format!(
+            "These are commands before the input shaper, {frequency} rad/s, damping {damping}: it must act on them"
+        ));
+    }
+    if command.is_some() && setup.sources.shaping && report.compensation.passes > 0 {
+        lines.push(
+            "The correction for shaping holds for this run's own timing; points that are timed otherwise keep less of it, joint commands at the sample time keep all"
+                .into(),
+        );
+    }
+    lines.push(
+        "Warning: a controller's own blending or absolute-accuracy option adds its own error to these figures".into(),
+    );
+    lines
+}
+
+/// A frame in words: mm, and roll, pitch, yaw about the fixed axes in degrees.
+fn placed(frame: &Pose) -> String {
+    let [x, y, z] = (frame.position / MM).into();
+    let [roll, pitch, yaw] = roll_pitch_yaw(&frame.rotation).map(|angle| angle / DEG);
+    format!(
+        "x {} y {} z {} mm, roll {} pitch {} yaw {} deg",
+        number(x, 4),
+        number(y, 4),
+        number(z, 4),
+        number(roll, 5),
+        number(pitch, 5),
+        number(yaw, 5)
+    )
+}
+
+/// A name as any controller reads it: umlauts lose their dots, what else is not a letter, a digit, a blank or `-_.,` becomes a blank.
+fn ascii(name: &str) -> String {
+    let plain = |c: char| match c {
+        'ä' => 'a',
+        'ö' => 'o',
+        'ü' => 'u',
+        _ if c.is_ascii_alphanumeric() || "-_.,".contains(c) => c,
+        _ => ' ',
+    };
+    name.chars().map(plain).collect()
+}
+
+/// A number with at most so many decimals and at least one: some controls read a number without a point in least increments.
+pub fn number(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let text = text.trim_end_matches('0');
+    let text = if text.ends_with('.') { format!("{text}0") } else { text.to_owned() };
+    if text == "-0.0" { "0.0".into() } else { text }
+}
+
+/// Lines broken at blanks so that none is longer than `width`, words longer than that left whole.
+pub fn wrapped(lines: &[String], width: usize) -> Vec<String> {
+    let mut short: Vec<String> = Vec::new();
+    for line in lines {
+        let mut current = String::new();
+        for word in line.split(' ') {
+            if !current.is_empty() && current.len() + 1 + word.len() > width {
+                short.push(std::mem::take(&mut current));
+            }
+            if !current.is_empty() {
+                current.push(' ');
+            }
+            current.push_str(word);
+        }
+        short.push(current);
+    }
+    short
+}

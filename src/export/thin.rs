@@ -1,0 +1,82 @@
+//! Fewer points for the same line: what may be left out without any sample straying further than stated.
+//!
+//! Points are chosen by the farthest-point rule (Douglas and Peucker, "Algorithms for the reduction of the number of points required
+//! to represent a digitized line or its caricature", Cartographica 10(2), 1973), with a list of open spans instead of recursion.
+//! How far the samples really are from what is left is then measured, not assumed.
+
+use nalgebra::Vector3;
+
+/// A tool position: tip and axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// Tip [m].
+    pub position: Vector3<f64>,
+    /// Unit vector from tip to spindle.
+    pub axis: Vector3<f64>,
+}
+
+/// The axis is held to the same tolerance as the tip, at this height above it [m].
+pub const LEVER: f64 = 0.1;
+
+impl Point {
+    /// Distance from the straight move `from`-`to` [m]: of the tip, or of the point of the axis [`LEVER`] above it, whichever is larger.
+    /// Along the move the axis is taken to change in step with the tip.
+    pub fn distance(&self, from: &Point, to: &Point) -> f64 {
+        let along = to.position - from.position;
+        let length = along.norm_squared();
+        let axis_at = |t: f64| (self.axis - from.axis * (1.0 - t) - to.axis * t).norm() * LEVER;
+        if length > 0.0 {
+            let t = ((self.position - from.position).dot(&along) / length).clamp(0.0, 1.0);
+            (self.position - from.position - along * t).norm().max(axis_at(t))
+        } else {
+            // The tip stands still while the axis turns.
+            let turn = to.axis - from.axis;
+            let turned = turn.norm_squared();
+            let t = if turned > 0.0 {
+                ((self.axis - from.axis).dot(&turn) / turned).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
+            (self.position - from.position).norm().max(axis_at(t))
+        }
+    }
+}
+
+/// Indices of points that are enough to keep every point within `tolerance` [m] of the straight moves between them, in order; the
+/// first and the last are among them.
+pub fn thin(points: &[Point], tolerance: f64) -> Vec<usize> {
+    let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
+    let mut kept = vec![0];
+    let mut ends = vec![last];
+    while let Some(&to) = ends.last() {
+        let from = kept[kept.len() - 1];
+        let mut farthest = (tolerance, None);
+        for index in from + 1..to {
+            let distance = points[index].distance(&points[from], &points[to]);
+            if distance > farthest.0 {
+                farthest = (distance, Some(index));
+            }
+        }
+        match farthest.1 {
+            Some(index) => ends.push(index),
+            None => {
+                ends.pop();
+                if to > from {
+                    kept.push(to);
+                }
+            }
+        }
+    }
+    kept
+}
+
+/// Largest distance [m] of `points` from the moves between the points `kept`, as they are written: `written[i]` stands for `points[kept[i]]`.
+pub fn deviation(points: &[Point], kept: &[usize], written: &[Point]) -> f64 {
+    let mut largest = 0.0_f64;
+    for (ends, moves) in kept.windows(2).zip(written.windows(2)) {
+        for point in &points[ends[0]..=ends[1]] {
+            largest = largest.max(point.distance(&moves[0], &moves[1]));
+        }
+    }
+    largest
+}

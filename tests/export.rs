@@ -1,0 +1,180 @@
+//! Files to take away: what is thinned stays within its tolerance, orientations multiply back, every file says where it comes from.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+mod common;
+
+use armill::export::command::{COARSEST, FINEST};
+use armill::export::orientation::{about_moving_xyz, quaternion, roll_pitch_yaw};
+use armill::export::thin::{LEVER, Point, deviation, thin};
+use armill::export::{FORMATS, Options, export};
+use armill::math::{Pose, rotation_about, sin_cos};
+use common::program::{small_jobs, written};
+use common::{any_vector, between, run};
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use std::f64::consts::FRAC_PI_2;
+
+#[test]
+fn thinned_lines_keep_every_point_within_the_tolerance() {
+    let mut random = fastrand::Rng::with_seed(31);
+    for case in 0..60 {
+        let turn = between(&mut random, 0.0, 0.4);
+        let (mut at, mut heading) = (Vector3::zeros(), Vector3::x());
+        let mut axis = Vector3::z();
+        let points: Vec<Point> = (0..random.usize(2..160))
+            .map(|_| {
+                heading = (heading + any_vector(&mut random, turn)).normalize();
+                at += heading * 1e-3;
+                if case % 2 == 0 {
+                    axis = (axis + any_vector(&mut random, 1e-3)).normalize();
+                }
+                Point { position: at, axis }
+            })
+            .collect();
+        let tolerance = between(&mut random, 1e-6, 1e-3);
+        let kept = thin(&points, tolerance);
+        assert_eq!((kept[0], kept[kept.len() - 1]), (0, points.len() - 1), "case {case}: the ends are kept");
+        assert!(kept.is_sorted_by(|a, b| a < b), "case {case}");
+        let left: Vec<Point> = kept.iter().map(|&k| points[k]).collect();
+        // By brute force: each point against all moves, at 1,000 places of each, tip and axis together.
+        let worst = points
+            .iter()
+            .map(|p| {
+                let moves = left.windows(2).flat_map(|pair| {
+                    (0..=1000).map(|i| {
+                        let t = f64::from(i) / 1000.0;
+                        let tip = p.position - pair[0].position.lerp(&pair[1].position, t);
+                        let axis = (p.axis - pair[0].axis.lerp(&pair[1].axis, t)) * LEVER;
+                        tip.norm().max(axis.norm())
+                    })
+                });
+                moves.fold(f64::INFINITY, f64::min)
+            })
+            .fold(0.0, f64::max);
+        assert!(worst <= tolerance * 1.001 + 1e-8, "case {case}: {worst} of {tolerance}");
+        let measured = deviation(&points, &kept, &left);
+        assert!(measured <= tolerance, "case {case}: measured {measured} of {tolerance}");
+    }
+}
+
+#[test]
+fn thinning_is_exact_on_lines_and_bears_a_million_points() {
+    let line = |n: usize| -> Vec<Point> {
+        (0..n)
+            .map(|i| Point { position: Vector3::new(i as f64 * 1e-4, 0.0, 0.0), axis: Vector3::z() })
+            .collect()
+    };
+    assert_eq!(thin(&line(1000), 1e-9), [0, 999]);
+    assert_eq!(thin(&line(1), 1e-9), [0]);
+    assert!(thin(&[], 1e-9).is_empty());
+    // A helix: every span must be split, over and over.
+    let helix: Vec<Point> = (0..1_000_000)
+        .map(|i| {
+            let angle = f64::from(i) * 1e-3;
+            let (sin, cos) = sin_cos(angle);
+            let position = Vector3::new(cos * 0.1, sin * 0.1, angle * 1e-3);
+            Point { position, axis: Vector3::z() }
+        })
+        .collect();
+    let kept = thin(&helix, 1e-6);
+    // A chord of a circle of 100 mm within 1 um spans at most 8.9 mrad: ten steps at least eight of which are used.
+    assert!((1_000_000 / 9..1_000_000 / 4).contains(&kept.len()), "{}", kept.len());
+    assert!(deviation(&helix, &kept, &kept.iter().map(|&k| helix[k]).collect::<Vec<_>>()) <= 1e-6);
+}
+
+#[test]
+fn orientations_multiply_back() {
+    let mut random = fastrand::Rng::with_seed(5);
+    let mut rotations: Vec<Matrix3<f64>> = (0..2000)
+        .map(|_| rotation_about(&any_vector(&mut random, 1.0).normalize(), between(&mut random, -3.2, 3.2)))
+        .collect();
+    // Gimbal lock, exact and all but: pitch or ry of +-90 deg; half turns, where the scalar of the quaternion is zero.
+    for sign in [1.0, -1.0] {
+        for near in [0.0, 1e-15, 1e-12, 1e-9, 1e-6] {
+            for roll in [0.0, 0.3, -2.5] {
+                let pitch = sign * (FRAC_PI_2 - near);
+                let locked = Pose::from_xyz_rpy(Vector3::zeros(), [roll, pitch, 1.1]).rotation;
+                rotations.extend([locked, locked.transpose()]);
+            }
+        }
+    }
+    rotations.extend(
+        [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| rotation_about(&axis, 2.0 * FRAC_PI_2)),
+    );
+    rotations.push(Matrix3::identity());
+    for r in &rotations {
+        let turn = |axis: Vector3<f64>, angle: f64| rotation_about(&axis, angle);
+        let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
+        // FANUC: W, P, R about the fixed axes; KUKA: A about z, B about the new y, C about the new x.
+        let [roll, pitch, yaw] = roll_pitch_yaw(r);
+        let fanuc = turn(z, yaw) * (turn(y, pitch) * turn(x, roll));
+        let (a, b, c) = (yaw, pitch, roll);
+        let about_new =
+            |first: Matrix3<f64>, axis: Vector3<f64>, angle: f64| turn(first * axis, angle) * first;
+        let kuka = about_new(about_new(turn(z, a), y, b), x, c);
+        let [rx, ry, rz] = about_moving_xyz(r);
+        let staubli = about_new(about_new(turn(x, rx), y, ry), z, rz);
+        let [q1, q2, q3, q4] = quaternion(r);
+        let abb =
+            UnitQuaternion::new_unchecked(Quaternion::new(q1, q2, q3, q4)).to_rotation_matrix().into_inner();
+        for (name, back) in [("fanuc", fanuc), ("kuka", kuka), ("staubli", staubli), ("abb", abb)] {
+            assert!((back - r).norm() < 1e-9, "{name}: {r}");
+        }
+    }
+}
+
+#[test]
+fn every_program_says_where_it_comes_from_and_what_it_does_not_promise() {
+    let report = run(&small_jobs()[0].1);
+    let fingerprint = report.fingerprint();
+    for format in FORMATS {
+        let export = written(&report, format.id);
+        assert!(export.file_name.ends_with(format.extension), "{}", format.id);
+        if ["columns-csv", "compensated-csv"].contains(&format.id) {
+            assert_eq!(export.points, report.samples());
+            continue;
+        }
+        // FANUC's remarks are short: a sentence runs over several.
+        let text: String = export
+            .text
+            .lines()
+            .take(80)
+            .map(|line| line.trim_start_matches([' ', '!', ':', '$', '#', ';', '/']))
+            .map(|line| line.split_once(":  !").map_or(line, |(_, rest)| rest).trim_end_matches([';', ' ']))
+            .collect::<Vec<_>>()
+            .join(" ");
+        for piece in [
+            env!("CARGO_PKG_VERSION"),
+            &fingerprint,
+            "Tolerance asked 0.01 mm, largest contour error reached",
+            "controller's own blending or absolute-accuracy option adds its own error",
+            "commands before the input shaper, 18 rad/s, damping 0.1",
+        ] {
+            assert!(text.contains(piece), "{}: {piece}\n{text}", format.id);
+        }
+        if format.id != "joints-csv" {
+            assert!(text.contains("Thinned to 0.001 mm"), "{}", format.id);
+            assert!(
+                text.contains("x 550.0 y 40.0 z 150.0 mm, roll 5.0 pitch -10.0 yaw 30.0 deg"),
+                "{}",
+                format.id
+            );
+            assert!(export.deviation > 0.0 && export.deviation <= 1e-6, "{}", format.id);
+            assert!(
+                export.points > 50 && export.points < report.samples() / 5,
+                "{}: {}",
+                format.id,
+                export.points
+            );
+        }
+        assert!(export.text.is_ascii(), "{}", format.id);
+        let longest = export.text.lines().map(str::len).max().unwrap();
+        assert!(longest < 256, "{}: a line of {longest}", format.id);
+        assert_eq!(export, written(&report, format.id), "the same run gives the same text");
+    }
+    let error = export(&report, "dxf", &Options::default()).unwrap_err();
+    assert_eq!((error.code(), error.field()), ("invalid", Some("format")));
+    for thinning in [0.0, FINEST / 2.0, COARSEST * 2.0, f64::NAN] {
+        let error = export(&report, "krl", &Options { thinning: Some(thinning) }).unwrap_err();
+        assert_eq!((error.code(), error.field()), ("out-of-range", Some("thinning_mm")), "{thinning}");
+    }
+}
