@@ -16,7 +16,8 @@ fn path_of(kind: &str) -> Value {
         if let (Some(key), Some(when)) = (field.path.strip_prefix("path."), &field.when)
             && when.is.contains(&kind)
         {
-            path[key] = field.default.clone();
+            let own = field.defaults.as_ref().and_then(|defaults| defaults.get(kind));
+            path[key] = own.unwrap_or(&field.default).clone();
         }
     }
     path
@@ -25,7 +26,7 @@ fn path_of(kind: &str) -> Value {
 #[test]
 fn every_kind_of_path_computes_with_its_defaults() {
     let kinds = fields().into_iter().find(|field| field.path == "path.kind").unwrap().choices;
-    assert_eq!(kinds.len(), 6);
+    assert_eq!(kinds.len(), 8);
     for kind in kinds {
         // The circle's centre is the thesis's; other shapes start in front of the arm.
         let report = run(&[("path", path_of(kind.value))]);
@@ -136,7 +137,7 @@ fn mistakes_are_named() {
             "path.points_mm[1][1]",
         ),
         ("path", json!({"kind":"csv","text":"1,2,3\n4,x,6"}), "text", "path.text"),
-        ("path", json!({"kind":"csv","text":""}), "invalid", "path.text"),
+        ("path", json!({"kind":"csv","text":""}), "text", "path.text"),
         ("path", json!({"kind":"line","from_mm":[600,0,0],"to_mm":[600,0,0]}), "invalid", "path.to_mm"),
         (
             "path",

@@ -146,7 +146,11 @@ impl Job {
                 let given_offsets = given.work_offsets_mm.as_deref().unwrap_or_default();
                 if given_offsets.len() > work_offsets.len() {
                     let value = format!("{} offsets", given_offsets.len());
-                    return Err(invalid("path.work_offsets_mm", value, "G54 to G59, G59.1, G59.2, G59.3: nine at most"));
+                    return Err(invalid(
+                        "path.work_offsets_mm",
+                        value,
+                        "G54 to G59, G59.1, G59.2, G59.3: nine at most",
+                    ));
                 }
                 for (place, offset) in work_offsets.iter_mut().zip(given_offsets) {
                     *place = Some(Vector3::from(*offset) * MM);

@@ -155,7 +155,10 @@ impl Understood {
             lowest_mm: lowest,
             highest_mm: highest,
             feeds_mm_s: feeds,
-            ignored: words.into_iter().map(|(word, lines)| IgnoredWord { word: word.to_owned(), lines }).collect(),
+            ignored: words
+                .into_iter()
+                .map(|(word, lines)| IgnoredWord { word: word.to_owned(), lines })
+                .collect(),
         }
     }
 }

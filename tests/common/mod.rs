@@ -116,7 +116,7 @@ pub(crate) fn pinned() -> [Pinned; 4] {
                 ("shaper", json!({"kind":"zvdd","frequency_rad_s":60,"damping":0.02})),
                 ("start_branch", json!({"shoulder":"front","elbow":"negative","wrist":"flipped"})),
             ],
-            "f6eaf09b17fbb88369dcb67eb7f8470c",
+            "815cbafbe6544c3a5276bfdbfb86f139",
         ),
         (
             "arc without shaper",
