@@ -2,6 +2,7 @@
 
 import * as core from "./core.js";
 import { debounced, make } from "./dom.js";
+import { lineAt, showLine } from "./program.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -22,6 +23,11 @@ export function showPanel(shown) {
   panel = shown;
   resized.observe(panel);
   draw();
+}
+
+/** Reads every shown chart over time off at a time [s]. */
+export function readAt(time) {
+  for (const figure of figures.values()) figure.readAt(time);
 }
 
 const redraw = debounced(() => draw(), 120);
@@ -65,6 +71,7 @@ class Figure {
   #title;
   #chart;
   #lines = [];
+  #line; // of the program, where the chart is read off
 
   constructor({ name, title, figure, kind }) {
     this.name = name;
@@ -80,6 +87,7 @@ class Figure {
     this.#cursor.addEventListener("blur", () => this.#leave());
     this.#plot.addEventListener("pointermove", (event) => this.#point(event));
     this.#plot.addEventListener("pointerdown", (event) => this.#point(event));
+    this.#plot.addEventListener("click", () => this.#line && showLine(this.#line));
     this.#plot.addEventListener("pointerleave", (event) => event.pointerType === "touch" || this.#leave());
   }
 
@@ -132,11 +140,23 @@ class Figure {
       const nearest = nearestTo(points, at);
       return nearest ? [`${label} ${valueAt(y, 1 - (nearest[1] - plot.top) / plot.height, plot.height)}`] : [];
     });
-    const text = `${x.label} ${valueAt(x, across, plot.width)} ${x.unit}: ${parts.join(", ")} ${y.unit}`.trim();
+    this.#line = x.unit === "s" ? lineAt(x.min + across * (x.max - x.min)) : undefined;
+    const line = this.#line ? `, line ${this.#line} of the program` : "";
+    const text = `${x.label} ${valueAt(x, across, plot.width)} ${x.unit}: ${parts.join(", ")} ${y.unit}`.trim() + line;
     this.#readout.textContent = text;
     this.#cursor.setAttribute("aria-valuetext", text);
     this.#mark.style.setProperty("left", `${at}px`);
     this.#mark.classList.add("on");
+  }
+
+  /** Reads the chart off at a time [s], if it is one over time and shown. */
+  readAt(time) {
+    const axis = this.#chart?.x;
+    if (!this.#lines.length || axis.unit !== "s" || !this.node.isConnected) return;
+    const across = (time - axis.min) / (axis.max - axis.min);
+    if (across < 0 || across > 1) return;
+    this.#cursor.value = String(Math.round(across * 400));
+    this.#read(across);
   }
 
   #leave() {

@@ -19,7 +19,8 @@ const DH_ORDER = ["alpha_deg", "a_mm", "d_mm", "theta_offset_deg"];
 export const idOf = (path) => path.replaceAll(".", "-");
 
 export function editorFor(field) {
-  if (field.path.endsWith("points_mm")) return points(field);
+  if (field.path.endsWith("points_mm") || field.path.endsWith("work_offsets_mm")) return rows(field, ["x", "y", "z"]);
+  if (field.path.endsWith("length_offsets_mm")) return rows(field, ["H", "length"]);
   if (field.kind === "number" && field.choices) return numberOrWord(field, field.choices[0]);
   if (field.kind === "choice") return choice(field);
   if (field.kind === "set") return checkboxes(field);
@@ -158,14 +159,16 @@ function text(field) {
   return single(field, input, () => input.value, (value) => (input.value = value));
 }
 
-/** Points as lines of "x, y, z". */
-function points(field) {
-  const input = make("textarea", { id: idOf(field.path), rows: 8, spellcheck: false });
+/** Rows of as many numbers as `names`, a line each. */
+function rows(field, names) {
+  const input = make("textarea", { id: idOf(field.path), rows: field.default.length ? 8 : 2, spellcheck: false, placeholder: names.join(", ") });
   const read = () => {
     const lines = input.value.split("\n").map((line, i) => ({ line: line.trim(), number: i + 1 })).filter(({ line }) => line);
     return lines.map(({ line, number }) => {
       const values = line.split(line.includes(";") ? ";" : /[,\s]+/).map((part) => parseNumber(part));
-      if (values.length !== 3 || values.some(Number.isNaN)) throw new Mistake(`Line ${number}: three numbers x, y, z are needed.`, input);
+      if (values.length !== names.length || values.some(Number.isNaN)) {
+        throw new Mistake(`Line ${number}: the numbers ${names.join(", ")} are needed.`, input);
+      }
       return values;
     });
   };

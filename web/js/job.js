@@ -139,8 +139,9 @@ export class Job {
     const old = this.#read(path);
     if (typeof old === "object") {
       for (const [key, value] of Object.entries(old)) {
-        this.#drafts.set(`${path}.${key}`, value);
-        known.set(key, value);
+        const field = this.#find(`${path}.${key}`);
+        this.#drafts.set(draftKey(field ?? { path: `${path}.${key}` }, this.get(decider)), value);
+        if (!field?.defaults) known.set(key, value);
       }
     }
     this.#write(path, choice === "none" ? "none" : this.#shape(path, known, decider, choice));
@@ -159,11 +160,15 @@ export class Job {
       }
       const needless = field.when?.path === decider?.path && field.when !== undefined && !field.when.is.includes(choice);
       if (byPreset || needless || this.#inOtherUnit(field, known)) continue;
-      shape[key] = structuredClone(known.get(key) ?? this.#drafts.get(field.path) ?? field.default);
+      const standard = field.defaults?.[choice] ?? field.default;
+      shape[key] = structuredClone(known.get(key) ?? this.#drafts.get(draftKey(field, choice)) ?? standard);
     }
     return shape;
   }
 }
+
+/** What a field's value is kept under: a program in one language is none in another. */
+const draftKey = (field, choice) => (field.defaults ? `${field.path}@${choice}` : field.path);
 
 /** The path of the same quantity in another unit: a frequency is in rad/s or in Hz. */
 function twin(path) {

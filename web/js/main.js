@@ -1,12 +1,13 @@
 // Wires the page: the form edits the job, the core computes it, results and charts show it.
 
 import * as core from "./core.js";
-import { setCharts, showPanel } from "./charts.js";
+import { readAt, setCharts, showPanel } from "./charts.js";
 import { byId, debounced, make, sentence } from "./dom.js";
 import { download } from "./download.js";
 import { Form } from "./form.js";
 import { Job } from "./job.js";
 import { formatNumber } from "./number.js";
+import { followCaret, openProgram, programTools, setLines, showProgram } from "./program.js";
 import { showSummary, showThesis } from "./results.js";
 import { makeTabs } from "./tabs.js";
 
@@ -17,6 +18,7 @@ const results = byId("results");
 let job;
 let form;
 let standard; // the default job
+let formats = []; // programs that a run can be exported to
 let hasResult = false;
 let slow; // timer that shows the progress
 let typing = false; // there are edits that no run has been started for yet
@@ -80,8 +82,10 @@ const events = {
     idle();
     hasResult = true;
     showSummary(summary);
+    showProgram(summary.program, summary.duration_s);
+    takeLines(summary);
     setCharts(charts);
-    for (const id of ["download-compensated", "download-columns"]) byId(id).disabled = false;
+    for (const id of ["download-compensated", "download-columns", "download-program", "export-format"]) byId(id).disabled = false;
     if (form.flawed) return stale();
     if (typing) return; // shown, but of an earlier edit
     state("current");
@@ -111,6 +115,35 @@ const events = {
     say("The core was restarted.");
   },
 };
+
+/** Charts name the line of the program that runs at a time. */
+async function takeLines({ program, duration_s, samples }) {
+  setLines(null, 1);
+  if (!program) return;
+  try {
+    setLines(await core.column("program_line"), duration_s / (samples - 1));
+  } catch {
+    // A newer result takes its own.
+  }
+}
+
+/** Makes a program the path of the job, whatever the job was before. */
+function useProgram(kind, text) {
+  load({ ...JSON.parse(job.json), path: { kind, text } });
+  byId("group-path").open = true;
+}
+
+/** Files dropped anywhere on the page. */
+function wireDrop() {
+  addEventListener("dragover", (event) => event.preventDefault());
+  addEventListener("drop", (event) => {
+    event.preventDefault();
+    const [file] = event.dataTransfer.files;
+    if (!file) return;
+    if (file.name.endsWith(".json")) openJob(file);
+    else openProgram(file, useProgram);
+  });
+}
 
 function idle() {
   clearTimeout(slow);
@@ -169,6 +202,10 @@ function wire() {
   byId("download-job").addEventListener("click", () => download("armill-job.json", "application/json", `${job.json}\n`));
   byId("download-columns").addEventListener("click", () => save("columns-csv", "armill-columns.csv"));
   byId("download-compensated").addEventListener("click", () => save("compensated-csv", "armill-compensated-path.csv"));
+  byId("download-program").addEventListener("click", () => {
+    const { id, extension } = formats[byId("export-format").selectedIndex];
+    save(id, `armill-${id}.${extension}`);
+  });
   byId("inputs-toggle").addEventListener("click", () => foldInputs(byId("inputs").classList.contains("open")));
   byId("form").addEventListener("submit", (event) => event.preventDefault());
   const tabs = makeTabs(document.querySelector("[role=tablist]"), (panel) => {
@@ -185,6 +222,11 @@ try {
   job = new Job(standard, hello.fields, hello.presets);
   byId("version").textContent = `v${hello.version}`;
   form = new Form(byId("form"), job, hello.fields, hello.presets, edited);
+  byId("group-path").querySelector("legend").after(programTools(useProgram, alertOn));
+  followCaret(readAt);
+  wireDrop();
+  formats = hello.formats.filter(({ id }) => !["columns-csv", "compensated-csv"].includes(id));
+  byId("export-format").append(...formats.map(({ id, name, note }) => make("option", { value: id, title: note }, name)));
   core.run(job.json);
   byId("download-job").disabled = false;
 } catch (error) {

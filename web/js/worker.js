@@ -13,6 +13,7 @@ const answers = {
     job: JSON.parse(armill.default_job()),
     fields: armill.fields(),
     presets: armill.presets(),
+    formats: armill.formats(),
   }),
   check: (json) => void armill.check(json),
   run(json) {

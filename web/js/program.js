@@ -1,0 +1,116 @@
+// Programs: opened, dropped or taken from the examples; what was understood of them; the way from a line to the charts and back.
+
+import { byId, make } from "./dom.js";
+import { formatNumber } from "./number.js";
+
+const LANGUAGES = { gcode: "G-code", apt: "APT / CLDATA", csv: "Points" };
+const ENDINGS = { apt: ["apt", "aptsource", "cls", "cl", "ncl"], csv: ["csv", "txt", "tsv", "xyz"], gcode: ["nc", "ngc", "gcode", "g", "tap", "cnc", "mpf", "eia", "iso"] };
+
+/** The language of a program by what stands in it; where that does not tell, by the ending of its name. */
+export function languageOf(name, text) {
+  const head = text.slice(0, 20_000);
+  if (/^\s*(GOTO|FROM|FEDRAT|PARTNO|UNITS|MULTAX|SPINDL)\b/im.test(head)) return "apt";
+  if (/^\s*%|^[^A-FH-LO-Z\n]*[GM]\s*\d/im.test(head.replace(/\([^)]*\)|;.*$/gm, ""))) return "gcode";
+  const ending = name.split(".").pop().toLowerCase();
+  return Object.keys(ENDINGS).find((language) => ENDINGS[language].includes(ending)) ?? "csv";
+}
+
+/** Buttons for programs; `use(kind, text)` is called with what was opened, `fail(message)` where that did not work. */
+export function programTools(use, fail) {
+  const file = make("input", { type: "file", id: "program-file", hidden: true, "aria-label": "Program file" });
+  const open = make("button", { type: "button", id: "open-program" }, "Open program…");
+  const examples = make("select", { id: "examples", "aria-label": "Example programs" }, make("option", { value: "" }, "Examples…"));
+  open.addEventListener("click", () => file.click());
+  file.addEventListener("change", async () => {
+    const [chosen] = file.files;
+    file.value = "";
+    if (chosen) await openProgram(chosen, use);
+  });
+  const listed = fetch("examples/index.json").then((answer) => answer.json());
+  listed.then((list) => examples.append(...list.map(({ file: name, title, note }) => make("option", { value: name, title: note }, title))), () => (examples.hidden = true));
+  examples.addEventListener("change", async () => {
+    const chosen = (await listed).find((example) => example.file === examples.value);
+    examples.value = "";
+    if (!chosen) return;
+    const answer = await fetch(`examples/${chosen.file}`);
+    if (answer.ok) use(chosen.kind, await answer.text());
+    else fail(`The example ${chosen.title} could not be loaded.`);
+  });
+  return make("div", { className: "program-tools" }, open, examples, file);
+}
+
+/** Reads a file into the job. */
+export async function openProgram(file, use) {
+  const text = await file.text();
+  use(languageOf(file.name, text), text);
+}
+
+/** What the core understood, above the path's charts; nothing for a path that was drawn. */
+export function showProgram(program, duration) {
+  const box = byId("program");
+  box.hidden = !program;
+  if (!program) return;
+  const span = (low, high) => (low === high ? formatNumber(low, 5) : `${formatNumber(low, 5)} to ${formatNumber(high, 5)}`);
+  const extents = ["X", "Y", "Z"].map((axis, i) => `${axis} ${span(program.lowest_mm[i], program.highest_mm[i])}`);
+  const facts = [
+    ["Language", `${LANGUAGES[program.language]}, ${program.lines} lines in ${program.unit}`],
+    ["Moves", `${program.cutting_moves} that cut, ${program.rapid_moves} rapid${program.multi_axis ? "; the tool axis turns" : ""}`],
+    ["Extents, mm", extents.join(", ")],
+    ["Feeds, mm/s", program.feeds_mm_s ? span(...program.feeds_mm_s) : "none in the program: the job's feed holds"],
+    ["Time, s", formatNumber(duration, 4)],
+    ["Without effect", program.ignored.length ? "" : "nothing"],
+  ];
+  byId("understood").replaceChildren(...facts.map(([name, text]) => make("div", {}, make("dt", {}, name), make("dd", {}, text))));
+  if (program.ignored.length) byId("understood").lastChild.lastChild.append(make("ul", {}, ...program.ignored.map(ignoredItem)));
+}
+
+function ignoredItem({ word, lines }) {
+  const shown = lines.slice(0, 5).map((line) => {
+    const button = make("button", { type: "button", className: "quiet" }, String(line));
+    button.setAttribute("aria-label", `Show line ${line}`);
+    button.addEventListener("click", () => showLine(line));
+    return button;
+  });
+  return make("li", {}, make("code", {}, word), lines.length === 1 ? " in line " : " in lines ", ...shown, lines.length > 5 ? ` and ${lines.length - 5} more` : "");
+}
+
+let lines = null; // program line of each sample of the shown result
+let sampleTime = 1;
+
+/** Takes over the lines of a new result; `null` for a path that was drawn. */
+export function setLines(column, time) {
+  [lines, sampleTime] = [column, time];
+}
+
+/** The line that runs at a time [s], or undefined. */
+export const lineAt = (time) => lines?.[Math.min(lines.length - 1, Math.max(0, Math.round(time / sampleTime)))] || undefined;
+
+/** The time [s] at which a line starts to run, or undefined. */
+export function timeOf(line) {
+  const sample = lines?.indexOf(line) ?? -1;
+  return sample < 0 ? undefined : sample * sampleTime;
+}
+
+/** Selects a line of the program where it was typed. */
+export function showLine(line) {
+  const text = byId("path-text");
+  if (!text || text.closest("[hidden]")) return;
+  text.closest("details").open = true;
+  const before = text.value.split("\n", line - 1).reduce((length, each) => length + each.length + 1, 0);
+  const end = text.value.indexOf("\n", before);
+  text.focus({ preventScroll: true });
+  text.setSelectionRange(before, end < 0 ? text.value.length : end);
+  text.scrollTop = (line - 3) * (text.scrollHeight / text.value.split("\n").length);
+  text.scrollIntoView({ block: "nearest" });
+}
+
+/** Calls `point(time)` whenever the caret comes to a line that runs. */
+export function followCaret(point) {
+  const text = byId("path-text");
+  const follow = () => {
+    const time = timeOf(text.value.slice(0, text.selectionStart).split("\n").length);
+    if (time !== undefined) point(time);
+  };
+  text.addEventListener("click", follow);
+  text.addEventListener("keyup", ({ key }) => key.startsWith("Arrow") && follow());
+}
