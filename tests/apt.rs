@@ -198,13 +198,21 @@ fn oddities_are_remarked_once_and_counted() {
     for (text, expected) in [
         ("UNITS/MM\nFEDRAT/60\nGOTO/0,0,0\nGOTO/1,0,0", vec![]),
         ("FEDRAT/60\nGOTO/0,0,0\nGOTO/1,0,0", vec![("unit-assumed", 2)]),
-        ("UNITS/MM\nGOTO/0,0,0\nGOTO/1,0,0\nGOTO/2,0,0", vec![("no-feed", 3)]),
+        ("UNITS/MM\nGOTO/0,0,0\nGOTO/1,0,0\nGOTO/2,0,0", vec![("feed-missing", 3)]),
         ("UNITS/MM\nFEDRAT/6,IPM\nGOTO/0,0,0\nGOTO/1,0,0", vec![("feed-unit", 2)]),
         ("UNITS/MM\nFEDRAT/6\nGOTO/0,0,0\nGOTO/1,0,0,0,0,1.002", vec![("axis-length", 4)]),
         ("UNITS/MM\nFEDRAT/6\nGOTO/0,0,0\nGOTO/1,0,0,0,0,1.0005", vec![]),
         ("UNITS/MM\nFEDRAT/6\nGOTO/0,0,0\nGOTO/1,0,0,1,0,0\nGOTO/2,0,0", vec![("axis-kept", 5)]),
         ("UNITS/MM\nFEDRAT/6\nGOTO/0,0,0\nGOTO/1,0,0\nGOHOME", vec![("home", 5)]),
         ("UNITS/MM\nLOADTL/1\nFEDRAT/6\nGOTO/0,0,0\nGOTO/1,0,0\nLOADTL/2", vec![("tool-change", 6)]),
+        (
+            "UNITS/MM\nFEDRAT/6\nSPINDL/9\nGOTO/0,0,0\nSPINDL/OFF\nRAPID\nGOTO/1,0,0\nGOTO/2,0,0",
+            vec![("spindle-stopped", 8)],
+        ),
+        (
+            "UNITS/MM\nFEDRAT/6\nGOTO/10,0,0\nCIRCLE/0,0,0,0,0,1,10\nGOTO/10,-0.001,0",
+            vec![("circle-sense", 4), ("nearly-full-circle", 5)],
+        ),
         ("UNITS/MM\nINSERT/M08\nFEDRAT/6\nGOTO/0,0,0\nGOTO/1,0,0", vec![("controller-text", 2)]),
         (
             "UNITS/MM\nFEDRAT/6\nGOTO/10,0,0\nCIRCLE/0,0,0,0,0,1,10\nGOTO/0,10,0\nGOTO/-10,0,0",

@@ -68,6 +68,11 @@ impl<'a> Reader<'a> {
         if self.rapid {
             return Ok(MovePace::Rapid);
         }
+        if self.speed.is_some() && !self.spinning {
+            self.draft.remark("spindle-stopped", place.line, || {
+                "a feed move while the spindle stands still".into()
+            });
+        }
         let feed = match self.feed {
             Some(Feed::PerTime(feed)) => feed,
             Some(Feed::PerTurn(feed)) => match self.speed {
@@ -78,7 +83,8 @@ impl<'a> Reader<'a> {
                 }
             },
             None => {
-                self.draft.remark("no-feed", place.line, || "no FEDRAT yet: the job's feed is used".into());
+                self.draft
+                    .remark("feed-missing", place.line, || "no FEDRAT yet: the job's feed is used".into());
                 return Ok(MovePace::JobFeed);
             }
         };
