@@ -119,6 +119,7 @@ fn check(name: &str, text: &str, gives: &Gives, options: &Options) {
 }
 
 #[test]
+#[rustfmt::skip] // One case a line.
 fn lines_and_layout() {
     for (name, text, gives) in [
         ("a plain line", "G1 X10", Ends(&[[10., 0., 0.]])),
@@ -127,19 +128,11 @@ fn lines_and_layout() {
         ("blanks between letter and number", "G 1 X -1.5", Ends(&[[-1.5, 0., 0.]])),
         ("numbers without digits on one side", "G1 X1. Y.5 Z+2", Ends(&[[1., 0.5, 2.]])),
         ("leading zeros", "G01 X010 Y-00.50", Ends(&[[10., -0.5, 0.]])),
-        (
-            "axes carry over, motion is modal",
-            "G1 X1\nY2\nZ3",
-            Ends(&[[1., 0., 0.], [1., 2., 0.], [1., 2., 3.]]),
-        ),
+        ("axes carry over, motion is modal", "G1 X1\nY2\nZ3", Ends(&[[1., 0., 0.], [1., 2., 0.], [1., 2., 3.]])),
         ("words in any order", "X5 G1 Y1", Ends(&[[5., 1., 0.]])),
         ("codes of different groups share a line", "G90 G17 G21 G1 X3 M8 F100", Ends(&[[3., 0., 0.]])),
         ("both kinds of comment", "G1 (X9) X1 ; X2", Ends(&[[1., 0., 0.]])),
-        (
-            "a comment with letters of every alphabet",
-            "G1 X1 (Schlichten \u{d8}10 \u{2013} ;ok) Y1",
-            Ends(&[[1., 1., 0.]]),
-        ),
+        ("a comment with letters of every alphabet", "G1 X1 (Schlichten \u{d8}10 \u{2013} ;ok) Y1", Ends(&[[1., 1., 0.]])),
         ("semicolon comment with brackets", "G1 X1 ; (open", Ends(&[[1., 0., 0.]])),
         ("block delete on", "/G1 X5\nG1 X1", Ends(&[[1., 0., 0.]])),
         ("numbered block delete after N", "N10 /2 G1 X5 [\nG1 X1", Ends(&[[1., 0., 0.]])),
@@ -152,11 +145,7 @@ fn lines_and_layout() {
         ("what follows the end is remarked", "M2\nX2", Remark("text-after-end", 3)),
         ("a percent sign ends", "G1 X1\n%\nX2", Ends(&[[1., 0., 0.]])),
         ("the motion of the M30 line is made", "G1 X1 M30", Ends(&[[1., 0., 0.]])),
-        (
-            "harmless words are listed",
-            "T1 M6 M8\nG40 G49 G80\nG64 P0.01 M5",
-            Ignored(&[("M8", 2), ("T1", 2), ("M6", 2), ("G40", 3), ("G64", 4), ("P0.01", 4)]),
-        ),
+        ("harmless words are listed", "T1 M6 M8\nG40 G49 G80\nG64 P0.01 M5", Ignored(&[("M8", 2), ("T1", 2), ("M6", 2), ("G40", 3), ("G64", 4), ("P0.01", 4)])),
         ("corner blending is remarked", "G64 P0.01", Remark("blending", 2)),
         ("another tool is remarked", "T1 M6\nT2 M6", Remark("tool-change", 3)),
         ("a common first line of CAM posts", "G0 G17 G40 G49 G80 G90\nX1", Ends(&[[1., 0., 0.]])),
@@ -166,6 +155,7 @@ fn lines_and_layout() {
 }
 
 #[test]
+#[rustfmt::skip] // One case a line.
 fn units_and_distances() {
     for (name, text, gives) in [
         ("inch", "G20 G1 X1 Y-0.5", Ends(&[[25.4, -12.7, 0.]])),
@@ -182,16 +172,13 @@ fn units_and_distances() {
 }
 
 #[test]
+#[rustfmt::skip] // One case a line.
 fn arcs() {
     for (name, text, gives) in [
         ("quarter, counter-clockwise", "G1 X10\nG3 X0 Y10 I-10 J0", Length(10. + 5. * PI)),
         ("half circle by I", "G3 X20 I10", Arc([10., 0., 0.], Z, 10., 180., 0.)),
         ("half circle the other way", "G2 X20 I10", Arc([10., 0., 0.], DOWN, 10., 180., 0.)),
-        (
-            "quarter clockwise about the origin of I J",
-            "G2 X10 Y10 I10 J0",
-            Arc([10., 0., 0.], DOWN, 10., 90., 0.),
-        ),
+        ("quarter clockwise about the origin of I J", "G2 X10 Y10 I10 J0", Arc([10., 0., 0.], DOWN, 10., 90., 0.)),
         ("three quarters", "G3 X10 Y10 I10 J0", Arc([10., 0., 0.], Z, 10., 270., 0.)),
         ("full circle without axis words", "G2 I5", Arc([5., 0., 0.], DOWN, 5., 360., 0.)),
         ("full circle with axis words", "G3 X0 Y0 I0 J-4", Arc([0., -4., 0.], Z, 4., 360., 0.)),
@@ -201,71 +188,33 @@ fn arcs() {
         ("centre as a point", "G90.1 G2 X10 Y10 I10 J0", Arc([10., 0., 0.], DOWN, 10., 90., 0.)),
         ("centre as a step again", "G90.1\nG91.1 G3 X20 I10", Arc([10., 0., 0.], Z, 10., 180., 0.)),
         ("centre steps under G91", "G91 G3 X20 I10", Arc([10., 0., 0.], Z, 10., 180., 0.)),
-        (
-            "radius, the short way, counter-clockwise: chord to +X, centre left of it",
-            "G3 X10 Y10 R10",
-            Arc([0., 10., 0.], Z, 10., 90., 0.),
-        ),
+        ("radius, the short way, counter-clockwise: centre left of the chord", "G3 X10 Y10 R10", Arc([0., 10., 0.], Z, 10., 90., 0.)),
         ("radius, the short way, clockwise", "G2 X10 Y10 R10", Arc([10., 0., 0.], DOWN, 10., 90., 0.)),
         ("radius below 0, the long way", "G2 X10 Y10 R-10", Arc([0., 10., 0.], DOWN, 10., 270., 0.)),
         ("radius below 0, counter-clockwise", "G3 X10 Y10 R-10", Arc([10., 0., 0.], Z, 10., 270., 0.)),
         ("radius of half the chord", "G3 X20 R10", Arc([10., 0., 0.], Z, 10., 180., 0.)),
-        (
-            "radius short by rounding (0.0001 of 10) is half a circle",
-            "G3 X20 R9.9999",
-            Arc([10., 0., 0.], Z, 10., 180., 0.),
-        ),
-        (
-            "3-4-5: chord 8, radius 5, centre 3 above",
-            "G3 X8 R5",
-            Arc([4., 3., 0.], Z, 5., 106.26020470831196, 0.),
-        ),
+        ("radius short by rounding (0.0001 of 10) is half a circle", "G3 X20 R9.9999", Arc([10., 0., 0.], Z, 10., 180., 0.)),
+        ("3-4-5: chord 8, radius 5, centre 3 above", "G3 X8 R5", Arc([4., 3., 0.], Z, 5., 106.26020470831196, 0.)),
         ("inch arc", "G20 G3 X2 I1", Arc([25.4, 0., 0.], Z, 25.4, 180., 0.)),
         ("helix up, counter-clockwise", "G3 X20 I10 Z5", Arc([10., 0., 0.], Z, 10., 180., 5.)),
-        (
-            "helix up, clockwise: rises against its normal",
-            "G2 X20 I10 Z5",
-            Arc([10., 0., 0.], DOWN, 10., 180., -5.),
-        ),
-        (
-            "helix bore: a full turn and 2 down, length hypot(10 pi, 2)",
-            "G3 I5 Z-2",
-            Length(31.479524140446212),
-        ),
+        ("helix up, clockwise: rises against its normal", "G2 X20 I10 Z5", Arc([10., 0., 0.], DOWN, 10., 180., -5.)),
+        ("helix bore: a full turn and 2 down, length hypot(10 pi, 2)", "G3 I5 Z-2", Length(31.479524140446212)),
         ("helix ends where programmed", "G2 X20 I10 Z-3 P4", Ends(&[[20., 0., -3.]])),
-        (
-            "G18 counter-clockwise is seen from +Y: from Z to X",
-            "G18 G3 X10 Z-10 K-10",
-            Arc([0., 0., -10.], [0., 1., 0.], 10., 90., 0.),
-        ),
-        (
-            "G18 clockwise: from Z to -X",
-            "G18 G2 X-10 Z-10 K-10",
-            Arc([0., 0., -10.], [0., -1., 0.], 10., 90., 0.),
-        ),
+        ("G18 counter-clockwise is seen from +Y: from Z to X", "G18 G3 X10 Z-10 K-10", Arc([0., 0., -10.], [0., 1., 0.], 10., 90., 0.)),
+        ("G18 clockwise: from Z to -X", "G18 G2 X-10 Z-10 K-10", Arc([0., 0., -10.], [0., -1., 0.], 10., 90., 0.)),
         ("G18 radius, clockwise", "G18 G2 X-10 Z-10 R10", Arc([0., 0., -10.], [0., -1., 0.], 10., 90., 0.)),
-        (
-            "G18 helix rises along Y",
-            "G18 G3 X10 Z-10 K-10 Y2",
-            Arc([0., 0., -10.], [0., 1., 0.], 10., 90., 2.),
-        ),
-        (
-            "G19 counter-clockwise is seen from +X: from Y to Z",
-            "G19 G3 Y-10 Z10 J-10",
-            Arc([0., -10., 0.], [1., 0., 0.], 10., 90., 0.),
-        ),
+        ("G18 helix rises along Y", "G18 G3 X10 Z-10 K-10 Y2", Arc([0., 0., -10.], [0., 1., 0.], 10., 90., 2.)),
+        ("G19 counter-clockwise is seen from +X: from Y to Z", "G19 G3 Y-10 Z10 J-10", Arc([0., -10., 0.], [1., 0., 0.], 10., 90., 0.)),
         ("arcs are modal", "G2 X20 I10\nX0 I-10", Ends(&[[20., 0., 0.], [0., 0., 0.]])),
-        (
-            "centre rounded to 0.001: ends stay, centre moves to (10, 0)",
-            "G3 X20 I10.002",
-            Arc([10., 0., 0.], Z, 10., 180., 0.),
-        ),
+        ("an end 0.002 before the start: which way was meant?", "G3 X0 Y-0.002 I-10", Remark("nearly-full-circle", 2)),
+        ("centre rounded to 0.001: ends stay, centre moves to (10, 0)", "G3 X20 I10.002", Arc([10., 0., 0.], Z, 10., 180., 0.)),
     ] {
         check(name, &format!("{HEAD}\n{text}"), &gives, &Options::default());
     }
 }
 
 #[test]
+#[rustfmt::skip] // One case a line.
 fn feeds_speeds_and_waits() {
     for (name, text, gives) in [
         ("rapids have no feed, feed is modal", "G0 X1\nG1 X2\nX3 F1200", Feeds(&[0., 600., 1200.])),
@@ -294,6 +243,7 @@ fn feeds_speeds_and_waits() {
 }
 
 #[test]
+#[rustfmt::skip] // One case a line.
 fn offsets() {
     let mut options = Options::default();
     options.work_offsets[0] = Some(Vector3::new(0.1, 0.0, 0.0));
@@ -303,45 +253,26 @@ fn offsets() {
     options.start = Some(Vector3::zeros());
     for (name, text, gives) in [
         ("G54 from the start", "G1 X10", Ends(&[[110., 0., 0.]])),
-        (
-            "G55: only named axes move",
-            "G1 X10\nG55 X10\nY0",
-            Ends(&[[110., 0., 0.], [10., 0., 0.], [10., 200., 0.]]),
-        ),
+        ("G55: only named axes move", "G1 X10\nG55 X10\nY0", Ends(&[[110., 0., 0.], [10., 0., 0.], [10., 200., 0.]])),
         ("G59.3", "G59.3 G1 Z1", Ends(&[[0., 0., 301.]])),
         ("an axis without word does not jump", "G55 G1 Z1", Ends(&[[0., 0., 1.]])),
-        (
-            "G53 counts from machine zero, for its line",
-            "G53 G0 X10\nX10",
-            Ends(&[[10., 0., 0.], [110., 0., 0.]]),
-        ),
+        ("G53 counts from machine zero, for its line", "G53 G0 X10\nX10", Ends(&[[10., 0., 0.], [110., 0., 0.]])),
         ("G53 is absolute under G91", "G91 G0 X1\nG53 X10", Ends(&[[1., 0., 0.], [10., 0., 0.]])),
         ("tool length", "G43 H1 G0 Z10\nG49 Z10", Ends(&[[0., 0., 15.], [0., 0., 10.]])),
-        (
-            "tool length of another tool, subtracted",
-            "G43 H7 G0 Z10\nG44 H1 Z10",
-            Ends(&[[0., 0., 9.], [0., 0., 5.]]),
-        ),
+        ("tool length of another tool, subtracted", "G43 H7 G0 Z10\nG44 H1 Z10", Ends(&[[0., 0., 9.], [0., 0., 5.]])),
         ("H0 is no offset", "G43 H0 G0 Z10", Ends(&[[0., 0., 10.]])),
         ("G92: here is X5, so X0 lies 5 back", "G92 X5\nG1 X0", Ends(&[[-5., 0., 0.]])),
         ("G92 twice", "G92 X5\nG92 X1\nG1 X0", Ends(&[[-1., 0., 0.]])),
         ("G92.1 clears", "G92 X5\nG92.1 G1 X1", Ends(&[[101., 0., 0.]])),
-        (
-            "G52 on top of the work offset",
-            "G52 X7\nG1 X1\nG52 X0\nX1",
-            Ends(&[[108., 0., 0.], [101., 0., 0.]]),
-        ),
-        (
-            "absolute centres count from the program's zero",
-            "G0 X0\nG90.1 G3 X20 Y0 I10 J0",
-            Length(100. + 10. * PI),
-        ),
+        ("G52 on top of the work offset", "G52 X7\nG1 X1\nG52 X0\nX1", Ends(&[[108., 0., 0.], [101., 0., 0.]])),
+        ("absolute centres count from the program's zero", "G0 X0\nG90.1 G3 X20 Y0 I10 J0", Length(100. + 10. * PI)),
         ("H that is not in the table", "G43 H2", Gives::Error(1, 5, "1, 7")),
         ("G52 and G92 do not mix", "G92 X1\nG52 X1", Gives::Error(2, 1, "G92.1")),
     ] {
         check(name, text, &gives, &options);
     }
     for (name, text, gives) in [
+        ("machine zero without work offsets", "G53 G0 X1", Remark("machine-zero", 2)),
         ("no offset for G55", "G55", Remark("work-offset-missing", 2)),
         ("no table for H", "G43 H5 Z3", Remark("tool-length-missing", 2)),
         ("and the tip stays where programmed", "G43 H5 Z3", Ends(&[[0., 0., 3.]])),
@@ -351,93 +282,21 @@ fn offsets() {
 }
 
 #[test]
+#[rustfmt::skip] // One case a line.
 fn canned_cycles() {
     for (name, text, gives) in [
-        (
-            "G81, back to the level before",
-            "Z10\nG81 X5 Z-3 R2",
-            Ends(&[[0., 0., 10.], [5., 0., 10.], [5., 0., 2.], [5., 0., -3.], [5., 0., 10.]]),
-        ),
-        (
-            "G99: back to R, next hole from there",
-            "Z10\nG99 G81 X5 Z-3 R2\nX6",
-            Ends(&[
-                [0., 0., 10.],
-                [5., 0., 10.],
-                [5., 0., 2.],
-                [5., 0., -3.],
-                [5., 0., 2.],
-                [6., 0., 2.],
-                [6., 0., -3.],
-                [6., 0., 2.],
-            ]),
-        ),
-        (
-            "from below R the tool rises first",
-            "G81 X5 Z-3 R2",
-            Ends(&[[0., 0., 2.], [5., 0., 2.], [5., 0., -3.], [5., 0., 2.]]),
-        ),
+        ("G81, back to the level before", "Z10\nG81 X5 Z-3 R2", Ends(&[[0., 0., 10.], [5., 0., 10.], [5., 0., 2.], [5., 0., -3.], [5., 0., 10.]])),
+        ("G99: back to R, next hole from there", "Z10\nG99 G81 X5 Z-3 R2\nX6", Ends(&[[0., 0., 10.], [5., 0., 10.], [5., 0., 2.], [5., 0., -3.], [5., 0., 2.], [6., 0., 2.], [6., 0., -3.], [6., 0., 2.]])),
+        ("from below R the tool rises first", "G81 X5 Z-3 R2", Ends(&[[0., 0., 2.], [5., 0., 2.], [5., 0., -3.], [5., 0., 2.]])),
         ("only the way down cuts", "Z10\nG81 X5 Z-3 R2", Feeds(&[0., 0., 0., 600., 0.])),
         ("G85 cuts on the way up too", "Z10\nG85 X5 Z-3 R2", Feeds(&[0., 0., 0., 600., 600., 0.])),
-        (
-            "G83 with Q2: 2 to 0 to -2 to -3, back to R, 0.254 above the last depth",
-            "G83 X5 Z-3 R2 Q2",
-            Ends(&[
-                [0., 0., 2.],
-                [5., 0., 2.],
-                [5., 0., 0.],
-                [5., 0., 2.],
-                [5., 0., 0.254],
-                [5., 0., -2.],
-                [5., 0., 2.],
-                [5., 0., -1.746],
-                [5., 0., -3.],
-                [5., 0., 2.],
-            ]),
-        ),
-        (
-            "G83 whose depth is a multiple of Q has no empty peck",
-            "G99 G83 Z-2 R1 Q1.5",
-            Ends(&[
-                [0., 0., 1.],
-                [0., 0., -0.5],
-                [0., 0., 1.],
-                [0., 0., -0.246],
-                [0., 0., -2.],
-                [0., 0., 1.],
-            ]),
-        ),
-        (
-            "G73 breaks the chip in the hole",
-            "G73 Z-2 R1 Q2",
-            Ends(&[[0., 0., 1.], [0., 0., -1.], [0., 0., -0.746], [0., 0., -2.], [0., 0., 1.]]),
-        ),
-        (
-            "G91: R from the start, bottom from R, L holes a step apart",
-            "Z10\nG91 G81 X5 Z-4 R-8 L2",
-            Ends(&[
-                [0., 0., 10.],
-                [5., 0., 10.],
-                [5., 0., 2.],
-                [5., 0., -2.],
-                [5., 0., 10.],
-                [10., 0., 10.],
-                [10., 0., 2.],
-                [10., 0., -2.],
-                [10., 0., 10.],
-            ]),
-        ),
+        ("G83 with Q2: 2 to 0 to -2 to -3, back to R, 0.254 above the last depth", "G83 X5 Z-3 R2 Q2", Ends(&[[0., 0., 2.], [5., 0., 2.], [5., 0., 0.], [5., 0., 2.], [5., 0., 0.254], [5., 0., -2.], [5., 0., 2.], [5., 0., -1.746], [5., 0., -3.], [5., 0., 2.]])),
+        ("G83 whose depth is a multiple of Q has no empty peck", "G99 G83 Z-2 R1 Q1.5", Ends(&[[0., 0., 1.], [0., 0., -0.5], [0., 0., 1.], [0., 0., -0.246], [0., 0., -2.], [0., 0., 1.]])),
+        ("G73 breaks the chip in the hole", "G73 Z-2 R1 Q2", Ends(&[[0., 0., 1.], [0., 0., -1.], [0., 0., -0.746], [0., 0., -2.], [0., 0., 1.]])),
+        ("G91: R from the start, bottom from R, L holes a step apart", "Z10\nG91 G81 X5 Z-4 R-8 L2", Ends(&[[0., 0., 10.], [5., 0., 10.], [5., 0., 2.], [5., 0., -2.], [5., 0., 10.], [10., 0., 10.], [10., 0., 2.], [10., 0., -2.], [10., 0., 10.]])),
         ("G80 ends the cycle", "G81 Z-1 R0\nG80 G1 X1", Ends(&[[0., 0., -1.], [0., 0., 0.], [1., 0., 0.]])),
-        (
-            "L0 drills nothing but remembers",
-            "G81 Z-1 R0 L0\nX1",
-            Ends(&[[1., 0., 0.], [1., 0., -1.], [1., 0., 0.]]),
-        ),
-        (
-            "in G19 the drill points along X",
-            "G19 G81 Y2 X-3 R0",
-            Ends(&[[0., 2., 0.], [-3., 2., 0.], [0., 2., 0.]]),
-        ),
+        ("L0 drills nothing but remembers", "G81 Z-1 R0 L0\nX1", Ends(&[[1., 0., 0.], [1., 0., -1.], [1., 0., 0.]])),
+        ("in G19 the drill points along X", "G19 G81 Y2 X-3 R0", Ends(&[[0., 2., 0.], [-3., 2., 0.], [0., 2., 0.]])),
         ("a cycle without R", "G81 X1 Z-1", Gives::Error(2, 1, "clearance")),
         ("another cycle needs its own words", "G81 Z-1 R1\nG82 X1", Gives::Error(3, 1, "R")),
         ("G82 without P", "G82 Z-1 R1", Gives::Error(2, 1, "seconds")),
@@ -458,6 +317,7 @@ fn canned_cycles() {
 }
 
 #[test]
+#[rustfmt::skip] // One case a line.
 fn where_the_path_begins() {
     for (name, text, gives) in [
         ("at the first full position", "G21 G90\nG0 Z5\nG0 X1 Y2\nG1 Z0 F100", Ends(&[[1., 2., 0.]])),
@@ -469,11 +329,7 @@ fn where_the_path_begins() {
         ("an arc from an unknown place", "G21 G0 X0 Y0\n G2 X10 I5", Gives::Error(2, 2, "unknown Z")),
         ("a hole at an unknown height", "G21 G0 X0 Y0\nG81 Z-1 R1", Gives::Error(2, 1, "unknown Z")),
         ("steps from an unknown place", "G21 G91 G0 X1", Gives::Error(1, 12, "G91 counts from")),
-        (
-            "tape signs, name, comment, then the program",
-            "%\nO1000 (PART)\n(x)\nG0 X0 Y0 Z0\nX1\nM30\n%",
-            Ends(&[[1., 0., 0.]]),
-        ),
+        ("tape signs, name, comment, then the program", "%\nO1000 (PART)\n(x)\nG0 X0 Y0 Z0\nX1\nM30\n%", Ends(&[[1., 0., 0.]])),
         ("a byte order mark", "\u{feff}G0 X0 Y0 Z0\nX1", Ends(&[[1., 0., 0.]])),
         ("nothing", "", Ends(&[])),
     ] {
@@ -493,6 +349,7 @@ fn where_the_path_begins() {
 }
 
 #[test]
+#[rustfmt::skip] // One case a line.
 fn refusals_are_placed_and_say_what_to_do() {
     for (name, text, column, words) in [
         ("cutter compensation left", "G1 G41 D1 X10", 4, "centre"),

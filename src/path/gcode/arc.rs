@@ -150,6 +150,12 @@ impl Arc {
         chain.collect()
     }
 
+    /// Whether the segments of this arc turn almost a full circle between ends that are no more than `apart` from each other [m].
+    pub(super) fn is_nearly_full(&self, segments: &[Segment], apart: f64) -> bool {
+        let turned = |segment: &Segment| if let Segment::Arc { sweep, .. } = segment { *sweep } else { 0.0 };
+        !self.is_full() && self.chord() <= apart && segments.iter().map(turned).sum::<f64>() > PI
+    }
+
     /// Distance of the ends across the plane's normal [m].
     fn chord(&self) -> f64 {
         let [a, b, _] = self.plane.axes();
