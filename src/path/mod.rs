@@ -7,6 +7,7 @@ pub mod shape;
 pub mod program;
 pub mod unit;
 mod draft;
+pub mod gcode;
 pub mod apt;
 pub mod csv;
 

@@ -1,0 +1,157 @@
+//! One line of a program: its codes by modal group and its other words, each used once.
+
+use super::code::{self, GROUPS, Group, Meaning};
+use super::word::{self, Fault, Word};
+
+/// A G or M code.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Code {
+    /// Its number in tenths: `G43.1` is 431.
+    pub(super) tenths: u32,
+    /// As written, and where.
+    pub(super) word: Word,
+}
+
+/// One line, ready to be interpreted: whoever understands a word takes it, and a word that nobody took is an error.
+#[derive(Debug, Default)]
+pub(super) struct Block<'t> {
+    /// The line.
+    pub(super) text: &'t str,
+    codes: [Option<Code>; GROUPS],
+    /// Words other than G, M and N, in order.
+    words: Vec<Word>,
+    /// Codes that change nothing, in order.
+    pub(super) harmless: Vec<Word>,
+}
+
+impl<'t> Block<'t> {
+    /// Reads a line from the byte `from` on; the block's storage is used again.
+    pub(super) fn read(&mut self, text: &'t str, from: usize) -> Result<(), Fault> {
+        self.text = text;
+        self.codes = [None; GROUPS];
+        self.words.clear();
+        self.harmless.clear();
+        word::words(text, from, &mut self.words)?;
+        self.sort()
+    }
+
+    /// Moves the codes to their groups and drops the line number.
+    fn sort(&mut self) -> Result<(), Fault> {
+        let text = self.text;
+        let mut words = std::mem::take(&mut self.words);
+        let mut seen = 0_u32;
+        let mut first = true;
+        let mut kept = 0;
+        for index in 0..words.len() {
+            let word = words[index];
+            match word.letter {
+                'G' | 'M' => self.add_code(word)?,
+                'N' if first => _ = word.whole(text, 0, 999_999_999)?,
+                'N' => return Err(word.fault(text, "the line number N stands first in its line")),
+                letter => {
+                    let bit = 1 << (u32::from(letter) - u32::from('A'));
+                    if seen & bit != 0 {
+                        return Err(
+                            word.fault(text, format!("a line holds one {letter} word, this is the second"))
+                        );
+                    }
+                    seen |= bit;
+                    words[kept] = word;
+                    kept += 1;
+                }
+            }
+            first = false;
+        }
+        words.truncate(kept);
+        self.words = words;
+        Ok(())
+    }
+
+    fn add_code(&mut self, word: Word) -> Result<(), Fault> {
+        let exact = word.value * 10.0;
+        let tenths = exact.round();
+        let known = (exact - tenths).abs() < 1e-6 && (0.0..10_000.0).contains(&tenths);
+        // No code has the number 1000, so that one is refused as unknown.
+        let tenths = if known { tenths as u32 } else { 10_000 };
+        let meaning = if word.letter == 'G' { code::g(tenths) } else { code::m(tenths) };
+        match meaning {
+            Meaning::Refused(instead) => Err(word.fault(self.text, instead)),
+            Meaning::Harmless => {
+                self.harmless.push(word);
+                Ok(())
+            }
+            Meaning::Acts(group) => match self.codes[group as usize] {
+                Some(other) => {
+                    let other = other.word.text(self.text);
+                    Err(word.fault(
+                        self.text,
+                        format!("of its modal group a line holds one code, and {other} stands there already"),
+                    ))
+                }
+                None => {
+                    self.codes[group as usize] = Some(Code { tenths, word });
+                    Ok(())
+                }
+            },
+        }
+    }
+
+    /// Whether the line has no word, a line number apart.
+    pub(super) fn is_empty(&self) -> bool {
+        self.words.is_empty() && self.harmless.is_empty() && self.codes.iter().all(Option::is_none)
+    }
+
+    /// The code of a group.
+    pub(super) fn code(&self, group: Group) -> Option<Code> {
+        self.codes[group as usize]
+    }
+
+    /// Whether the code of a group is this one.
+    pub(super) fn has(&self, group: Group, tenths: u32) -> bool {
+        self.code(group).is_some_and(|code| code.tenths == tenths)
+    }
+
+    /// The word with this letter, still to be taken.
+    pub(super) fn peek(&self, letter: char) -> Option<Word> {
+        self.words.iter().find(|word| word.letter == letter).copied()
+    }
+
+    /// The first word with one of these letters, still to be taken.
+    pub(super) fn first_of(&self, letters: &[char]) -> Option<Word> {
+        self.words.iter().find(|word| letters.contains(&word.letter)).copied()
+    }
+
+    /// Takes the word with this letter.
+    pub(super) fn take(&mut self, letter: char) -> Option<Word> {
+        let index = self.words.iter().position(|word| word.letter == letter)?;
+        Some(self.words.remove(index))
+    }
+
+    /// The place of the block's first word, for errors that concern the whole of it.
+    pub(super) fn start(&self) -> usize {
+        self.text.len() - self.text.trim_start().len()
+    }
+
+    /// Fails on the first word that nobody took.
+    pub(super) fn finish(&self) -> Result<(), Fault> {
+        let Some(word) = self.words.first() else { return Ok(()) };
+        let expected = match word.letter {
+            'A' | 'B' | 'C' => {
+                "rotary axes are not read from G-code: post for three axes, or use APT or CSV with tool axes"
+            }
+            'U' | 'V' | 'W' => "secondary axes are not read: post X, Y and Z",
+            'I' | 'J' | 'K' => "I, J and K give the centre of an arc and need G2 or G3 in force",
+            'R' => "R is the radius of an arc (G2, G3) or the clearance plane of a canned cycle",
+            'P' => "P belongs to G4 (seconds), G2 and G3 (turns), G64, G82 or G89, once a line",
+            'Q' => "Q belongs to G73 and G83 (depth of a peck)",
+            'L' => "L repeats a canned cycle and needs one in force",
+            'H' => "H names a tool length offset and needs G43 in its line",
+            'D' => {
+                "D names a cutter radius offset, which is not modelled: post the path of the tool's centre"
+            }
+            'E' => "E is no word of milling; a number has no exponent in G-code: write it out",
+            _ => "no word starts with this letter; known are F G H I J K L M N O P Q R S T X Y Z",
+        };
+        Err(word.fault(self.text, expected))
+    }
+}

@@ -1,0 +1,121 @@
+//! What each G and M number means here: which modal group it belongs to, that it changes nothing, or why it is refused.
+
+/// A set of codes of which a block may hold one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Group {
+    /// G0 to G3.
+    Motion,
+    /// G73, G80 to G83, G85, G89. A group of its own, as on most controls: `G0 G80` is a common first line.
+    Cycle,
+    /// G17, G18, G19.
+    Plane,
+    /// G20, G21 (G70, G71).
+    Unit,
+    /// G90, G91.
+    Distance,
+    /// G90.1, G91.1.
+    ArcDistance,
+    /// G93, G94, G95.
+    FeedMode,
+    /// G43, G44, G49.
+    ToolLength,
+    /// G98, G99.
+    Retract,
+    /// G54 to G59.3.
+    WorkOffset,
+    /// G61, G61.1, G64.
+    Blending,
+    /// G4, G52, G53, G92, G92.1: for their own block only.
+    NonModal,
+    /// M3, M5.
+    Spindle,
+    /// M0, M1, M2, M30, M60.
+    Stop,
+    /// M6.
+    ToolChange,
+}
+
+/// Number of groups.
+pub(super) const GROUPS: usize = Group::ToolChange as usize + 1;
+
+/// What a code is to this reader.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Meaning {
+    /// Acts, alone in its group.
+    Acts(Group),
+    /// Changes nothing about the path.
+    Harmless,
+    /// Would change the path (or the forces) in a way that is not modelled: what to do instead.
+    Refused(&'static str),
+}
+
+/// The meaning of G with a number in tenths (`G43.1` is 431).
+pub(super) fn g(tenths: u32) -> Meaning {
+    use Meaning::{Acts, Harmless, Refused};
+    match tenths {
+        0 | 10 | 20 | 30 => Acts(Group::Motion),
+        730 | 800 | 810 | 820 | 830 | 850 | 890 => Acts(Group::Cycle),
+        170 | 180 | 190 => Acts(Group::Plane),
+        200 | 210 | 700 | 710 => Acts(Group::Unit),
+        900 | 910 => Acts(Group::Distance),
+        901 | 911 => Acts(Group::ArcDistance),
+        930 | 940 | 950 => Acts(Group::FeedMode),
+        430 | 440 | 490 => Acts(Group::ToolLength),
+        980 | 990 => Acts(Group::Retract),
+        540 | 550 | 560 | 570 | 580 | 590 | 591 | 592 | 593 => Acts(Group::WorkOffset),
+        610 | 611 | 640 => Acts(Group::Blending),
+        40 | 520 | 530 | 920 | 921 => Acts(Group::NonModal),
+        // Each ends something that is refused when it begins, or is the only state there is.
+        150 | 400 | 500 | 690 | 970 => Harmless,
+        410 | 411 | 420 | 421 => Refused(
+            "cutter radius compensation is not modelled: have the CAM system post the path of the tool's centre",
+        ),
+        160 => Refused("polar coordinates are not read: have the CAM system post X and Y"),
+        510 | 511 => Refused(
+            "scaling and mirroring are not read: have the CAM system post the coordinates as they are cut",
+        ),
+        680 | 681 => Refused(
+            "a rotated frame is not read: turn the workpiece frame of the job, or post rotated coordinates",
+        ),
+        100 => {
+            Refused("offsets are not set from within a program: give them as the job's work and tool offsets")
+        }
+        280 | 281 | 300 | 301 => Refused(
+            "where the machine's reference position lies is not known: delete the line, or write the position with G53 G0",
+        ),
+        50 | 51 | 52 | 62 => Refused("splines are not read: have the CAM system post lines and arcs"),
+        650 | 660 | 661 | 670 => {
+            Refused("macro calls are not followed: have the CAM system post plain moves")
+        }
+        431 | 434 | 435 => Refused(
+            "only G43 with an H number is read, for a tool that keeps its direction: post for three axes",
+        ),
+        541 => Refused("extended work offsets are not read: use G54 to G59.3"),
+        922 | 923 => Refused(
+            "of the G92 family G92 and G92.1 are read: clear the offset with G92.1 and set it with G92",
+        ),
+        330 | 331 | 740 | 840 => Refused("thread cutting and tapping are not milling: leave these holes out"),
+        760 | 860 | 870 | 880 => Refused(
+            "of the canned cycles G73, G81, G82, G83, G85 and G89 are read: post the others as plain moves",
+        ),
+        382..=385 => Refused("probing is not read: delete the line"),
+        70 | 80 | 960 => Refused("this is a word of lathes; the reader is for milling"),
+        _ => Refused("this G number is not known; if it does not change the path, delete it"),
+    }
+}
+
+/// The meaning of M with a number in tenths.
+pub(super) fn m(tenths: u32) -> Meaning {
+    use Meaning::{Acts, Harmless, Refused};
+    match tenths {
+        0 | 10 | 20 | 300 | 600 => Acts(Group::Stop),
+        30 | 50 => Acts(Group::Spindle),
+        60 => Acts(Group::ToolChange),
+        70 | 80 | 90 | 480 | 490 => Harmless,
+        40 => Refused("the cutting model is for a clockwise spindle: use a right-hand tool and M3"),
+        970..=990 => {
+            Refused("sub-program calls are not followed: have the CAM system post one whole program")
+        }
+        _ => Refused("this M number is not known; if it does not change the path, delete it"),
+    }
+}

@@ -1,0 +1,185 @@
+//! What stays in force from line to line, and the codes that set it.
+
+use super::arc::Plane;
+use super::block::Block;
+use super::code::Group;
+use super::cycle::Cycle;
+use super::word::Fault;
+use crate::units::{INCH, MM, RPM};
+
+/// The motion that a line with axis words makes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Motion {
+    /// G0.
+    Rapid,
+    /// G1.
+    Line,
+    /// G2, G3.
+    Arc {
+        /// G3.
+        counter_clockwise: bool,
+    },
+    /// G73, G81 to G83, G85, G89.
+    Cycle(Cycle),
+}
+
+/// What F means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum FeedMode {
+    /// G93: a move takes 1/F minutes.
+    InverseTime,
+    /// G94: length a minute.
+    PerMinute,
+    /// G95: length a revolution of the spindle.
+    PerRevolution,
+}
+
+/// The state of the codes.
+#[derive(Debug, Clone)]
+pub(super) struct Modal {
+    /// `None` at the start and after G80.
+    pub(super) motion: Option<Motion>,
+    pub(super) plane: Plane,
+    /// Length of one unit [m].
+    pub(super) unit: f64,
+    /// Whether the program has said its unit.
+    pub(super) unit_said: bool,
+    /// G91.
+    pub(super) incremental: bool,
+    /// G90.1.
+    pub(super) centers_absolute: bool,
+    pub(super) feed_mode: FeedMode,
+    /// F in SI: m/s in G94, m a revolution in G95, 1/s in G93 (there for its own line only).
+    pub(super) feed: Option<f64>,
+    /// S [1/s].
+    speed: Option<f64>,
+    /// M5.
+    spindle_off: bool,
+    /// G98: cycles return to the level they began at; G99: to R.
+    pub(super) returns_to_start: bool,
+    /// T of the last line that had one.
+    pub(super) tool: Option<f64>,
+}
+
+impl Default for Modal {
+    fn default() -> Self {
+        Self {
+            motion: None,
+            plane: Plane::Xy,
+            unit: MM,
+            unit_said: false,
+            incremental: false,
+            centers_absolute: false,
+            feed_mode: FeedMode::PerMinute,
+            feed: None,
+            speed: None,
+            spindle_off: false,
+            returns_to_start: true,
+            tool: None,
+        }
+    }
+}
+
+impl Modal {
+    /// Spindle speed [1/s], where the program has said one above 0.
+    pub(super) fn spindle(&self) -> Option<f64> {
+        self.speed.filter(|&speed| speed > 0.0)
+    }
+
+    /// Whether the program has stopped the spindle.
+    pub(super) fn spindle_stopped(&self) -> bool {
+        self.spindle_off || self.speed == Some(0.0)
+    }
+
+    /// Applies the codes that set a state, then F and S, which count in the unit and feed mode of their own line.
+    pub(super) fn set(&mut self, block: &mut Block) -> Result<(), Fault> {
+        if let Some(code) = block.code(Group::Unit) {
+            self.unit = if matches!(code.tenths, 200 | 700) { INCH } else { MM };
+            self.unit_said = true;
+        }
+        if let Some(code) = block.code(Group::Plane) {
+            self.plane = match code.tenths {
+                170 => Plane::Xy,
+                180 => Plane::Zx,
+                _ => Plane::Yz,
+            };
+        }
+        if let Some(code) = block.code(Group::Distance) {
+            self.incremental = code.tenths == 910;
+        }
+        if let Some(code) = block.code(Group::ArcDistance) {
+            self.centers_absolute = code.tenths == 901;
+        }
+        if let Some(code) = block.code(Group::Retract) {
+            self.returns_to_start = code.tenths == 980;
+        }
+        if let Some(code) = block.code(Group::FeedMode) {
+            let mode = match code.tenths {
+                930 => FeedMode::InverseTime,
+                940 => FeedMode::PerMinute,
+                _ => FeedMode::PerRevolution,
+            };
+            if mode != self.feed_mode {
+                // A number said in one measure means nothing in the other.
+                self.feed = None;
+            }
+            self.feed_mode = mode;
+        }
+        if let Some(code) = block.code(Group::Spindle) {
+            self.spindle_off = code.tenths == 50;
+        }
+        self.set_motion(block)?;
+        self.set_feed(block)?;
+        self.set_speed(block)
+    }
+
+    fn set_motion(&mut self, block: &Block) -> Result<(), Fault> {
+        let motion = block.code(Group::Motion);
+        let cycle = block.code(Group::Cycle);
+        if let (Some(_), Some(cycle)) = (motion, cycle)
+            && cycle.tenths != 800
+        {
+            let expected = "a line holds one motion: of G0 to G3 and the canned cycles only one";
+            return Err(cycle.word.fault(block.text, expected));
+        }
+        if let Some(motion) = motion {
+            self.motion = Some(match motion.tenths {
+                0 => Motion::Rapid,
+                10 => Motion::Line,
+                tenths => Motion::Arc { counter_clockwise: tenths == 30 },
+            });
+        } else if let Some(code) = cycle {
+            self.motion = match self.motion {
+                _ if code.tenths == 800 => None,
+                Some(Motion::Cycle(cycle)) => Some(Motion::Cycle(cycle.or_new(code.tenths))),
+                _ => Some(Motion::Cycle(Cycle::new(code.tenths))),
+            };
+        }
+        Ok(())
+    }
+
+    fn set_feed(&mut self, block: &mut Block) -> Result<(), Fault> {
+        if self.feed_mode == FeedMode::InverseTime {
+            self.feed = None;
+        }
+        let Some(word) = block.take('F') else { return Ok(()) };
+        if word.value <= 0.0 {
+            return Err(word.fault(block.text, "a feed is greater than 0"));
+        }
+        self.feed = Some(match self.feed_mode {
+            FeedMode::InverseTime => word.value / 60.0,
+            FeedMode::PerMinute => word.value * self.unit / 60.0,
+            FeedMode::PerRevolution => word.value * self.unit,
+        });
+        Ok(())
+    }
+
+    fn set_speed(&mut self, block: &mut Block) -> Result<(), Fault> {
+        let Some(word) = block.take('S') else { return Ok(()) };
+        if word.value < 0.0 {
+            return Err(word.fault(block.text, "a spindle speed is 0 or more, in revolutions a minute"));
+        }
+        self.speed = Some(word.value * RPM);
+        Ok(())
+    }
+}

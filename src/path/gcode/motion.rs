@@ -1,0 +1,316 @@
+//! G0 to G3: from the words of a line to segments, each with its pace.
+
+use super::ARC_TOLERANCE_PART;
+use super::arc::{Arc, Misfit, SAME};
+use super::block::Block;
+use super::code::Group;
+use super::interpreter::{AXES, Interpreter};
+use super::modal::{FeedMode, Motion};
+use super::word::{Fault, Word};
+use crate::path::Segment;
+use crate::path::program::{Move, MovePace};
+use crate::units::{INCH, MM};
+use nalgebra::Vector3;
+
+/// Most moves of a program: more would not fit a browser's memory.
+const MOST_MOVES: usize = 2_000_000;
+/// Most turns of one helix (P).
+const MOST_TURNS: u32 = 1000;
+
+impl Interpreter<'_> {
+    /// Notes the unit of the first coordinates, and what is odd about it.
+    pub(super) fn note_unit(&mut self) {
+        let unit = if self.modal.unit == INCH { "inch" } else { "mm" };
+        if !self.modal.unit_said {
+            self.remark("unit-assumed", || {
+                "the program does not say its unit (G20 inch, G21 mm): mm is taken".into()
+            });
+        }
+        if self.program.unit.is_empty() {
+            self.program.unit = unit;
+        } else if self.program.unit != unit {
+            self.remark("unit-change", || format!("the unit changes to {unit} here"));
+        }
+    }
+
+    /// The point that the axis words name; with `machine` they count from machine zero (G53), whatever G91 says.
+    ///
+    /// An axis without a word stays where it is. The words are not taken, so that a repeated cycle reads them again.
+    pub(super) fn target(&mut self, block: &Block, machine: bool) -> Result<Vector3<f64>, Fault> {
+        self.note_unit();
+        let mut target = self.position;
+        for (axis, letter) in AXES.into_iter().enumerate() {
+            let Some(word) = block.peek(letter) else { continue };
+            let value = word.value * self.modal.unit;
+            if machine {
+                target[axis] = value;
+            } else if !self.modal.incremental {
+                target[axis] = value + self.origin()[axis];
+            } else if self.known[axis] {
+                target[axis] += value;
+            } else {
+                let expected = format!(
+                    "G91 counts from a position that is not known yet: give {letter} under G90 first, or a start position"
+                );
+                return Err(word.fault(block.text, expected));
+            }
+        }
+        Ok(target)
+    }
+
+    /// Makes the motion in force, where the line has words for one.
+    pub(super) fn motion(&mut self, block: &mut Block) -> Result<(), Fault> {
+        let machine = block.has(Group::NonModal, 530);
+        let axis_word = block.first_of(&AXES);
+        if machine
+            && (axis_word.is_none() || !matches!(self.modal.motion, Some(Motion::Rapid | Motion::Line)))
+        {
+            let expected = "G53 goes with axis words and G0 or G1";
+            let found = block.code(Group::NonModal).map_or("G53", |code| code.word.text(block.text));
+            return Err(Fault {
+                at: block.start(),
+                found: format!("\"{found}\""),
+                expected: expected.into(),
+            });
+        }
+        if machine && self.options.work_offsets.iter().all(Option::is_none) {
+            self.remark("machine-zero", || {
+                "G53 counts from machine zero; the job gives no work offsets, so this is taken to be the workpiece frame's origin".into()
+            });
+        }
+        match (self.modal.motion, axis_word) {
+            (None, Some(word)) => Err(word.fault(
+                block.text,
+                "no motion is in force here: write G0, G1, G2 or G3 (G80 has ended what was before)",
+            )),
+            (None, None) => Ok(()),
+            (Some(Motion::Rapid | Motion::Line), None) => Ok(()),
+            (Some(Motion::Rapid | Motion::Line), Some(_)) => self.straight(block, machine),
+            (Some(Motion::Arc { counter_clockwise }), _) => {
+                if block.first_of(&['X', 'Y', 'Z', 'I', 'J', 'K', 'R']).is_none() {
+                    return Ok(());
+                }
+                self.all_known(block)?;
+                self.arc(counter_clockwise, block)
+            }
+            (Some(Motion::Cycle(cycle)), _) => {
+                if axis_word.is_none() && block.peek('R').is_none() {
+                    return Ok(());
+                }
+                self.all_known(block)?;
+                self.drill(cycle, block)
+            }
+        }
+    }
+
+    /// Fails before the tool's place is known.
+    fn all_known(&self, block: &Block) -> Result<(), Fault> {
+        match AXES.iter().zip(self.known).find(|(_, known)| !known) {
+            None => Ok(()),
+            Some((axis, _)) => Err(Fault {
+                at: block.start(),
+                found: format!("a move that starts at an unknown {axis}"),
+                expected: format!(
+                    "write where the tool comes from, in a G0 line with {axis} before this one, or give a start position"
+                ),
+            }),
+        }
+    }
+    /// G0 and G1. What leads to the first full position is not part of the path: nobody knows where the machine stood before.
+    fn straight(&mut self, block: &mut Block, machine: bool) -> Result<(), Fault> {
+        let rapid = self.modal.motion == Some(Motion::Rapid);
+        let to = self.target(block, machine)?;
+        let begins = self.known.contains(&false);
+        for (axis, letter) in AXES.into_iter().enumerate() {
+            self.known[axis] |= block.take(letter).is_some();
+        }
+        match (begins, rapid) {
+            (false, true) => self.rapid(to),
+            (false, false) => self.feed(to, block.start()),
+            (true, _) => {
+                if !rapid {
+                    self.all_known(block)?;
+                    self.remark("approach-left-out", || {
+                        "this feed move starts where the machine happens to stand; the path begins at its end"
+                            .into()
+                    });
+                }
+                (self.position, self.tip) = (to, to);
+                Ok(())
+            }
+        }
+    }
+
+    /// Moves straight without cutting.
+    pub(super) fn rapid(&mut self, to: Vector3<f64>) -> Result<(), Fault> {
+        self.line_to(to, MovePace::Rapid)
+    }
+
+    /// Cuts straight; `at` is the place of an error about the feed.
+    pub(super) fn feed(&mut self, to: Vector3<f64>, at: usize) -> Result<(), Fault> {
+        let pace = self.pace((to - self.tip).norm(), at)?;
+        self.line_to(to, pace)
+    }
+
+    fn line_to(&mut self, to: Vector3<f64>, pace: MovePace) -> Result<(), Fault> {
+        self.position = to;
+        if (to - self.tip).norm() > SAME {
+            self.push(Segment::Line { from: self.tip, to }, pace)?;
+            self.tip = to;
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, segment: Segment, pace: MovePace) -> Result<(), Fault> {
+        if self.program.moves.len() >= MOST_MOVES {
+            let expected = "a longer program does not fit a browser's memory: read it in parts".into();
+            return Err(Fault { at: 0, found: format!("more than {MOST_MOVES} moves"), expected });
+        }
+        self.program.moves.push(Move {
+            segment,
+            axis_from: Vector3::z(),
+            axis_to: Vector3::z(),
+            pace,
+            spindle: self.modal.spindle(),
+            line: self.line,
+        });
+        Ok(())
+    }
+
+    /// The feed of a cutting move of this length [m].
+    fn pace(&mut self, length: f64, at: usize) -> Result<MovePace, Fault> {
+        if self.modal.spindle_stopped() {
+            self.remark("spindle-stopped", || "a feed move while the spindle stands still".into());
+        }
+        match (self.modal.feed_mode, self.modal.feed) {
+            (FeedMode::InverseTime, Some(rate)) => Ok(MovePace::Feed(length * rate)),
+            (FeedMode::InverseTime, None) => Err(Fault {
+                at,
+                found: "a feed move without F under G93".into(),
+                expected: "under G93 every line that cuts needs its own F, one over its minutes".into(),
+            }),
+            (_, None) => {
+                self.remark("feed-missing", || {
+                    "the program has given no feed F up to here: the job's feed is used".into()
+                });
+                Ok(MovePace::JobFeed)
+            }
+            (FeedMode::PerMinute, Some(feed)) => Ok(MovePace::Feed(feed)),
+            (FeedMode::PerRevolution, Some(feed)) => match self.modal.spindle() {
+                Some(speed) => Ok(MovePace::Feed(feed * speed)),
+                None => Err(Fault {
+                    at,
+                    found: "a feed a revolution (G95) without spindle speed".into(),
+                    expected: "give S above 0 before, or the feed a minute (G94)".into(),
+                }),
+            },
+        }
+    }
+
+    /// G2 and G3.
+    fn arc(&mut self, counter_clockwise: bool, block: &mut Block) -> Result<(), Fault> {
+        let plane = self.modal.plane;
+        let [a, b, n] = plane.axes();
+        let offsets = ['I', 'J', 'K'];
+        let to = self.target(block, false)?;
+        for letter in AXES {
+            block.take(letter);
+        }
+        let extra_turns = match block.take('P') {
+            Some(word) => f64::from(word.whole(block.text, 1, MOST_TURNS)? - 1),
+            None => 0.0,
+        };
+        if let Some(word) = block.peek(offsets[n]) {
+            let expected = format!("in this plane {} and {} give the centre", offsets[a], offsets[b]);
+            return Err(word.fault(block.text, expected));
+        }
+        let (first, second, radius) = (block.take(offsets[a]), block.take(offsets[b]), block.take('R'));
+        let arc = Arc { plane, from: self.tip, to, counter_clockwise, extra_turns };
+        let absolute = self.options.arc_tolerance;
+        let tolerance = |radius: f64| absolute + ARC_TOLERANCE_PART * radius;
+        let (center, word) = match (radius, first.or(second)) {
+            (Some(radius), None) => (arc.center_for(radius.value * self.modal.unit, tolerance), radius),
+            (None, Some(word)) => (Ok(self.center([(a, first), (b, second)], word, block)?), word),
+            (Some(radius), Some(_)) => {
+                return Err(radius.fault(block.text, "an arc has either a centre or a radius R, not both"));
+            }
+            (None, None) => {
+                return Err(Fault {
+                    at: block.start(),
+                    found: "an arc without centre and radius".into(),
+                    expected: format!("give {} and {} (centre) or R (radius)", offsets[a], offsets[b]),
+                });
+            }
+        };
+        let segments = center.and_then(|center| arc.about(&center, tolerance));
+        let segments = segments.map_err(|misfit| self.misfit(misfit, word, block))?;
+        if arc.is_nearly_full(&segments, absolute) {
+            self.remark("nearly-full-circle", || {
+                "this arc is read as almost a full circle: its end lies just before its start; if a short arc is meant, its ends are rounded too coarsely".into()
+            });
+        }
+        let pace = self.pace(segments.iter().map(Segment::length).sum(), block.start())?;
+        for segment in segments {
+            self.push(segment, pace)?;
+        }
+        (self.position, self.tip) = (to, arc.end());
+        Ok(())
+    }
+
+    /// The centre that I, J and K give: from the start (G91.1), or as a point (G90.1).
+    fn center(
+        &self,
+        words: [(usize, Option<Word>); 2],
+        given: Word,
+        block: &Block,
+    ) -> Result<Vector3<f64>, Fault> {
+        let mut center = self.position;
+        for (axis, word) in words {
+            match word {
+                Some(word) if self.modal.centers_absolute => {
+                    center[axis] = word.value * self.modal.unit + self.origin()[axis];
+                }
+                Some(word) => center[axis] += word.value * self.modal.unit,
+                None if self.modal.centers_absolute => {
+                    return Err(
+                        given.fault(block.text, "under G90.1 both coordinates of the centre are needed")
+                    );
+                }
+                None => {}
+            }
+        }
+        Ok(center)
+    }
+
+    fn misfit(&self, misfit: Misfit, word: Word, block: &Block) -> Fault {
+        let (found, expected) = match misfit {
+            Misfit::NoRadius => {
+                ("a centre that is the start of the arc".into(), "the centre lies apart from the arc".into())
+            }
+            Misfit::NoChord => (
+                "a radius for an arc that ends where it starts".into(),
+                "there are many such circles: give the centre with I, J or K".into(),
+            ),
+            Misfit::TooShort(chord) => (
+                format!(
+                    "a radius of {:.4} mm for ends {:.4} mm apart",
+                    word.value.abs() * self.modal.unit / MM,
+                    chord / MM
+                ),
+                format!("R of at least {:.4} mm, half the distance", chord / 2.0 / MM),
+            ),
+            Misfit::Radii(at_start, at_end, allowed) => (
+                format!(
+                    "a centre {:.4} mm from the start and {:.4} mm from the end of the arc",
+                    at_start / MM,
+                    at_end / MM
+                ),
+                format!(
+                    "both distances agree within {:.4} mm; check the centre, the plane (G17 to G19) and whether the centre counts from the start (G91.1) or is a point (G90.1)",
+                    allowed / MM
+                ),
+            ),
+        };
+        Fault { at: word.start, found: format!("\"{}\": {found}", word.text(block.text)), expected }
+    }
+}

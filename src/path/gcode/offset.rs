@@ -1,0 +1,125 @@
+//! What lies between the numbers of a program and the workpiece frame: work offsets, G52, G92 and tool lengths.
+
+use super::block::Block;
+use super::code::Group;
+use super::interpreter::{AXES, Interpreter};
+use super::word::{Fault, Word};
+use nalgebra::Vector3;
+
+impl Interpreter<'_> {
+    /// Where the program's zero lies in the workpiece frame [m].
+    pub(super) fn origin(&self) -> Vector3<f64> {
+        self.work + self.local + self.shift + Vector3::z() * self.tool_length
+    }
+
+    /// Applies G43, G44, G49, G54 to G59.3, G52, G92 and G92.1.
+    pub(super) fn set_offsets(&mut self, block: &mut Block) -> Result<(), Fault> {
+        if let Some(code) = block.code(Group::ToolLength) {
+            self.set_tool_length(code.tenths, code.word, block)?;
+        }
+        if let Some(code) = block.code(Group::WorkOffset) {
+            let index =
+                if code.tenths >= 590 { code.tenths - 585 } else { (code.tenths - 540) / 10 } as usize;
+            self.work = self.options.work_offsets[index].unwrap_or_default();
+            if index > 0 && self.options.work_offsets[index].is_none() {
+                let name = code.word.text(block.text).to_ascii_uppercase();
+                self.remark("work-offset-missing", || {
+                    format!("the job gives no offset for {name}: its zero is taken to be that of the workpiece frame")
+                });
+            }
+        }
+        let Some(code) = block.code(Group::NonModal) else { return Ok(()) };
+        if matches!(code.tenths, 520 | 920) {
+            if let Some(motion) =
+                block.code(Group::Motion).or(block.code(Group::Cycle).filter(|code| code.tenths != 800))
+            {
+                let expected =
+                    "G92 and G52 take the axis words of their line: write the motion in a line of its own";
+                return Err(motion.word.fault(block.text, expected));
+            }
+            if block.first_of(&AXES).is_none() {
+                return Err(code.word.fault(block.text, "G92 and G52 need an axis word in their line"));
+            }
+        }
+        match code.tenths {
+            520 => self.set_local(code.word, block),
+            920 => self.set_shift(code.word, block),
+            921 => {
+                self.shift = Vector3::zeros();
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn set_tool_length(&mut self, tenths: u32, code: Word, block: &mut Block) -> Result<(), Fault> {
+        if tenths == 490 {
+            self.tool_length = 0.0;
+            return Ok(());
+        }
+        let Some(word) = block.take('H') else {
+            return Err(code.fault(block.text, "G43 and G44 need H, the number of a tool length offset"));
+        };
+        let number = word.whole(block.text, 0, 9999)?;
+        let table = &self.options.tool_length_offsets;
+        let length = match table.get(&number) {
+            Some(&length) => length,
+            None if number == 0 => 0.0,
+            None if table.is_empty() => {
+                self.remark("tool-length-missing", || {
+                    format!("the job gives no tool length offsets: that of H{number} is taken as 0, so that the program's points are those of the tool's tip")
+                });
+                0.0
+            }
+            None => {
+                let numbers: Vec<String> = table.keys().map(u32::to_string).collect();
+                let expected = format!("the job's tool length offsets are those of H {}", numbers.join(", "));
+                return Err(word.fault(block.text, expected));
+            }
+        };
+        self.tool_length = if tenths == 440 { -length } else { length };
+        Ok(())
+    }
+
+    fn set_local(&mut self, code: Word, block: &mut Block) -> Result<(), Fault> {
+        if self.shift != Vector3::zeros() {
+            return Err(code.fault(
+                block.text,
+                "controls differ on G52 while G92 is in force: clear that with G92.1 first",
+            ));
+        }
+        for (axis, letter) in AXES.into_iter().enumerate() {
+            if let Some(word) = block.take(letter) {
+                self.local[axis] = word.value * self.modal.unit;
+            }
+        }
+        Ok(())
+    }
+
+    /// G92: the place where the tool is gets these coordinates. Before the place is known, the coordinates tell it.
+    fn set_shift(&mut self, code: Word, block: &mut Block) -> Result<(), Fault> {
+        if self.local != Vector3::zeros() {
+            return Err(code.fault(
+                block.text,
+                "controls differ on G92 while G52 is in force: clear that with G52 X0 Y0 Z0 first",
+            ));
+        }
+        self.note_unit();
+        let mut begins = false;
+        for (axis, letter) in AXES.into_iter().enumerate() {
+            let Some(word) = block.take(letter) else { continue };
+            let value = word.value * self.modal.unit;
+            if self.known[axis] {
+                self.shift[axis] += self.position[axis] - self.origin()[axis] - value;
+            } else {
+                self.position[axis] = self.origin()[axis] + value;
+                self.known[axis] = true;
+                begins = true;
+            }
+        }
+        if begins {
+            self.tip = self.position;
+        }
+        Ok(())
+    }
+}
