@@ -3,6 +3,7 @@
 
 mod common;
 
+use armill::math;
 use armill::path::apt::{Options, program};
 use armill::path::program::Program;
 use armill::path::unit::LengthUnit;
@@ -74,6 +75,15 @@ fn moves_are_read() {
         (
             "GOTO/10,0,0\nMOVARC/0,0,0,0,0,1,10, ANGLE, 810\nGOTO/0,10,9",
             "arc 0 10 9 about 0 0 0 by 810 rise 9 job",
+        ),
+        // CATIA's arcs: which way is said by a direction.
+        (
+            "GOTO/10,0,0\nINDIRV/0,1,0\nTLON,GOFWD/ (CIRCLE/ 0, 0, 0,$\n 10),ON,(LINE/ 0, 0, 0, 0, 10, 0)",
+            "arc 0 10 0 about 0 0 0 by 90 job",
+        ),
+        (
+            "GOTO/10,0,0\nINDIRV/0,-1,0\nFEDRAT/60\nTLON,GOFWD/(CIRCLE/0,0,0,10),ON,2,INTOF,(LINE/0,0,0,0,10,0)\nGOTO/0,20,0",
+            "arc 0 10 0 about 0 0 0 by 270 feed 1; line 0 20 0 feed 1",
         ),
         // The radius as rounded by the CAM system: within 0.01 mm, and both ends stay as written.
         (
@@ -149,7 +159,25 @@ fn mistakes_are_placed_and_say_what_to_do() {
         ("CUTCOM/LEFT,1", (1, 1), "cutter compensation"),
         ("CYCLE/DRILL,10,MMPM,100,5", (1, 1), "expand cycles"),
         ("GODLTA/0,0,5", (1, 1), "absolute"),
-        ("INDIRV/1,0,0", (1, 1), "part geometry"),
+        ("GOTO/10,0,0\nINDIRV/0,1,0\nGOTO/0,0,0", (2, 1), "TLON,GOFWD"),
+        ("GOTO/10,0,0\nTLON,GOFWD/(CIRCLE/0,0,0,10),ON,(LINE/0,0,0,0,10,0)", (2, 1), "INDIRV"),
+        (
+            "GOTO/10,0,0\nINDIRV/1,0,0\nTLON,GOFWD/(CIRCLE/0,0,0,10),ON,(LINE/0,0,0,0,10,0)",
+            (2, 1),
+            "along the circle",
+        ),
+        (
+            "GOTO/10,0,0\nINDIRV/0,1,0\nTLON,GOFWD/(CIRCLE/0,0,0,10),ON,(LINE/0,0,0,0,11,0)",
+            (3, 1),
+            "within 0.01 mm",
+        ),
+        (
+            "GOTO/10,0,0\nINDIRV/0,1,0\nTLON,GOFWD/(CYLNDR/0,0,0,0,1,0,10),ON,(LINE/0,0,0,0,10,0)",
+            (3, 1),
+            "as points",
+        ),
+        ("GOTO/10,0,0\nINDIRV/0,1,0\nTLON,GOFWD/(CIRCLE/ a,0,0,10),ON,(LINE/0,0,0,0,11,0)", (3, 21), "\"a\""),
+        ("GOLFT/L1", (1, 1), "part geometry"),
         ("P1 = POINT/1,2,3", (1, 1), "part programs"),
         ("GOTTO/1,2,3", (1, 1), "did you mean GOTO"),
         ("äöü\nGOTO/0,0,0", (1, 1), "unknown word"),
@@ -170,13 +198,21 @@ fn oddities_are_remarked_once_and_counted() {
     for (text, expected) in [
         ("UNITS/MM\nFEDRAT/60\nGOTO/0,0,0\nGOTO/1,0,0", vec![]),
         ("FEDRAT/60\nGOTO/0,0,0\nGOTO/1,0,0", vec![("unit-assumed", 2)]),
-        ("UNITS/MM\nGOTO/0,0,0\nGOTO/1,0,0\nGOTO/2,0,0", vec![("no-feed", 3)]),
+        ("UNITS/MM\nGOTO/0,0,0\nGOTO/1,0,0\nGOTO/2,0,0", vec![("feed-missing", 3)]),
         ("UNITS/MM\nFEDRAT/6,IPM\nGOTO/0,0,0\nGOTO/1,0,0", vec![("feed-unit", 2)]),
         ("UNITS/MM\nFEDRAT/6\nGOTO/0,0,0\nGOTO/1,0,0,0,0,1.002", vec![("axis-length", 4)]),
         ("UNITS/MM\nFEDRAT/6\nGOTO/0,0,0\nGOTO/1,0,0,0,0,1.0005", vec![]),
         ("UNITS/MM\nFEDRAT/6\nGOTO/0,0,0\nGOTO/1,0,0,1,0,0\nGOTO/2,0,0", vec![("axis-kept", 5)]),
         ("UNITS/MM\nFEDRAT/6\nGOTO/0,0,0\nGOTO/1,0,0\nGOHOME", vec![("home", 5)]),
         ("UNITS/MM\nLOADTL/1\nFEDRAT/6\nGOTO/0,0,0\nGOTO/1,0,0\nLOADTL/2", vec![("tool-change", 6)]),
+        (
+            "UNITS/MM\nFEDRAT/6\nSPINDL/9\nGOTO/0,0,0\nSPINDL/OFF\nRAPID\nGOTO/1,0,0\nGOTO/2,0,0",
+            vec![("spindle-stopped", 8)],
+        ),
+        (
+            "UNITS/MM\nFEDRAT/6\nGOTO/10,0,0\nCIRCLE/0,0,0,0,0,1,10\nGOTO/10,-0.001,0",
+            vec![("circle-sense", 4), ("nearly-full-circle", 5)],
+        ),
         ("UNITS/MM\nINSERT/M08\nFEDRAT/6\nGOTO/0,0,0\nGOTO/1,0,0", vec![("controller-text", 2)]),
         (
             "UNITS/MM\nFEDRAT/6\nGOTO/10,0,0\nCIRCLE/0,0,0,0,0,1,10\nGOTO/0,10,0\nGOTO/-10,0,0",
@@ -238,7 +274,7 @@ fn random_program(random: &mut fastrand::Rng, unit: &str, scale: f64) -> String 
                 let angle = random.f64() * 6.0 + 0.1;
                 let center = [at[0] - r, at[1], at[2]];
                 let rise = random.f64() - 0.5;
-                at = [center[0] + r * angle.cos(), center[1] + r * angle.sin(), at[2] + rise];
+                at = [center[0] + r * math::cos(angle), center[1] + r * math::sin(angle), at[2] + rise];
                 let [x, y, z] = center.map(|value| value / scale);
                 writeln!(text, "CIRCLE/{x},{y},{z},0,0,1,{}", r / scale).unwrap();
                 let [x, y, z] = at.map(|value| value / scale);
@@ -319,6 +355,8 @@ fn no_text_makes_the_reader_panic() {
         "OFF",
         "GOHOME",
         "TOOL PATH/",
+        "INDIRV/0,-1,0\n",
+        "TLON,GOFWD/(CIRCLE/0,0,0,10),ON,(LINE/0,0,0,0,10,0)\n",
     ];
     let mut read_well = 0;
     for round in 0..20_000 {
@@ -335,4 +373,20 @@ fn no_text_makes_the_reader_panic() {
         }
     }
     assert!(read_well > 100, "{read_well} random texts were programs");
+}
+
+#[test]
+fn half_a_million_lines_are_read_in_seconds() {
+    use std::fmt::Write;
+    let mut text = String::from("UNITS/MM\nMULTAX/ON\nFEDRAT/1000,MMPM\n");
+    for row in 0..500_000 {
+        writeln!(text, "GOTO/{:.4},-0.5000,12.2500,0.000000,0.600000,0.800000", f64::from(row) * 1e-3)
+            .unwrap();
+    }
+    let start = std::time::Instant::now();
+    let program = read(&text).unwrap();
+    let time = start.elapsed().as_secs_f64();
+    assert_eq!(program.moves.len(), 499_999);
+    // Far above what it takes (about 0.3 s), so that a busy machine does not fail it.
+    assert!(time < 5.0, "{time} s");
 }

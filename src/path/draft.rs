@@ -175,6 +175,11 @@ impl Draft {
             let bearing = math::atan2((end - shift).dot(&v), (end - shift).dot(&u));
             turned = if bearing > 0.0 { bearing } else { bearing + TAU };
         }
+        if !closed && sweep.is_none() && chord.norm() < ARC_TOLERANCE && turned > PI {
+            self.remark("nearly-full-circle", target.line, || {
+                format!("the arc ends {:.4} mm short of its start: nearly a full circle", chord.norm() / MM)
+            });
+        }
         if let Some(asked) = sweep {
             let turned_once = turned;
             turned += TAU * ((asked - turned) / TAU).round().max(0.0);

@@ -9,6 +9,7 @@ pub mod program;
 pub mod gcode;
 pub mod unit;
 mod draft;
+pub mod gcode;
 pub mod apt;
 pub mod csv;
 

@@ -5,8 +5,10 @@
 //!   its axis; after `MULTAX/OFF` it is upright (0, 0, 1); after `TLAXIS/i,j,k` it has that axis.
 //! - `CIRCLE/xc,yc,zc,i,j,k,r`, then the `GOTO` of the arc's end: counter-clockwise about the vector (right-hand rule), as PTC
 //!   documents it for Creo ("CL Output for Circular Interpolation"); an end that lies higher along the vector makes a helix.
-//! - `MOVARC/xc,yc,zc,i,j,k,r,ANGLE,a`, then the `GOTO` of its end: the same with the angle swept \[deg\], as Autodesk's
+//! - `MOVARC/xc,yc,zc,i,j,k,r,ANGLE,a`, then the `GOTO` of its end: the same with the angle swept [deg], as Autodesk's
 //!   "Common APT ISO 4343" postprocessor writes it. The angle must agree with the end point.
+//! - `INDIRV/i,j,k`, then `TLON,GOFWD/(CIRCLE/xc,yc,zc,r),ON,(LINE/xc,yc,zc,x,y,z)`: CATIA's arc, parallel to the XY plane, that
+//!   starts in the direction of the vector and ends at the line's second point (also `ON,2,INTOF`).
 //! - `RAPID` holds for the next `GOTO` (ISO 4343, 5.42), `FEDRAT` until the next one; a feed without a unit is per minute.
 //! - `SPINDL` clockwise, `DELAY/t` and `DWELL/t` in seconds, `UNITS/MM` and `UNITS/INCHES` before the first length.
 //!
@@ -17,6 +19,7 @@ mod statement;
 mod reader;
 mod values;
 mod motion;
+mod catia;
 mod setting;
 mod words;
 

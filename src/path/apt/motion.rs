@@ -20,17 +20,9 @@ impl<'a> Reader<'a> {
 
     pub(super) fn go(&mut self, statement: &Statement<'a>, made: Option<Circle>) -> Result<(), Error> {
         let place = statement.place;
-        if let Some(line) = self.home {
-            let found = format!("a move after GOHOME (line {line})");
-            let expected = "where home lies is not said: write RAPID and the GOTO that it means";
-            return Err(self.error(&place, found, expected));
-        }
         let before = self.draft.pose;
         let (point, axis) = self.point_and_axis(statement)?;
-        let pace = if before.is_some() { self.pace(&place)? } else { MovePace::JobFeed };
-        self.rapid = false;
-        let spindle = self.speed.filter(|_| self.spinning);
-        let target = Target { point, axis, pace, spindle, line: place.line };
+        let target = self.target(&place, point, axis)?;
         let done = match self.circle.take() {
             Some((circle, _)) => {
                 self.made = Some(circle);
@@ -38,7 +30,7 @@ impl<'a> Reader<'a> {
             }
             None => {
                 if let (Some(circle), Some((from, _))) = (made, before)
-                    && pace != MovePace::Rapid
+                    && target.pace != MovePace::Rapid
                     && circle.passes(&from)
                     && circle.passes(&point)
                 {
@@ -53,10 +45,33 @@ impl<'a> Reader<'a> {
         done.map_err(|fault| fault.at(self.field, place.position()))
     }
 
+    /// Where a move at `place` goes, and how as things stand; this uses up a RAPID.
+    pub(super) fn target(
+        &mut self,
+        place: &Place<'_>,
+        point: Vector3<f64>,
+        axis: Vector3<f64>,
+    ) -> Result<Target, Error> {
+        if let Some(line) = self.home {
+            let found = format!("a move after GOHOME (line {line})");
+            let expected = "where home lies is not said: write RAPID and the GOTO that it means";
+            return Err(self.error(place, found, expected));
+        }
+        let pace = if self.draft.pose.is_some() { self.pace(place)? } else { MovePace::JobFeed };
+        self.rapid = false;
+        let spindle = self.speed.filter(|_| self.spinning);
+        Ok(Target { point, axis, pace, spindle, line: place.line })
+    }
+
     /// The pace of the move that stands at `place`.
     fn pace(&mut self, place: &Place<'_>) -> Result<MovePace, Error> {
         if self.rapid {
             return Ok(MovePace::Rapid);
+        }
+        if self.speed.is_some() && !self.spinning {
+            self.draft.remark("spindle-stopped", place.line, || {
+                "a feed move while the spindle stands still".into()
+            });
         }
         let feed = match self.feed {
             Some(Feed::PerTime(feed)) => feed,
@@ -68,7 +83,8 @@ impl<'a> Reader<'a> {
                 }
             },
             None => {
-                self.draft.remark("no-feed", place.line, || "no FEDRAT yet: the job's feed is used".into());
+                self.draft
+                    .remark("feed-missing", place.line, || "no FEDRAT yet: the job's feed is used".into());
                 return Ok(MovePace::JobFeed);
             }
         };
@@ -79,17 +95,15 @@ impl<'a> Reader<'a> {
         self.no_circle_waits()?;
         let (point, axis) = self.point_and_axis(statement)?;
         let place = statement.place;
-        if let Some((from, _)) = self.draft.pose
-            && (from - point).norm() > MM * 1e-3
-        {
-            let expected = "FROM says where the path starts: write RAPID and GOTO to go on elsewhere";
-            return Err(self.error(&place, "FROM at another point than the tool's", expected));
+        match self.draft.pose {
+            None => self.draft.pose = Some((point, axis)),
+            Some((from, _)) if (from - point).norm() <= 1e-3 * MM => {}
+            Some(_) => {
+                let expected = "FROM says where the path starts: write RAPID and GOTO to go on elsewhere";
+                return Err(self.error(&place, "FROM at another point than the tool's", expected));
+            }
         }
-        let target = Target { point, axis, pace: MovePace::JobFeed, spindle: None, line: place.line };
-        self.draft
-            .pose
-            .map_or_else(|| self.draft.line_to(target), |_| Ok(()))
-            .map_err(|fault| fault.at(self.field, place.position()))
+        Ok(())
     }
 
     pub(super) fn arc(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
@@ -122,15 +136,7 @@ impl<'a> Reader<'a> {
             .draft
             .direction(Vector3::from_column_slice(&numbers[3..6]), place.line)
             .map_err(|fault| fault.at(self.field, values[3].place.position()))?;
-        let radius = numbers[6] * self.unit.in_m();
-        if radius <= 0.0 {
-            return Err(self.error(
-                &values[6].place,
-                format!("the radius {}", numbers[6]),
-                "a radius is larger than 0",
-            ));
-        }
-        draft::coordinate(radius).map_err(|fault| fault.at(self.field, values[6].place.position()))?;
+        let radius = self.radius(&values[6])?;
         let sweep = angle.get(1).map(|token| match self.number(token)? {
             degrees if degrees > 0.0 && degrees <= 360e3 => Ok(degrees * DEG),
             degrees => Err(self.error(

@@ -11,9 +11,9 @@ use nalgebra::Vector3;
 /// A feed as it was said.
 #[derive(Clone, Copy)]
 pub(super) enum Feed {
-    /// \[m/s\]
+    /// [m/s]
     PerTime(f64),
-    /// \[m\] a revolution
+    /// [m] a revolution
     PerTurn(f64),
 }
 
@@ -36,6 +36,8 @@ pub(super) struct Reader<'a> {
     pub(super) circle: Option<(Circle, Place<'a>)>,
     /// The circle of the arc that was just made.
     pub(super) made: Option<Circle>,
+    /// The direction of `INDIRV`, and where it was said.
+    pub(super) ahead: Option<(Vector3<f64>, Place<'a>)>,
     /// Line of a `GOHOME`.
     pub(super) home: Option<usize>,
     /// Where the coordinates' frame lies, as said first.
@@ -59,6 +61,7 @@ pub(super) fn read(text: &str, options: &Options<'_>) -> Result<Program, Error> 
         fixed_axis: None,
         circle: None,
         made: None,
+        ahead: None,
         home: None,
         frame: None,
         ended: None,
@@ -95,10 +98,25 @@ impl<'a> Reader<'a> {
             return Err(self.error(place, statement.written(), expected));
         }
         let made = self.made.take();
+        if let (Some((_, place)), "GOTO" | "FROM" | "CIRCLE" | "MOVARC" | "FINI") =
+            (&self.ahead, statement.word.as_str())
+        {
+            return Err(self.error(
+                place,
+                "INDIRV without its arc",
+                "TLON,GOFWD/(CIRCLE/...),ON,(LINE/...) follows it",
+            ));
+        }
         match statement.word.as_str() {
             "GOTO" => self.go(statement, made)?,
             "FROM" => self.start(statement)?,
             "CIRCLE" | "MOVARC" => self.arc(statement)?,
+            "INDIRV" => {
+                self.no_circle_waits()?;
+                let (numbers, _) = self.numbers(statement, &[3])?;
+                self.ahead = Some((Vector3::from_column_slice(&numbers), *place));
+            }
+            "TLON,GOFWD" => self.arc_on_circle(statement)?,
             "RAPID" => {
                 self.words(statement, &[])?;
                 self.rapid = true;

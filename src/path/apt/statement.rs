@@ -29,7 +29,21 @@ pub(super) struct Token<'a> {
     pub(super) place: Place<'a>,
 }
 
-impl Token<'_> {
+impl<'a> Token<'a> {
+    /// What follows `(WORD/`, if it starts so.
+    pub(super) fn opened(&self, word: &str) -> Option<Self> {
+        let inner = self.text.strip_prefix('(')?.trim_start();
+        let name = inner.get(..word.len()).filter(|name| name.eq_ignore_ascii_case(word))?;
+        let value = inner[name.len()..].trim_start().strip_prefix('/')?.trim_start();
+        let byte = self.place.byte + self.text.len() - value.len();
+        Some(Self { text: value, place: Place { byte, ..self.place } })
+    }
+
+    /// What stands before `)`, if it ends so.
+    pub(super) fn closed(&self) -> Option<Self> {
+        self.text.strip_suffix(')').map(|text| Self { text: text.trim_end(), ..*self })
+    }
+
     /// The number that it is, if it is one.
     pub(super) fn number(&self) -> Option<f64> {
         let numeric = self.text.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));

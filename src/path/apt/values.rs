@@ -85,6 +85,20 @@ impl<'a> Reader<'a> {
         ))
     }
 
+    /// A radius in m.
+    pub(super) fn radius(&self, token: &Token<'_>) -> Result<f64, Error> {
+        let number = self.number(token)?;
+        if number <= 0.0 {
+            return Err(self.error(
+                &token.place,
+                format!("the radius {number}"),
+                "a radius is larger than 0",
+            ));
+        }
+        draft::coordinate(number * self.unit.in_m())
+            .map_err(|fault| fault.at(self.field, token.place.position()))
+    }
+
     /// Three coordinates in m.
     pub(super) fn point(&mut self, numbers: &[f64], tokens: &[Token<'_>]) -> Result<Vector3<f64>, Error> {
         let mut point = Vector3::zeros();

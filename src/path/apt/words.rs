@@ -58,9 +58,9 @@ pub(super) const HARMLESS: [&str; 48] = [
 pub(super) const CONTROLLER: [&str; 3] = ["AUXFUN", "INSERT", "PREFUN"];
 
 /// Words of the reader itself, for suggestions.
-pub(super) const READ: [&str; 17] = [
-    "CIRCLE", "CUTCOM", "CYCLE", "DELAY", "DWELL", "FEDRAT", "FINI", "FROM", "GOHOME", "GOTO", "MOVARC",
-    "MULTAX", "ORIGIN", "RAPID", "SPINDL", "TLAXIS", "UNITS",
+pub(super) const READ: [&str; 18] = [
+    "CIRCLE", "CUTCOM", "CYCLE", "DELAY", "DWELL", "FEDRAT", "FINI", "FROM", "GOHOME", "GOTO", "INDIRV",
+    "MOVARC", "MULTAX", "ORIGIN", "RAPID", "SPINDL", "TLAXIS", "UNITS",
 ];
 
 /// What to do about a word that changes the path in a way that is not followed here.
@@ -80,8 +80,8 @@ pub(super) fn refused(word: &str) -> Option<&'static str> {
         }
         "GODLTA" | "MODE" => "moves are absolute here: write GOTO/x,y,z",
         "GO" | "GOLFT" | "GORGT" | "GOFWD" | "GOBACK" | "GOUP" | "GODOWN" | "OFFSET" | "INDIRV"
-        | "INDIRP" | "PSIS" | "TLON" | "TLLFT" | "TLRGT" | "TLON,GOFWD" | "TLLFT,GOFWD" | "TLRGT,GOFWD"
-        | "THICK" | "TLONPS" | "TLOFPS" => {
+        | "INDIRP" | "PSIS" | "TLON" | "TLLFT" | "TLRGT" | "TLLFT,GOFWD" | "TLRGT,GOFWD" | "THICK"
+        | "TLONPS" | "TLOFPS" => {
             "part geometry is not followed: let the CAM system write arcs as CIRCLE or as points, in CLDATA (GOTO)"
         }
         "RETRCT" | "RETURN" | "GOCLER" => {

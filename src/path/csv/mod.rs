@@ -71,7 +71,7 @@ pub fn program(text: &str, options: &Options<'_>) -> Result<Program, Error> {
     Ok(draft.finish(rows.unit().name(), rows.lines()))
 }
 
-/// Reads rows of x, y, z \[mm, where the header says nothing else\] into points \[m\].
+/// Reads rows of x, y, z [mm, where the header says nothing else] into points [m].
 ///
 /// # Errors
 /// [`Error::Text`] with line and column of the first thing that is not a number, or of a row that has not three of them.

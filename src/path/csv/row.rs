@@ -29,7 +29,7 @@ pub(super) struct Row<'a> {
     pub(super) columns: Columns,
     /// The numbers in the order of the text; as many as there are columns.
     pub(super) numbers: [f64; 7],
-    /// x, y, z \[m\].
+    /// x, y, z [m].
     pub(super) point: Vector3<f64>,
     text: &'a str,
     starts: [usize; 7],

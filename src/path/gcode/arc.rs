@@ -45,6 +45,9 @@ pub(super) struct Arc {
 /// Ends of an arc that are nearer than this, across the plane's normal, make a full circle [m].
 pub(super) const SAME: f64 = 1e-9;
 
+/// A centre may move this far to keep an arc in one piece [m].
+const NEGLIGIBLE: f64 = 1e-6;
+
 /// Why there is no such arc.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Misfit {
@@ -98,7 +101,8 @@ impl Arc {
     ///
     /// The programmed ends are kept; the centre, which CAM systems round, moves along the chord until both radii are equal. Where
     /// that would move the far side of the arc by more than the radii differ (nearly full circles), the arc becomes a spiral of
-    /// pieces of at most half a turn. Either way no point is farther from the programmed circle than the radii differ.
+    /// pieces of at most half a turn. Either way no point is farther from the programmed
+    /// circle than the radii differ, or than a micrometre.
     pub(super) fn about(
         &self,
         center: &Vector3<f64>,
@@ -118,7 +122,7 @@ impl Arc {
         }
         let sweep = self.sweep(center) + TAU * self.extra_turns;
         let (centred, shift) = self.centred(center, chord);
-        if sweep <= PI || shift <= mismatch.max(SAME) {
+        if sweep <= PI || shift <= mismatch.max(NEGLIGIBLE) {
             return Ok(vec![self.turn(&centred, self.sweep(&centred) + TAU * self.extra_turns)]);
         }
         Ok(self.spiral(center, sweep, (at_start, at_end)))
@@ -144,6 +148,12 @@ impl Arc {
             arc.turn(&center, arc.sweep(&center))
         });
         chain.collect()
+    }
+
+    /// Whether the segments of this arc turn almost a full circle between ends that are no more than `apart` from each other [m].
+    pub(super) fn is_nearly_full(&self, segments: &[Segment], apart: f64) -> bool {
+        let turned = |segment: &Segment| if let Segment::Arc { sweep, .. } = segment { *sweep } else { 0.0 };
+        !self.is_full() && self.chord() <= apart && segments.iter().map(turned).sum::<f64>() > PI
     }
 
     /// Distance of the ends across the plane's normal [m].

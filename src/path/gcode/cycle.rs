@@ -197,6 +197,7 @@ impl Interpreter<'_> {
             self.wait(time);
         }
         if matches!(cycle.tenths, 850 | 890) {
+            // Up to R only, as controls do; LinuxCNC agrees in G85, but in G89 feeds up to the level of G98.
             self.feed_to_level(normal, hole.clearance, at)?;
         }
         self.rapid_to_level(normal, hole.retract)

@@ -73,6 +73,11 @@ impl Interpreter<'_> {
                 expected: expected.into(),
             });
         }
+        if machine && self.options.work_offsets.iter().all(Option::is_none) {
+            self.remark("machine-zero", || {
+                "G53 counts from machine zero; the job gives no work offsets, so this is taken to be the workpiece frame's origin".into()
+            });
+        }
         match (self.modal.motion, axis_word) {
             (None, Some(word)) => Err(word.fault(
                 block.text,
@@ -239,6 +244,11 @@ impl Interpreter<'_> {
         };
         let segments = center.and_then(|center| arc.about(&center, tolerance));
         let segments = segments.map_err(|misfit| self.misfit(misfit, word, block))?;
+        if arc.is_nearly_full(&segments, absolute) {
+            self.remark("nearly-full-circle", || {
+                "this arc is read as almost a full circle: its end lies just before its start; if a short arc is meant, its ends are rounded too coarsely".into()
+            });
+        }
         let pace = self.pace(segments.iter().map(Segment::length).sum(), block.start())?;
         for segment in segments {
             self.push(segment, pace)?;
