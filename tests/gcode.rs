@@ -392,6 +392,7 @@ fn refusals_are_placed_and_say_what_to_do() {
         ("letter without number", "G1 X Y2", 4, "number"),
         ("number without letter", "G1 5", 4, "letter and a number"),
         ("two points in a number", "G1 X1.2.3", 8, "letter and a number"),
+        ("decimal comma", "G1 X1,5", 6, "decimal point"),
         ("a sign alone", "G1 X-", 4, "number"),
         ("a number beyond all machines", "G1 X10000000000", 4, "1e9"),
         ("a foreign letter, column in characters", "(\u{e4}\u{f6}) \u{fc}1", 6, "letter and a number"),

@@ -252,23 +252,21 @@ fn arcs_with_rounded_centres_keep_their_ends_and_stay_near_the_circle() {
 
 /// Every move begins where the one before ended, and no number is NaN.
 fn assert_chained(program: &Program, text: &str) {
-    let mut at: Option<Vector3<f64>> = None;
+    let mut before: Option<(Vector3<f64>, f64)> = None;
     for step in &program.moves {
         let [from, to] = ends(&step.segment);
-        let size = 1.0
-            + from.norm()
-            + to.norm()
-            + if let Segment::Arc { radius, .. } = step.segment { radius } else { 0.0 };
+        let radius = if let Segment::Arc { radius, .. } = step.segment { radius } else { 0.0 };
+        let size = 1.0 + from.norm() + to.norm() + radius;
         assert!(from.iter().chain(to.iter()).all(|x| x.is_finite()), "{text}");
         assert!(step.segment.length().is_finite() && step.segment.length() > 0.0, "{text}");
-        if let Some(at) = at {
+        if let Some((at, size_before)) = before {
             // Sine and cosine of many turns keep 1e-12 of the radius.
-            assert!((at - from).norm() < 1e-11 * size, "{at} {from}\n{text}");
+            assert!((at - from).norm() < 1e-11 * (size + size_before), "{at} {from}\n{text}");
         }
+        before = Some((to, size));
         if let MovePace::Feed(feed) = step.pace {
             assert!(feed.is_finite() && feed > 0.0, "{text}");
         }
-        at = Some(to);
     }
     assert!(
         program.dwells.iter().all(|dwell| dwell.time >= 0.0 && dwell.after <= program.moves.len()),

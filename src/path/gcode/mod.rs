@@ -1,7 +1,7 @@
 //! G-code (RS-274, ISO 6983) for three-axis milling, read as a control would run it, or refused by line and column.
 //!
-//! A [word] is a letter and a number; a [block] is a line of words; the [modal] codes stay in force from line to line;
-//! the [interpreter] turns lines into the moves of a [`Program`]. The rules are those of "The NIST RS274NGC Interpreter,
+//! A word is a letter and a number; a block is a line of words; the modal codes stay in force from line to line;
+//! the interpreter turns lines into the moves of a [`Program`]. The rules are those of "The NIST RS274NGC Interpreter,
 //! Version 3" (Kramer, Proctor, Messina, NISTIR 6556, 2000); where controls differ, it is said here.
 //!
 //! | Words | Meaning here |
@@ -13,7 +13,7 @@
 //! | G93 G94 G95, F, S | feed as 1/minutes, length a minute, length a revolution; without F the job's feed, with a remark |
 //! | G54 to G59.3, G52, G92, G92.1, G53 | offsets; machine zero is the workpiece frame's origin |
 //! | G43 G44 H, G49 | tool length offsets along Z, what the job's tool frame does not hold already |
-//! | G73 G81 G82 G83 G85 G89, G80, G98 G99 | drilling, expanded to moves; G98 at the start; L repeats |
+//! | G73 G81 G82 G83 G85 G89, G80, G98 G99 | drilling, expanded to moves; G98 at the start; L repeats; under G91, R counts from the level at which the series began and the bottom from R |
 //! | G4 P | waits in seconds |
 //! | M0 M1 M60, M2 M30, M3 M5, M6 T, M7 M8 M9, M48 M49, G61 G64, G15 G40 G50 G69 G97 | the end, the spindle, and words without effect on the path, which are listed |
 //!

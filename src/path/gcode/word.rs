@@ -150,6 +150,7 @@ fn stray(line: &str, at: usize) -> Fault {
         "[" | "]" => EXPRESSION,
         "/" => "a slash (block delete) stands at the start of a line or after its N word",
         "%" => "a percent sign stands alone on its line, before and after the program",
+        "," => "numbers are written with a decimal point",
         ")" => "a comment opens with ( before it closes",
         _ => "a word is a letter and a number, such as X12.5; comments stand in ( ) or after ;",
     };
