@@ -6,7 +6,6 @@
 pub mod segment;
 pub mod shape;
 pub mod program;
-pub mod gcode;
 pub mod unit;
 mod draft;
 pub mod gcode;
