@@ -146,13 +146,14 @@ class Figure {
   }
 }
 
-function legendItem({ label, class: name }) {
+function legendItem({ key, label, class: name }) {
   const sample = document.createElementNS(SVG, "svg");
   sample.setAttribute("viewBox", "0 0 28 8");
   sample.setAttribute("class", "sample");
   sample.setAttribute("aria-hidden", "true");
   const group = document.createElementNS(SVG, "g");
   group.setAttribute("class", `series ${name}`);
+  group.dataset.key = key;
   const line = document.createElementNS(SVG, "path");
   line.setAttribute("d", "M0 4H28");
   group.append(line);
