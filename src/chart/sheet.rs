@@ -54,7 +54,7 @@ impl Sheet<'_> {
             .iter()
             .zip(&norms)
             .map(|((_, label, ..), norm)| {
-                format!("{label}: mean {:.4} mm, max {:.4} mm", mean(norm), max(norm))
+                format!("{label}: mean {} mm, max {} mm", read_mm(mean(norm)), read_mm(max(norm)))
             })
             .collect();
         let tolerance = self.report.setup.goal.tolerance / MM;
@@ -389,6 +389,11 @@ fn min(values: &[f64]) -> f64 {
 
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len().max(1) as f64
+}
+
+/// A length [mm] as read in a sentence.
+fn read_mm(mm: f64) -> String {
+    crate::report::millimetres(mm * MM)
 }
 
 /// A number as read in a sentence.

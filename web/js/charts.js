@@ -72,6 +72,7 @@ class Figure {
   #chart;
   #lines = [];
   #line; // of the program, where the chart is read off
+  #dotted = false; // of a few marked points, numbered by whole numbers
 
   constructor({ name, title, figure, kind }) {
     this.name = name;
@@ -94,7 +95,7 @@ class Figure {
   /** The size to draw at [px]. */
   size() {
     const width = Math.round(this.#plot.clientWidth);
-    const height = this.spatial ? Math.min(560, Math.max(300, width * 0.6)) : Math.min(300, Math.max(220, width * 0.38));
+    const height = this.spatial ? Math.min(560, Math.max(230, width * 0.6)) : Math.min(300, Math.max(220, width * 0.38));
     return { width, height: Math.round(height) };
   }
 
@@ -111,6 +112,7 @@ class Figure {
     this.#caption.textContent = chart.description;
     this.#legend.replaceChildren(...chart.series.map(legendItem));
     this.#lines = readable ? chart.series.map((series) => ({ ...series, points: pointsOf(svg, series.key) })) : [];
+    this.#dotted = svg.querySelector(".series circle") !== null && this.#lines[0]?.points.length > 0;
     this.#leave();
     this.#place();
   }
@@ -135,14 +137,16 @@ class Figure {
   /** Shows the values at a fraction of the plot's width, as exactly as the drawing has them. */
   #read(across) {
     const { plot, x, y } = this.#chart;
-    const at = plot.left + across * plot.width;
+    const pointed = plot.left + across * plot.width;
+    const at = this.#dotted ? nearestTo(this.#lines[0].points, pointed) : pointed;
     const parts = this.#lines.flatMap(({ label, points }) => {
-      const nearest = nearestTo(points, at);
-      return nearest ? [`${label} ${valueAt(y, 1 - (nearest[1] - plot.top) / plot.height, plot.height)}`] : [];
+      const height = heightAt(points, at);
+      return height === undefined ? [] : [`${label} ${valueAt(y, 1 - (height - plot.top) / plot.height, plot.height)}`];
     });
     this.#line = x.unit === "s" ? lineAt(x.min + across * (x.max - x.min)) : undefined;
     const line = this.#line ? `, line ${this.#line} of the program` : "";
-    const text = `${x.label} ${valueAt(x, across, plot.width)} ${x.unit}: ${parts.join(", ")} ${y.unit}`.trim() + line;
+    const where = this.#dotted ? Math.round(x.min + ((at - plot.left) / plot.width) * (x.max - x.min)) : valueAt(x, across, plot.width);
+    const text = [x.label, where, x.unit].filter((part) => part !== "").join(" ") + `: ${parts.join(", ")} ${y.unit}`.trimEnd() + line;
     this.#readout.textContent = text;
     this.#cursor.setAttribute("aria-valuetext", text);
     this.#mark.style.setProperty("left", `${at}px`);
@@ -166,13 +170,14 @@ class Figure {
   }
 }
 
-function legendItem({ label, class: name }) {
+function legendItem({ key, label, class: name }) {
   const sample = document.createElementNS(SVG, "svg");
   sample.setAttribute("viewBox", "0 0 28 8");
   sample.setAttribute("class", "sample");
   sample.setAttribute("aria-hidden", "true");
   const group = document.createElementNS(SVG, "g");
   group.setAttribute("class", `series ${name}`);
+  group.dataset.key = key;
   const line = document.createElementNS(SVG, "path");
   line.setAttribute("d", "M0 4H28");
   group.append(line);
@@ -180,17 +185,28 @@ function legendItem({ label, class: name }) {
   return make("li", {}, sample, label);
 }
 
-/** The drawn points [x, y] of a series, in the SVG's own units. */
+/** The drawn points [x, y] of a series, in the SVG's own units; a single point has a mark, but no line. */
 function pointsOf(svg, key) {
-  const shapes = svg.querySelectorAll(`.series[data-key="${CSS.escape(key)}"] polyline`);
-  return [...shapes].flatMap((shape) => {
-    const numbers = shape.getAttribute("points").match(/-?\d+(\.\d+)?/g) ?? [];
+  const within = (shape) => [...svg.querySelectorAll(`.series[data-key="${CSS.escape(key)}"] ${shape}`)];
+  const points = within("polyline").flatMap((line) => {
+    const numbers = line.getAttribute("points").match(/-?\d+(\.\d+)?/g) ?? [];
     return numbers.flatMap((x, i) => (i % 2 ? [] : [[Number(x), Number(numbers[i + 1])]]));
   });
+  return points.length ? points : within("circle").map((dot) => [Number(dot.getAttribute("cx")), Number(dot.getAttribute("cy"))]);
 }
 
-const nearestTo = (points, x) =>
-  points.reduce((best, point) => (!best || Math.abs(point[0] - x) < Math.abs(best[0] - x) ? point : best), null);
+/** The x of the point nearest to `x`. */
+const nearestTo = (points, x) => points.reduce((best, [at]) => (Math.abs(at - x) < Math.abs(best - x) ? at : best), Infinity);
+
+/** How high the line through the points runs at `x`; undefined beside it. */
+function heightAt(points, x) {
+  const after = points.findIndex(([at]) => at >= x);
+  if (after < 0) return undefined;
+  const [x1, y1] = points[after];
+  if (after === 0) return x1 - x < 1 ? y1 : undefined;
+  const [x0, y0] = points[after - 1];
+  return y0 + (y1 - y0) * ((x - x0) / (x1 - x0));
+}
 
 /** The value at a fraction of an axis that is `length` pixels long, with the digits that one pixel can tell. */
 function valueAt({ min, max, log }, fraction, length) {

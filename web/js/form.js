@@ -109,12 +109,13 @@ export class Form {
     if (field.unit) title.append(" ", unit);
     const reset = make("button", { type: "button", className: "reset", title: `Back to ${asText(field)}` }, "↺");
     reset.setAttribute("aria-label", `Reset ${field.label} to ${asText(field)}`);
-    const help = make("p", { className: "help", id: `${id}-help` }, helpText(field));
+    const help = make("p", { className: "help", id: `${id}-help`, hidden: true }, helpText(field));
     const note = make("p", { className: "note", id: `${id}-note` });
     const error = make("p", { className: "error", id: `${id}-error` });
     for (const input of editor.inputs) input.setAttribute("aria-describedby", `${id}-error ${id}-help`);
     const wide = grouped || editor.inputs[0].tagName === "TEXTAREA" || field.kind === "text";
-    const node = make("div", { className: wide ? "field wide" : "field" }, title, editor.node, reset, error, help, note);
+    const head = make("div", { className: "head" }, title, helpButton(field, help), reset);
+    const node = make("div", { className: wide ? "field wide" : "field" }, head, editor.node, error, help, note);
     const row = { field, editor, node, reset, error, note, notes, mistake: false };
     // Some assistive tools and drivers choose an option with "change" alone.
     const kind = editor.inputs[0].tagName === "SELECT" ? "change" : "input";
@@ -196,6 +197,17 @@ export class Form {
     input.focus();
     input.scrollIntoView({ block: "center" });
   }
+}
+
+/** Shows and hides a field's help. Screen readers have it with the field in either case. */
+function helpButton(field, help) {
+  const button = make("button", { type: "button", className: "explain", "aria-expanded": "false", "aria-controls": help.id }, "?");
+  button.setAttribute("aria-label", `Explain ${field.label}`);
+  button.addEventListener("click", () => {
+    help.hidden = !help.hidden;
+    button.setAttribute("aria-expanded", String(!help.hidden));
+  });
+  return button;
 }
 
 /** A preset choice that also offers one's own numbers. */

@@ -22,6 +22,11 @@ export function formatNumber(value, digits = 3) {
   return minus(group(text));
 }
 
+/** An error in mm to a tenth of a micrometre, so that a column of them lines up. */
+export function formatError(mm) {
+  return mm > 0 && mm < 5e-5 ? "<0.0001" : mm >= 1000 ? formatNumber(mm) : minus(mm.toFixed(4));
+}
+
 /** A length in mm: three digits, but no finer than a tenth of a micrometre, which no machine knows. */
 export function formatLength(mm) {
   const size = Math.abs(mm);

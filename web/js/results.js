@@ -1,7 +1,7 @@
 // Writes a summary into the page: verdict, large numbers, warnings, tables.
 
 import { byId, make, sentence } from "./dom.js";
-import { formatLength, formatNumber, plainNumber } from "./number.js";
+import { formatError, formatLength, formatNumber, plainNumber } from "./number.js";
 
 /** Puts a number on the page: rounded to read, in full in `data-value`. */
 function put(id, value, format = formatNumber) {
@@ -18,10 +18,9 @@ export function showSummary(summary) {
   put("after-mean", after.mean, formatLength);
   put("after-max", after.max, formatLength);
   put("passes", summary.passes);
-  put("force", Math.hypot(...summary.mean_force_n), (force) => formatNumber(force, 4));
+  put("force", Math.hypot(...summary.mean_force_n), (force) => formatNumber(force));
   put("duration", summary.duration_s);
-  byId("force-parts").textContent = summary.mean_force_n.map((part) => formatNumber(part, 4)).join(", ");
-  byId("force-parts").title = "x, y, z in the tool frame";
+  byId("force-parts").textContent = summary.mean_force_n.map((part, i) => `${"xyz"[i]} ${formatNumber(part)}`).join(", ");
   byId("length").textContent = `path length ${formatNumber(summary.path_length_mm, 4)} mm`;
   showTolerance(summary);
   showErrors(before, after);
@@ -44,24 +43,24 @@ function showTolerance({ converged, tolerance_mm, after_mm }) {
 function showErrors(before, after) {
   const rows = { deflection: before.deflection, shaping: before.shaping, both: before.both, compensated: after };
   for (const [name, { mean, max }] of Object.entries(rows)) {
-    put(`${name}-mean`, mean, formatLength);
-    put(`${name}-max`, max, formatLength);
+    put(`${name}-mean`, mean, formatError);
+    put(`${name}-max`, max, formatError);
   }
 }
 
 function showWarnings(warnings) {
   const count = warnings.length;
   const box = byId("warnings");
-  byId("warnings-count").textContent =
-    count === 0 ? "No warnings" : `${count} ${count === 1 ? "warning" : "warnings"}: ${warnings[0].message}`;
+  byId("warnings-count").textContent = count === 0 ? "No warnings" : `${count} ${count === 1 ? "warning" : "warnings"}`;
+  byId("warnings-first").textContent = count === 0 ? "" : `: ${warnings[0].message}`;
   box.classList.toggle("none", count === 0);
   if (count === 0) box.open = false;
   byId("warnings-list").replaceChildren(...warnings.map(warningItem));
 }
 
 function warningItem({ code, message, from_s, to_s }) {
-  const when = from_s == null ? "" : from_s === to_s ? `, at ${formatNumber(from_s)} s` : `, from ${formatNumber(from_s)} s to ${formatNumber(to_s)} s`;
-  const item = make("li", {}, sentence(message) + when);
+  const when = from_s == null ? "" : from_s === to_s ? `at ${formatNumber(from_s)} s` : `${formatNumber(from_s)} to ${formatNumber(to_s)} s`;
+  const item = make("li", {}, sentence(message), when && ": ", make("span", { className: "unit" }, when));
   item.dataset.code = code;
   return item;
 }
@@ -71,7 +70,8 @@ export function showThesis(rows) {
   const cells = rows.map(({ quantity, source, printed, ours, agrees, reason }) =>
     make("tr", { className: agrees ? "" : "differs" },
       make("th", { scope: "row" }, quantity), make("td", {}, source), make("td", { className: "digits" }, printed),
-      make("td", { className: "digits" }, ours), make("td", {}, `${agrees ? "Agrees." : "Differs."} ${reason}`)),
+      make("td", { className: "digits" }, ours),
+      make("td", {}, make("strong", {}, agrees ? "✓ Agrees." : "✗ Differs."), ` ${reason}`)),
   );
   byId("thesis").tBodies[0].replaceChildren(...cells);
 }
