@@ -176,6 +176,68 @@ fn mistakes_are_named() {
 }
 
 #[test]
+fn programs_are_paths_and_their_mistakes_are_placed() {
+    let program = |kind: &str, text: &str| ("path", json!({"kind": kind, "text": text}));
+    for (kind, text, place) in [
+        ("gcode", "G21 G90\nG0 X600 Y0 Z100\nG41 X610", (3, 1)),
+        ("gcode", "G0 X600 Y0 Z100\nG1 X#1", (2, 5)),
+        ("apt", "UNITS/MM\nGOTO/600,0,100\nTRACUT/1", (3, 1)),
+        ("csv", "x,y,z\n600,0,100\n600,a,100", (3, 5)),
+    ] {
+        let error = refused(&[program(kind, text)]);
+        assert_eq!(
+            (error.code(), error.field(), error.place()),
+            ("text", Some("path.text"), Some(place)),
+            "{kind}: {error}"
+        );
+    }
+    // A missing F uses the job's feed and is remarked; rapids move the arm and do not cut.
+    let report = run(&[
+        program("gcode", "G21 G90 S4000 M3\nG0 X600 Y0 Z120\nG0 Z100\nG1 X650"),
+        ("motion.feed_mm_s", json!(40)),
+        ("shaper", json!("none")),
+    ]);
+    assert!(
+        report
+            .warnings
+            .iter()
+            .any(|warning| warning.code == "feed-missing" && warning.message.starts_with("line 4"))
+    );
+    let (cuts, feed) = (common::column(&report, "cuts"), common::column(&report, "feed_mm_s"));
+    let fastest = |cutting: f64| {
+        cuts.iter()
+            .zip(&feed)
+            .filter(|(cuts, _)| **cuts == cutting)
+            .map(|(_, feed)| *feed)
+            .fold(0.0, f64::max)
+    };
+    assert!((fastest(1.0) - 40.0).abs() < 1e-9, "the job's feed");
+    assert!(fastest(0.0) > 40.0, "rapids are faster");
+    for (force, cuts) in report.before.force.iter().zip(&cuts) {
+        assert_eq!(force.norm() > 0.0, *cuts == 1.0);
+    }
+    let lines = common::column(&report, "program_line");
+    assert_eq!((lines[0], *lines.last().unwrap()), (3.0, 4.0));
+    // An inch program is read as inches.
+    let inch = run(&[program("gcode", "G20 G90\nG0 X24 Y0 Z4\nG1 X25 F100")]).summary().program.unwrap();
+    assert_eq!((inch.unit, inch.highest_mm[0]), ("inch", 635.0));
+    // A tool axis that turns is followed and corrected.
+    let tilted = run(&[
+        program("csv", "x,y,z,i,j,k\n600,-50,100,0,0,1\n600,50,100,0.2,0,0.98"),
+        ("shaper", json!({"kind":"zvd","frequency_hz":10,"damping":0.03})),
+    ]);
+    let summary = tilted.summary();
+    assert!(summary.program.unwrap().multi_axis);
+    assert!(
+        summary.after_axis_deg.max < 0.1 * summary.before_axis_deg.max,
+        "{:?} {:?}",
+        summary.before_axis_deg,
+        summary.after_axis_deg
+    );
+    assert!(summary.after_mm.max < 0.01);
+}
+
+#[test]
 fn a_place_out_of_reach_is_told_with_sample_distance_and_reach() {
     let line = json!({"kind":"line","from_mm":[600,0,100],"to_mm":[1600,0,100]});
     match refused(&[("path", line)]) {

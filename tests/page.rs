@@ -429,3 +429,42 @@ fn nothing_moves_when_results_arrive() -> Result {
         Ok(())
     })
 }
+
+#[test]
+fn programs_come_in_and_go_out() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        page.choose("#path-kind", "gcode").await?;
+        let text =
+            "G21 G90\nS4000 M3 M8\nG0 X600 Y-60 Z120\nG1 Z100 F1200\nY20\nG2 X640 Y60 I40\nG1 X700\nM30";
+        page.type_into("#path-text", text).await?;
+        let report = run(&[(
+            "path",
+            json!({"kind":"gcode","text":text,"tool_length_offsets_mm":[],"work_offsets_mm":[]}),
+        )]);
+        shows(page, &report).await?;
+        page.click("#tab-path").await?;
+        let understood = self::text(page, "understood").await?;
+        for part in ["8 lines in mm", "4 that cut, 1 rapid", "M8"] {
+            assert!(understood.contains(part), "{understood}");
+        }
+        // Each program out is the native one.
+        for (id, file) in [("gcode", "armill-gcode.nc"), ("krl", "armill-krl.src")] {
+            page.choose("#export-format", id).await?;
+            page.click("#download-program").await?;
+            let native = armill::export::export(&report, id, &armill::export::Options::default())?;
+            assert_eq!(page.downloaded(file).await?, native.text, "{id}");
+        }
+        // A mistake is placed, and what was typed stays.
+        page.type_into("#path-text", "G21 G90\nG0 X600 Y0 Z100\nG41 D1 X610").await?;
+        stale(page).await?;
+        assert!(self::text(page, "path-text-error").await?.to_lowercase().contains("line 3, column 1"));
+        assert!(page.value("#path-text").await?.contains("G41 D1"));
+        // An example opens as what it is.
+        page.choose("#examples", "dome.apt").await?;
+        current(page).await?;
+        assert_eq!(page.value("#path-kind").await?, "apt");
+        assert!(self::text(page, "understood").await?.contains("the tool axis turns"));
+        Ok(())
+    })
+}

@@ -87,8 +87,13 @@ pub(crate) fn warnings(
     let compensates =
         setup.sources != Sources { deflection: false, shaping: false } && setup.goal.max_passes > 0;
     if compensates && after_max > setup.goal.tolerance {
+        let corners = if setup.shaper.duration() > 0.0 && !plan.trajectory.stops.is_empty() {
+            "; a longer wait in corners gives the shaped correction time to turn with the force"
+        } else {
+            ""
+        };
         let message = format!(
-            "the compensated path leaves {:.4} mm, more than the tolerance of {} mm",
+            "the compensated path leaves {:.4} mm, more than the tolerance of {} mm{corners}",
             after_max / MM,
             setup.goal.tolerance / MM
         );

@@ -50,7 +50,8 @@ export function showProgram(program, duration) {
   const box = byId("program");
   box.hidden = !program;
   if (!program) return;
-  const span = (low, high) => (low === high ? formatNumber(low, 5) : `${formatNumber(low, 5)} to ${formatNumber(high, 5)}`);
+  const read = (value) => String(Number(value.toFixed(3))).replace("-", "\u2212");
+  const span = (low, high) => (read(low) === read(high) ? read(low) : `${read(low)} to ${read(high)}`);
   const extents = ["X", "Y", "Z"].map((axis, i) => `${axis} ${span(program.lowest_mm[i], program.highest_mm[i])}`);
   const facts = [
     ["Language", `${LANGUAGES[program.language]}, ${program.lines} lines in ${program.unit}`],
