@@ -3,7 +3,7 @@
 //! One program of an application whose data the file names: the frame `fPart`, the tool `tMill`, the point `pPath` (in `fPart`)
 //! and the motion descriptor `mPath`. `movel` to each point; lengths in mm, rx, ry, rz [deg] about x, the new y, the new z; `tvel`
 //! in mm/s. Blending is off. The first move is a `movej`.
-//! The XML frame and the instructions follow programs in the open and the VAL3 reference manual's table of instructions; they were not
+//! The XML frame follows published programs; instructions and the fields of `mdesc` are partly from memory, and nothing was
 //! tried on a controller. Project and data files are not written: their version is the controller's.
 
 use crate::export::command::Command;
