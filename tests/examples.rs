@@ -1,0 +1,259 @@
+//! The example programs of the page: each reads as it was meant, computes, and gains from compensation.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+mod common;
+
+use armill::Report;
+use common::{column, run};
+use serde::Deserialize;
+use serde_json::json;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// An entry of `web/examples/index.json`, from which the page makes its menu.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Entry {
+    file: String,
+    kind: String,
+    title: String,
+    note: String,
+}
+
+/// What a program is, told by hand. Lengths in mm.
+struct Known {
+    file: &'static str,
+    unit: &'static str,
+    lines: usize,
+    cutting: usize,
+    rapid: usize,
+    /// Corners of the box that the tip's path fills.
+    lowest: [f64; 3],
+    highest: [f64; 3],
+    /// Whether an arc reaches beyond the ends of the moves: the summary's box is then the smaller one.
+    bulges: bool,
+    multi_axis: bool,
+    /// What the reader remarks on.
+    remarks: &'static [&'static str],
+}
+
+/// A program in mm with the tool upright and nothing to remark on.
+const PLAIN: Known = Known {
+    file: "",
+    unit: "mm",
+    lines: 0,
+    cutting: 0,
+    rapid: 2,
+    lowest: [0.0; 3],
+    highest: [0.0; 3],
+    bulges: false,
+    multi_axis: false,
+    remarks: &[],
+};
+
+const KNOWN: [Known; 9] = [
+    // A level: 3 turns of helix, rings of 7, 9 and 9 moves, 2 links of 2, the lead-out.
+    Known {
+        file: "pocket.nc",
+        lines: 90,
+        cutting: 2 * (3 + 7 + 9 + 9 + 4 + 1),
+        rapid: 5,
+        lowest: [575.0, -14.0, 96.0],
+        highest: [625.0, 14.0, 120.0],
+        ..PLAIN
+    },
+    Known {
+        file: "contour.nc",
+        lines: 33,
+        cutting: 16,
+        lowest: [545.0, -35.0, 98.0],
+        highest: [645.0, 35.0, 120.0],
+        ..PLAIN
+    },
+    // Down, in, 7 rows, 6 steps between them, out.
+    Known {
+        file: "face.nc",
+        lines: 29,
+        cutting: 2 + 7 + 6 + 1,
+        lowest: [535.0, -21.0, 100.0],
+        highest: [665.0, 21.0, 120.0],
+        ..PLAIN
+    },
+    // Down, half a circle out, the turns (7 blocks, then 1), the bottom, half a circle back.
+    Known {
+        file: "bore.nc",
+        lines: 33,
+        cutting: (2 + 7 + 2) + (2 + 1 + 2),
+        rapid: 4,
+        lowest: [590.0, -50.0, 94.0],
+        highest: [610.0, 50.0, 120.0],
+        bulges: true,
+        ..PLAIN
+    },
+    // Down, 5 rows of 5 moves, 4 steps.
+    Known {
+        file: "ridge.nc",
+        lines: 47,
+        cutting: 1 + 5 * 5 + 4,
+        lowest: [560.0, -10.0, 100.0],
+        highest: [640.0, 10.0, 120.0],
+        ..PLAIN
+    },
+    // The slot's ends lie 0.25 inch beyond the arcs' ends.
+    Known {
+        file: "inch.nc",
+        unit: "inch",
+        lines: 28,
+        cutting: 1 + 4 + 4 + 2,
+        lowest: [22.75 * 25.4, -0.25 * 25.4, 3.92 * 25.4],
+        highest: [24.375 * 25.4, 0.25 * 25.4, 4.75 * 25.4],
+        bulges: true,
+        remarks: &["tool-length-missing"],
+        ..PLAIN
+    },
+    // Spots: a feed each; down, away, five times over and away. Drill: 3 pecks each; 4 rapids between a hole's pecks, 1 away,
+    // 5 times over, twice down to R (the first hole's G98 goes back up). At last up to 120.
+    Known {
+        file: "holes.nc",
+        lines: 30,
+        cutting: 6 + 6 * 3,
+        rapid: (1 + 6 + 5) + (6 * 4 + 6 + 5 + 2) + 1,
+        lowest: [570.0, -30.0, 91.0],
+        highest: [630.0, 30.0, 120.0],
+        remarks: &["tool-change"],
+        ..PLAIN
+    },
+    // On the sphere of radius 220 with its top at (600, 0, 100): starts 25 above (-12, -54), ends 25 above (12, 45), along the radius.
+    Known {
+        file: "dome.apt",
+        lines: 116,
+        cutting: 33 + 31 + 31,
+        lowest: [600.0 - 12.0 * 245.0 / 220.0, -54.0 * 245.0 / 220.0, 92.931_9],
+        highest: [600.0 + 12.0 * 245.0 / 220.0, 45.0 * 245.0 / 220.0, 119.447_4],
+        multi_axis: true,
+        ..PLAIN
+    },
+    // An ellipse of 80 by 56 in 120 pieces, quarter circles of radius 12 in 12 pieces before and after.
+    Known {
+        file: "rim.csv",
+        lines: 146,
+        cutting: 120 + 2 * 12,
+        rapid: 0,
+        lowest: [560.0, -28.0, 98.0],
+        highest: [652.0, 28.0, 98.0],
+        multi_axis: true,
+        remarks: &["header-unit"],
+        ..PLAIN
+    },
+];
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("web/examples")
+}
+
+fn index() -> Vec<Entry> {
+    let text = std::fs::read_to_string(folder().join("index.json")).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+/// An example in the default job, with a cut and a mode as a milling robot has them.
+fn computed(entry: &Entry) -> Report {
+    let text = std::fs::read_to_string(folder().join(&entry.file)).unwrap();
+    run(&[
+        ("path", json!({"kind": entry.kind, "text": text})),
+        ("cutting.axial_depth_mm", json!(2)),
+        ("shaper", json!({"kind": "zvd", "frequency_hz": 10, "damping": 0.03})),
+    ])
+}
+
+#[test]
+fn the_index_names_the_files_that_are_there() {
+    let index = index();
+    let listed: BTreeSet<_> = index.iter().map(|entry| entry.file.clone()).collect();
+    let mut present: BTreeSet<_> = std::fs::read_dir(folder())
+        .unwrap()
+        .map(|file| file.unwrap().file_name().into_string().unwrap())
+        .collect();
+    assert!(present.remove("index.json"));
+    assert_eq!(listed, present);
+    assert_eq!(listed.len(), index.len(), "a file is listed twice");
+    assert_eq!(listed, KNOWN.iter().map(|known| known.file.to_owned()).collect());
+    for entry in &index {
+        let kind = match Path::new(&entry.file).extension().unwrap().to_str().unwrap() {
+            "nc" => "gcode",
+            ending => ending,
+        };
+        assert_eq!(entry.kind, kind, "{}", entry.file);
+        assert!(!entry.title.is_empty() && !entry.note.is_empty(), "{}", entry.file);
+        assert!(!entry.note.contains('\n'), "{}", entry.file);
+    }
+}
+
+#[test]
+fn every_example_is_read_as_meant_and_gains_from_compensation() {
+    for entry in index() {
+        let known = KNOWN.iter().find(|known| known.file == entry.file).unwrap();
+        let report = computed(&entry);
+        is_read_as_meant(known, &report);
+        rapids_carry_no_force(known, &report);
+        gains(known, &report);
+    }
+}
+
+fn is_read_as_meant(known: &Known, report: &Report) {
+    let Known { file, lowest, highest, .. } = known;
+    let summary = report.summary();
+    let program = summary.program.unwrap();
+    assert_eq!(program.unit, known.unit, "{file}");
+    assert_eq!(program.lines, known.lines, "{file}");
+    assert_eq!((program.cutting_moves, program.rapid_moves), (known.cutting, known.rapid), "{file}");
+    assert_eq!(program.multi_axis, known.multi_axis, "{file}");
+    assert!((5.0..60.0).contains(&summary.duration_s), "{file}: {} s", summary.duration_s);
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        // The workpiece frame is the base frame here.
+        let way = column(report, &format!("desired_{name}_mm"));
+        let least = way.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = way.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        assert!((least - lowest[axis]).abs() < 1e-3, "{file}: {name} from {least}");
+        assert!((most - highest[axis]).abs() < 1e-3, "{file}: {name} to {most}");
+        let (from, to) = (program.lowest_mm[axis] - lowest[axis], highest[axis] - program.highest_mm[axis]);
+        assert!(from > -1e-4 && to > -1e-4, "{file}: {name} within the path's");
+        assert!(known.bulges || (from < 1e-4 && to < 1e-4), "{file}: {name} as the path's");
+    }
+    let remarks = &report.setup.listing.as_ref().unwrap().program.remarks;
+    assert!(
+        remarks.iter().map(|remark| remark.code).eq(known.remarks.iter().copied()),
+        "{file}: {remarks:?}"
+    );
+}
+
+fn rapids_carry_no_force(known: &Known, report: &Report) {
+    let pace = &report.plan.trajectory.pace;
+    let still = (report.plan.shaper.duration() / report.plan.trajectory.sample_time).ceil() as usize + 1;
+    let mut rapid_for = 0;
+    for (k, engaged) in pace.engaged.iter().enumerate() {
+        let rapid = *engaged == 0.0;
+        assert_eq!(report.deflection_only.force[k].norm() == 0.0, rapid, "{}: sample {k}", known.file);
+        // A shaped tool arrives later, by the shaper's length at most.
+        rapid_for = if rapid { rapid_for + 1 } else { 0 };
+        assert!(
+            rapid_for <= still || report.before.force[k].norm() == 0.0,
+            "{}: sample {k}, shaped",
+            known.file
+        );
+    }
+    assert_eq!(pace.engaged.contains(&0.0), known.rapid > 0, "{}", known.file);
+}
+
+fn gains(known: &Known, report: &Report) {
+    let Known { file, .. } = known;
+    let summary = report.summary();
+    let (before, after) = (summary.before_mm.both.max, summary.after_mm.max);
+    assert!(after < before / 10.0, "{file}: {before} mm before, {after} mm after");
+    assert!(summary.converged && after <= summary.tolerance_mm, "{file}: {after} mm");
+    if known.multi_axis {
+        let (before, after) = (summary.before_axis_deg, summary.after_axis_deg);
+        assert!(after.max < before.max / 5.0, "{file}: {} deg before, {} deg after", before.max, after.max);
+        assert!(after.mean < before.mean / 20.0, "{file}: {} deg, {} deg", before.mean, after.mean);
+    }
+}
