@@ -82,6 +82,24 @@ impl Segment {
         }
     }
 
+    /// Arc lengths [m] at which a coordinate may be largest or smallest: the ends, and on an arc where an axis is touched.
+    ///
+    /// A rise along the axes of its own circle, as programs have it, moves none of these places.
+    pub fn extremes(&self) -> Vec<f64> {
+        let length = self.length();
+        let mut places = vec![0.0, length];
+        if let Segment::Arc { u, v, sweep, .. } = self {
+            for axis in 0..3 {
+                let mut angle = math::atan2(v[axis], u[axis]).rem_euclid(math::PI);
+                while angle < *sweep {
+                    places.push(angle / sweep * length);
+                    angle += math::PI;
+                }
+            }
+        }
+        places
+    }
+
     /// The same segment seen from outside the frame it is drawn in.
     pub fn placed(&self, frame: &Pose) -> Self {
         match *self {

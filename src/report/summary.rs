@@ -102,9 +102,9 @@ pub struct Understood {
     pub rapid_moves: usize,
     /// Whether the tool axis turns.
     pub multi_axis: bool,
-    /// Smallest x, y, z of the moves' ends in the workpiece frame [mm].
+    /// Smallest x, y, z of the moves in the workpiece frame [mm].
     pub lowest_mm: [f64; 3],
-    /// Largest x, y, z of the moves' ends in the workpiece frame [mm].
+    /// Largest x, y, z of the moves in the workpiece frame [mm].
     pub highest_mm: [f64; 3],
     /// Smallest and largest feed that the program states [mm/s].
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -128,7 +128,7 @@ impl Understood {
         let (mut lowest, mut highest) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let mut feeds: Option<[f64; 2]> = None;
         for step in &program.moves {
-            for s in [0.0, step.segment.length()] {
+            for s in step.segment.extremes() {
                 let point = step.segment.point(s) / MM;
                 for axis in 0..3 {
                     lowest[axis] = f64::min(lowest[axis], point[axis]);

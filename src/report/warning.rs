@@ -6,6 +6,7 @@ use crate::deviation::{Deviation, Plan, Sources};
 use crate::job::Setup;
 use crate::math;
 use crate::motion::joints::JointTrajectory;
+use crate::path::{Move, MovePace};
 use crate::robot::Joints;
 use crate::robot::inverse::Margin;
 use crate::units::{DEG, MM};
@@ -201,18 +202,30 @@ fn angle_of_sine(sine: f64) -> f64 {
 fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
     let trajectory = &plan.trajectory;
     let dt = trajectory.sample_time;
+    let cutting = || plan.path.moves().iter().filter(|step| step.pace != MovePace::Rapid);
+    let feed = |step: &Move| if let MovePace::Feed(feed) = step.pace { feed } else { setup.tempo.feed };
     if let ChipLoad::Fixed(c) = setup.chip {
-        let from_feed = setup.tempo.feed / setup.teeth_per_second;
-        if (c - from_feed).abs() > 0.05 * from_feed {
+        let from_feed = |step: &Move| {
+            let teeth_per_second =
+                step.spindle.map_or(setup.teeth_per_second, |spindle| spindle * f64::from(setup.cut.flutes));
+            feed(step) / teeth_per_second
+        };
+        let off = |chip: f64| (c - chip).abs() / chip;
+        let worst = cutting().map(from_feed).max_by(|a, b| off(*a).total_cmp(&off(*b)));
+        if let Some(chip) = worst.filter(|chip| off(*chip) > 0.05) {
             let message = format!(
                 "the feed per tooth of {} mm does not agree with feed and spindle speed, which give {:.3} mm",
                 c / MM,
-                from_feed / MM
+                chip / MM
             );
             warnings.push(Warning::new("chip-load", message));
         }
     }
+    // At rest in a corner the heading only turns.
     let slope = |k: usize| {
+        if trajectory.pace.speed[k] == 0.0 && k > 0 && k + 1 < trajectory.moving {
+            return 0.0;
+        }
         let along: f64 = trajectory.pace.heading[k].dot(&trajectory.axis[k]) * trajectory.pace.engaged[k];
         angle_of_sine(along.abs())
     };
@@ -224,13 +237,15 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
         );
         warnings.push(Warning::new("plunge", message).within(range, dt));
     }
-    let bend = plan.path.moves().iter().map(|step| step.segment.curvature()).fold(0.0, f64::max);
-    let centripetal = setup.tempo.feed * setup.tempo.feed * bend;
-    if centripetal > setup.tempo.acceleration {
+    let across = |step: &Move| feed(step) * feed(step) * step.segment.curvature();
+    if let Some(step) = cutting().max_by(|a, b| across(a).total_cmp(&across(b)))
+        && across(step) > setup.tempo.acceleration
+    {
         let message = format!(
-            "at full feed the tightest arc (radius {:.2} mm) takes {:.0} mm/s² across the path, more than the {:.0} mm/s² along it",
-            1.0 / bend / MM,
-            centripetal / MM,
+            "at {:.1} mm/s an arc of radius {:.2} mm takes {:.0} mm/s² across the path, more than the {:.0} mm/s² along it",
+            feed(step) / MM,
+            1.0 / step.segment.curvature() / MM,
+            across(step) / MM,
             setup.tempo.acceleration / MM
         );
         warnings.push(Warning::new("centripetal", message));
