@@ -445,7 +445,7 @@ fn programs_come_in_and_go_out() -> Result {
         shows(page, &report).await?;
         page.click("#tab-path").await?;
         let understood = self::text(page, "understood").await?;
-        for part in ["8 lines in mm", "4 that cut, 1 rapid", "M8"] {
+        for part in ["8 lines in mm", "4 that cut, 0 rapid", "M8"] {
             assert!(understood.contains(part), "{understood}");
         }
         // Each program out is the native one.
