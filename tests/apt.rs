@@ -186,10 +186,7 @@ fn mistakes_are_placed_and_say_what_to_do() {
         ("DELAY/-1", (1, 7), "0 to 3600 s"),
         ("$$ ö\nGOTO/0,0,ö", (2, 10), "\"ö\""),
     ] {
-        let error = read(text).expect_err(text);
-        assert_eq!(error.place(), Some(place), "{text:?}: {error}");
-        assert_eq!(error.field(), Some("path.text"), "{text:?}");
-        assert!(error.to_string().contains(part), "{text:?}: {error}");
+        common::refused_at(read(text), text, place, part);
     }
 }
 

@@ -90,13 +90,9 @@ fn next_solution(robot: &Robot, tcp: &Pose, last: &Solution) -> Result<Solution,
     match candidates.nearest(&last.q) {
         Some(solution) if inverse::closes(robot, tcp, &solution.q) => Ok(*solution),
         // The closed form lost digits for this one; take the nearest that closes.
-        _ => {
-            let solutions = inverse::inverse(robot, tcp, &last.q)?;
-            solutions.nearest(&last.q).copied().ok_or_else(|| Error::Invalid {
-                field: "path".into(),
-                value: "a pose".into(),
-                expected: "no solution of the inverse model closes".into(),
-            })
-        }
+        _ => inverse::inverse(robot, tcp, &last.q)?
+            .nearest(&last.q)
+            .copied()
+            .ok_or_else(|| inverse::unclosed(tcp)),
     }
 }

@@ -70,7 +70,7 @@ const WRIST_SINGULAR: f64 = 1e-10;
 /// Each angle is the one of its full turns that is nearest to `near` [rad]; at a wrist singularity q4 is taken from `near`.
 ///
 /// # Errors
-/// [`Error::Unreachable`] with the distance and the reach if no branch gets there.
+/// [`Error::Unreachable`] with the distance and the reach if no branch gets there; [`Error::Invalid`] if some do and none closes.
 pub fn inverse(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solutions, Error> {
     let mut solutions = candidates(robot, tcp, near)?;
     for slot in &mut solutions.all {
@@ -80,7 +80,7 @@ pub fn inverse(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solutions, Er
     }
     match solutions.iter().next() {
         Some(_) => Ok(solutions),
-        None => Err(unreachable(tcp, f64::NAN, robot.reach())),
+        None => Err(unclosed(tcp)),
     }
 }
 
@@ -195,6 +195,16 @@ fn wrist_angles(robot: &Robot, m: &Matrix3<f64>, near: &Joints) -> [(bool, [f64;
             math::atan2(cos_4 * m[(1, 0)] - sin_4 * m[(0, 0)], cos_4 * m[(1, 1)] - sin_4 * m[(0, 1)]);
         (positive, [theta_4, -g.sin_4 * b, if equal { -theta_6 } else { theta_6 }], sin_b)
     })
+}
+
+/// The pose is within reach, but rounding keeps every branch from it.
+pub(crate) fn unclosed(tcp: &Pose) -> Error {
+    let [x, y, z] = [tcp.position.x, tcp.position.y, tcp.position.z].map(|v| v / crate::units::MM);
+    Error::Invalid {
+        field: "path".into(),
+        value: format!("at ({x:.1}, {y:.1}, {z:.1}) mm in the base frame"),
+        expected: "no solution of the inverse model closes there; move the path a little".into(),
+    }
 }
 
 fn unreachable(tcp: &Pose, distance: f64, (reach_min, reach_max): (f64, f64)) -> Error {

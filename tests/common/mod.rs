@@ -33,6 +33,19 @@ pub(crate) fn refused(changes: &[(&str, Value)]) -> armill::Error {
     armill::run_json(&job_text(changes), |_| {}).unwrap_err()
 }
 
+/// A reader has refused a text of the job at this line and column, in these words.
+pub(crate) fn refused_at<T: std::fmt::Debug>(
+    outcome: Result<T, armill::Error>,
+    text: &str,
+    place: (usize, usize),
+    part: &str,
+) {
+    let error = outcome.expect_err(text);
+    assert_eq!(error.place(), Some(place), "{text:?}: {error}");
+    assert_eq!(error.field(), Some("path.text"), "{text:?}");
+    assert!(error.to_string().contains(part), "{text:?}: {error}");
+}
+
 /// A column of a report.
 pub(crate) fn column(report: &Report, key: &str) -> Vec<f64> {
     report

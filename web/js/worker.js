@@ -26,7 +26,7 @@ const answers = {
     });
     release();
     run = fresh;
-    return { summary: run.summary(), columns: run.columns(), charts: run.charts() };
+    return { summary: run.summary(), charts: run.charts() };
   },
   column: (key) => run.column(key),
   chart: (name, options) => run.chart(name, options),
