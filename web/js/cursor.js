@@ -1,0 +1,20 @@
+// The page's one cursor: an instant of the shown run, in seconds. Charts, scene, play and program all read and move it.
+
+const followers = new Set();
+let now = null; // seconds from the start, or null while nothing is pointed at
+
+/** The instant pointed at [s], or null. */
+export const cursor = () => now;
+
+/** Points at an instant [s], or at none; `from` is told to everyone who follows, so that they can tell their own moves. */
+export function setCursor(time, from) {
+  if (time === now) return;
+  now = time;
+  for (const follow of followers) follow(now, from);
+}
+
+/** Calls `follow(time, from)` whenever the cursor moves; returns a function that ends it. */
+export function onCursor(follow) {
+  followers.add(follow);
+  return () => followers.delete(follow);
+}
