@@ -3,6 +3,8 @@
 // Two Workers take turns: one holds the result that the page shows and draws its charts, the other computes the
 // next one. A run that is invalid, cancelled or trapped therefore never takes the shown result away.
 
+import { compileCore, startWorker } from "./files.js";
+
 const SUPERSEDE_MS = 400; // a run older than this is cut off when a newer job arrives; a younger one may finish
 const CANCELLED = { code: "cancelled", message: "Cancelled." };
 
@@ -13,6 +15,7 @@ let since = null; // when the run in progress began
 let next = null; // the job to compute next: only the latest counts
 let good = null; // the job of the shown result
 let lost = false; // the shown result was lost to a trap and is being computed again
+let core; // the compiled module, a promise: every Worker starts from the same one
 
 /** Starts the core. Returns its version, default job, fields and presets; rejects if the browser cannot run it. */
 export function start(handlers) {
@@ -110,7 +113,7 @@ function retire(worker) {
 
 /** A Worker that answers `ask(kind, ...args)` with a promise. */
 function spawn() {
-  const worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module", name: "armill" });
+  const worker = startWorker();
   const waiting = new Map();
   let count = 0;
   const stop = (reason) => {
@@ -118,6 +121,7 @@ function spawn() {
     for (const { reject } of waiting.values()) reject(reason);
     waiting.clear();
   };
+  const fail = ({ message }) => stop({ code: "load", message: message || "The core could not be loaded.", fatal: true });
   worker.addEventListener("message", ({ data: { id, value, error, progress } }) => {
     if (progress) return events.onprogress(progress);
     const question = waiting.get(id);
@@ -127,8 +131,9 @@ function spawn() {
   });
   worker.addEventListener("error", (event) => {
     event.preventDefault();
-    stop({ code: "load", message: event.message || "The core could not be loaded.", fatal: true });
+    fail(event);
   });
+  (core ??= compileCore()).then((module) => worker.postMessage({ module }), fail);
   return {
     stop,
     ask: (kind, ...args) =>

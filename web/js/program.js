@@ -1,6 +1,7 @@
 // Programs: opened, dropped or taken from the examples; what was understood of them; the way from a line to the charts and back.
 
 import { byId, make } from "./dom.js";
+import { readText } from "./files.js";
 import { formatNumber } from "./number.js";
 
 const LANGUAGES = { gcode: "G-code", apt: "APT / CLDATA", csv: "Points" };
@@ -26,15 +27,17 @@ export function programTools(use, fail) {
     file.value = "";
     if (chosen) await openProgram(chosen, use);
   });
-  const listed = fetch("examples/index.json").then((answer) => answer.json());
+  const listed = readText("examples/index.json").then(JSON.parse);
   listed.then((list) => examples.append(...list.map(({ file: name, title, note }) => make("option", { value: name, title: note }, title))), () => (examples.hidden = true));
   examples.addEventListener("change", async () => {
     const chosen = (await listed).find((example) => example.file === examples.value);
     examples.value = "";
     if (!chosen) return;
-    const answer = await fetch(`examples/${chosen.file}`);
-    if (answer.ok) use(chosen.kind, await answer.text());
-    else fail(`The example ${chosen.title} could not be loaded.`);
+    try {
+      use(chosen.kind, await readText(`examples/${chosen.file}`));
+    } catch ({ message }) {
+      fail(message);
+    }
   });
   return make("div", { className: "program-tools" }, open, examples, file);
 }

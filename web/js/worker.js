@@ -3,7 +3,8 @@
 import init, * as armill from "../pkg/armill.js";
 
 const PROGRESS_MS = 40;
-const ready = init();
+let start; // takes the promise of a running core
+const ready = new Promise((resolve) => (start = resolve));
 ready.catch(() => {}); // told to whoever asks first
 let run = null;
 
@@ -47,7 +48,8 @@ function plain(error) {
   return { code, message: message ?? String(error), field, line, column, fatal: error instanceof WebAssembly.RuntimeError };
 }
 
-addEventListener("message", async ({ data: { id, kind, args } }) => {
+addEventListener("message", async ({ data: { module, id, kind, args } }) => {
+  if (module) return start(init({ module_or_path: module }));
   try {
     await ready;
   } catch (error) {

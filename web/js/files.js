@@ -1,0 +1,20 @@
+// The files that this page has beside it. The one-file page has its own version of this module and finds them inside itself.
+
+const urlOf = (path) => new URL(`../${path}`, import.meta.url);
+
+/** The text of a file of the site. */
+export async function readText(path) {
+  const answer = await fetch(urlOf(path));
+  if (!answer.ok) throw new Error(`${path} could not be loaded (${answer.status}).`);
+  return answer.text();
+}
+
+/** The compiled core, for a Worker to start from. */
+export async function compileCore() {
+  const load = () => fetch(urlOf("pkg/armill_bg.wasm"));
+  // Hosts that do not know the file's type get it compiled after loading instead of meanwhile.
+  return WebAssembly.compileStreaming(load()).catch(async () => WebAssembly.compile(await (await load()).arrayBuffer()));
+}
+
+/** A new Worker of the core. */
+export const startWorker = () => new Worker(urlOf("js/worker.js"), { type: "module", name: "armill" });
