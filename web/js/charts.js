@@ -1,6 +1,7 @@
 // Draws the charts of one panel: SVG text from the core, legend and readout in HTML around it.
 
 import * as core from "./core.js";
+import { cursor, onCursor, setCursor } from "./cursor.js";
 import { debounced, make } from "./dom.js";
 import { lineAt, showLine } from "./program.js";
 
@@ -25,10 +26,9 @@ export function showPanel(shown) {
   draw();
 }
 
-/** Reads every shown chart over time off at a time [s]. */
-export function readAt(time) {
-  for (const figure of figures.values()) figure.readAt(time);
-}
+onCursor((time, from) => {
+  for (const figure of figures.values()) if (figure !== from) figure.readAt(time);
+});
 
 const redraw = debounced(() => draw(), 120);
 let width = 0;
@@ -83,8 +83,8 @@ class Figure {
       make("header", {}, this.#title, source), this.#legend, this.#plot, make("div", { className: "below" }, this.#readout, this.#caption));
     this.#plot.style.setProperty("min-height", "15rem");
     this.#cursor.setAttribute("aria-label", `Read values off: ${title}`);
-    this.#cursor.addEventListener("input", () => this.#read(Number(this.#cursor.value) / 400));
-    this.#cursor.addEventListener("focus", () => this.#read(Number(this.#cursor.value) / 400));
+    this.#cursor.addEventListener("input", () => this.#move(Number(this.#cursor.value) / 400));
+    this.#cursor.addEventListener("focus", () => this.#move(Number(this.#cursor.value) / 400));
     this.#cursor.addEventListener("blur", () => this.#leave());
     this.#plot.addEventListener("pointermove", (event) => this.#point(event));
     this.#plot.addEventListener("pointerdown", (event) => this.#point(event));
@@ -113,8 +113,9 @@ class Figure {
     this.#legend.replaceChildren(...chart.series.map(legendItem));
     this.#lines = readable ? chart.series.map((series) => ({ ...series, points: pointsOf(svg, series.key) })) : [];
     this.#dotted = svg.querySelector(".series circle") !== null && this.#lines[0]?.points.length > 0;
-    this.#leave();
+    this.#clear();
     this.#place();
+    if (cursor() !== null) this.readAt(cursor());
   }
 
   #place() {
@@ -131,7 +132,7 @@ class Figure {
     const across = (event.clientX - this.#plot.getBoundingClientRect().left - left) / width;
     if (across < 0 || across > 1) return this.#leave();
     this.#cursor.value = String(Math.round(across * 400));
-    this.#read(across);
+    this.#move(across);
   }
 
   /** Shows the values at a fraction of the plot's width, as exactly as the drawing has them. */
@@ -143,7 +144,7 @@ class Figure {
       const height = heightAt(points, at);
       return height === undefined ? [] : [`${label} ${valueAt(y, 1 - (height - plot.top) / plot.height, plot.height)}`];
     });
-    this.#line = x.unit === "s" ? lineAt(x.min + across * (x.max - x.min)) : undefined;
+    this.#line = this.#overRun ? lineAt(x.min + across * (x.max - x.min)) : undefined;
     const line = this.#line ? `, line ${this.#line} of the program` : "";
     const where = this.#dotted ? Math.round(x.min + ((at - plot.left) / plot.width) * (x.max - x.min)) : valueAt(x, across, plot.width);
     const text = [x.label, where, x.unit].filter((part) => part !== "").join(" ") + `: ${parts.join(", ")} ${y.unit}`.trimEnd() + line;
@@ -153,10 +154,23 @@ class Figure {
     this.#mark.classList.add("on");
   }
 
-  /** Reads the chart off at a time [s], if it is one over time and shown. */
+  /** Reads the chart off and takes the page's cursor along. */
+  #move(across) {
+    const { min, max } = this.#chart.x;
+    this.#read(across);
+    if (this.#overRun) setCursor(min + across * (max - min), this);
+  }
+
+  /** Whether the chart is over the time of the run: the shaper's own step is not. */
+  get #overRun() {
+    return this.#chart.x.unit === "s" && this.name !== "shaper-step";
+  }
+
+  /** Reads the chart off at an instant of the run [s], if it is over it and shown; at none if that is null. */
   readAt(time) {
     const axis = this.#chart?.x;
-    if (!this.#lines.length || axis.unit !== "s" || !this.node.isConnected) return;
+    if (!this.#lines.length || !this.#overRun || !this.node.isConnected) return;
+    if (time === null) return this.#clear();
     const across = (time - axis.min) / (axis.max - axis.min);
     if (across < 0 || across > 1) return;
     this.#cursor.value = String(Math.round(across * 400));
@@ -165,6 +179,11 @@ class Figure {
 
   #leave() {
     if (document.activeElement === this.#cursor) return;
+    this.#clear();
+    if (this.#chart && this.#overRun) setCursor(null, this);
+  }
+
+  #clear() {
     this.#readout.textContent = "";
     this.#mark.classList.remove("on");
   }

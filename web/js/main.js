@@ -1,7 +1,8 @@
 // Wires the page: the form edits the job, the core computes it, results and charts show it.
 
 import * as core from "./core.js";
-import { readAt, setCharts, showPanel } from "./charts.js";
+import { setCharts, showPanel } from "./charts.js";
+import { setCursor } from "./cursor.js";
 import { byId, debounced, make, sentence } from "./dom.js";
 import { download } from "./download.js";
 import { Form } from "./form.js";
@@ -223,7 +224,7 @@ try {
   byId("version").textContent = `v${hello.version}`;
   form = new Form(byId("form"), job, hello.fields, hello.presets, edited);
   byId("group-path").querySelector("legend").after(programTools(useProgram, alertOn));
-  followCaret(readAt);
+  followCaret((time) => setCursor(time, "program"));
   wireDrop();
   formats = hello.formats.filter(({ id }) => !["columns-csv", "compensated-csv"].includes(id));
   byId("export-format").append(...formats.map(({ id, name, note }) => make("option", { value: id, title: note }, name)));
