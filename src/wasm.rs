@@ -20,9 +20,11 @@ const TYPES: &'static str = r#"
 export interface ArmillError extends Error { code: string; field?: string; line?: number; column?: number; }
 export interface Statistics { mean: number; max: number; }
 export interface Warning { code: string; message: string; from_sample?: number; to_sample?: number; from_s?: number; to_s?: number; }
+export interface Parts { joints: number[]; shaping: number; total: number; }
+export interface Budget { sample: number; time_s: number; worst_mm: Parts; mean_mm: Parts; sentence: string; }
 export interface Summary {
   fingerprint: string; samples: number; duration_s: number; path_length_mm: number; mean_force_n: [number, number, number];
-  before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics }; after_mm: Statistics;
+  before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics }; after_mm: Statistics; budget: Budget;
   passes: number; converged: boolean; tolerance_mm: number; history_max_mm: number[]; history_mean_mm: number[];
   verdict: string; robot: string; branch: string; warnings: Warning[];
 }
@@ -192,6 +194,17 @@ impl Run {
                 expected: "columns() lists the keys".into(),
             })),
         }
+    }
+
+    /// Where the arm stands at a sample: base, six joints, TCP and workpiece in the base frame, each as origin [mm] and x, y, z axes (12 numbers).
+    pub fn frames(&self, sample: usize) -> Float64Array {
+        Float64Array::from(self.report.frames(sample).as_slice())
+    }
+
+    /// The paths for a picture in space, in at most about `most` rows of 14 numbers: sample, whether it cuts, then x, y, z [mm] of desired point, closest
+    /// point of the desired path, way from there to the actual tip, correction to command.
+    pub fn track(&self, most: usize) -> Float64Array {
+        Float64Array::from(self.report.track(most).as_slice())
     }
 
     /// Every chart.

@@ -3,8 +3,11 @@
 pub mod columns;
 pub mod warning;
 pub mod thesis;
+pub mod scene;
+mod budget;
 mod summary;
 
+pub use budget::{Budget, Parts};
 pub use summary::{Statistics, Summary};
 pub use warning::Warning;
 

@@ -2,7 +2,7 @@
 
 use crate::deviation::{Deviation, contour};
 use crate::path::{Listing, MovePace, Path};
-use crate::report::{Report, Warning};
+use crate::report::{Budget, Report, Warning};
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -58,6 +58,8 @@ pub struct Summary {
     pub mean_force_n: [f64; 3],
     /// Contour error before compensation [mm].
     pub before_mm: Before,
+    /// What the contour error before compensation is made of.
+    pub budget: Budget,
     /// Contour error after compensation, every source acting [mm].
     pub after_mm: Statistics,
     /// Angle between actual and desired tool axis before compensation, every source acting [deg].
@@ -191,6 +193,7 @@ impl Report {
                 shaping: statistics(&self.shaping_only),
                 both: statistics(&self.before),
             },
+            budget: self.budget(),
             after_mm: statistics(&self.after),
             before_axis_deg: Statistics::of_angles(&self.before.axis_error),
             after_axis_deg: Statistics::of_angles(&self.after.axis_error),

@@ -13,8 +13,7 @@ pub fn cartesian_compliance(robot: &Robot, q: &Joints) -> Matrix6<f64> {
 
 /// Displacement [m] and rotation [rad] of the TCP under the force `force` [N] on it, all in the base frame (eqs. 3.47, 4.8-4.10).
 ///
-/// The same as the first three columns of [`cartesian_compliance`] times the force, without building the matrix:
-/// joint torque tau_i = v_i . F (eq. 3.47), joint rotation c_i tau_i (eq. 3.42), sums of v_i c_i tau_i and k_i c_i tau_i (eq. 3.41).
+/// The same as the first three columns of [`cartesian_compliance`] times the force, without building the matrix.
 pub(crate) fn deflection(
     robot: &Robot,
     frames: &[Pose; 6],
@@ -22,11 +21,26 @@ pub(crate) fn deflection(
     force: &Vector3<f64>,
 ) -> (Vector3<f64>, Vector3<f64>) {
     let (mut displacement, mut rotation) = (Vector3::zeros(), Vector3::zeros());
-    for (i, (k, lever)) in jacobian::levers(frames, tip).into_iter().enumerate() {
-        let v = k.cross(&lever);
-        let turned = robot.compliance()[i] * v.dot(force);
-        displacement += v * turned;
-        rotation += k * turned;
+    for (moved, turned) in by_joint(robot, frames, tip, force) {
+        displacement += moved;
+        rotation += turned;
     }
     (displacement, rotation)
+}
+
+/// What each joint's spring adds to [`deflection`]: J C_theta J^T F is a sum over the joints of J_i c_i J_i^T F.
+///
+/// Joint torque tau_i = v_i . F (eq. 3.47), joint rotation c_i tau_i (eq. 3.42), so v_i c_i tau_i and k_i c_i tau_i (eq. 3.41).
+pub(crate) fn by_joint(
+    robot: &Robot,
+    frames: &[Pose; 6],
+    tip: &Vector3<f64>,
+    force: &Vector3<f64>,
+) -> [(Vector3<f64>, Vector3<f64>); 6] {
+    let mut joint = robot.compliance().iter();
+    jacobian::levers(frames, tip).map(|(k, lever)| {
+        let v = k.cross(&lever);
+        let turned = joint.next().map_or(0.0, |c| c * v.dot(force));
+        (v * turned, k * turned)
+    })
 }

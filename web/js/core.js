@@ -50,6 +50,12 @@ export const chart = (name, options) => askShown("chart", name, options);
 /** One column of the shown result, as a Float64Array. */
 export const column = (key) => askShown("column", key);
 
+/** Frames of base, joints, TCP and workpiece at a sample of the shown result, as a Float64Array. */
+export const frames = (sample) => askShown("frames", sample);
+
+/** The paths of the shown result in at most about `most` rows, as a Float64Array. */
+export const track = (most) => askShown("track", most);
+
 /** The shown result as text, "columns-csv" or "compensated-csv". */
 export const exported = (format) => askShown("export", format);
 

@@ -30,6 +30,8 @@ const answers = {
     return { summary: run.summary(), charts: run.charts() };
   },
   column: (key) => run.column(key),
+  frames: (sample) => run.frames(sample),
+  track: (most) => run.track(most),
   chart: (name, options) => run.chart(name, options),
   export: (format) => run.export(format),
   release,

@@ -1,0 +1,70 @@
+//! What a picture of the run in space is drawn from.
+
+use crate::math::Pose;
+use crate::report::Report;
+use crate::robot::forward;
+use crate::units::MM;
+
+/// Numbers in a frame of [`Report::frames`].
+pub const FRAME: usize = 12;
+/// Numbers in a row of [`Report::track`].
+pub const ROW: usize = 14;
+
+impl Report {
+    /// Where the arm stands at a sample under the shaped commands, in the base frame: the base, the six joints, the TCP and the workpiece, each
+    /// as origin [mm] and x, y, z axes. A sample past the end means the last one.
+    pub fn frames(&self, sample: usize) -> Vec<f64> {
+        let robot = &self.plan.robot;
+        let joints = forward::frames(robot, &self.before.q[sample.min(self.samples() - 1)]);
+        let tcp = joints[5].compose(robot.tool());
+        let numbers = |pose: &Pose| {
+            let axes = pose.rotation.iter().copied().collect::<Vec<f64>>();
+            pose.position.iter().map(|v| v / MM).chain(axes).collect::<Vec<f64>>()
+        };
+        let all = [Pose::identity()].into_iter().chain(joints).chain([tcp, self.setup.workpiece]);
+        all.flat_map(|pose| numbers(&pose)).collect()
+    }
+
+    /// The paths in at most about `most` rows: sample, whether it cuts, desired point, closest point of the desired path to the actual tip, way from there
+    /// to the actual tip, correction to command (points and ways as x, y, z in the base frame [mm]).
+    ///
+    /// A long run is cut into stretches; of each stay its first sample, the one farthest from its chord (a corner) and the one with the largest
+    /// error.
+    pub fn track(&self, most: usize) -> Vec<f64> {
+        let samples = self.samples();
+        let kept: Vec<usize> = if samples <= most {
+            (0..samples).collect()
+        } else {
+            let stretch = (3 * samples).div_ceil(most.max(3));
+            let starts = (0..samples).step_by(stretch);
+            starts
+                .flat_map(|start| self.telling(start, (start + stretch).min(samples - 1)))
+                .chain([samples - 1])
+                .collect()
+        };
+        let mut rows = Vec::with_capacity(kept.len() * ROW);
+        for k in kept {
+            let (error, correction) = (self.before.contour_error[k], self.compensation.correction[k]);
+            let position = self.plan.trajectory.position[k];
+            rows.extend([k as f64, self.plan.trajectory.pace.engaged[k]]);
+            for vector in [position, self.before.actual[k] + error, -error, correction] {
+                rows.extend(vector.iter().map(|v| v / MM));
+            }
+        }
+        rows
+    }
+
+    /// The samples from `start` up to but without `end` that show what happens there, in their order.
+    fn telling(&self, start: usize, end: usize) -> Vec<usize> {
+        let position = &self.plan.trajectory.position;
+        let chord = (position[end] - position[start]).try_normalize(0.0).unwrap_or_default();
+        let beside = |k: &usize| (position[*k] - position[start]).cross(&chord).norm();
+        let error = |k: &usize| self.before.contour_error[*k].norm();
+        let corner = (start..end).max_by(|a, b| beside(a).total_cmp(&beside(b)));
+        let worst = (start..end).max_by(|a, b| error(a).total_cmp(&error(b)));
+        let mut kept: Vec<usize> = (start..end).take(1).chain(corner).chain(worst).collect();
+        kept.sort_unstable();
+        kept.dedup();
+        kept
+    }
+}
