@@ -5,6 +5,8 @@
 #[path = "page/browser.rs"]
 pub mod browser;
 mod common;
+#[path = "page/state.rs"]
+mod state;
 
 use armill::Report;
 use armill::column::Column;

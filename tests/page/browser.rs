@@ -294,7 +294,10 @@ impl Page {
     }
 
     /// A command of the Chrome DevTools protocol.
-    async fn devtools(&self, command: &str, parameters: Value) -> Result<Value> {
+    ///
+    /// # Errors
+    /// If the browser does not know it.
+    pub async fn devtools(&self, command: &str, parameters: Value) -> Result<Value> {
         let body = json!({ "cmd": command, "params": parameters });
         Ok(self.client.issue_cmd(Post { endpoint: "goog/cdp/execute", body }).await?)
     }

@@ -59,6 +59,9 @@ export const track = (most) => askShown("track", most);
 /** The shown result as text, "columns-csv" or "compensated-csv". */
 export const exported = (format) => askShown("export", format);
 
+/** The job of the shown result, as JSON text. */
+export const shownJob = () => good;
+
 /** Makes the core trap on purpose, so that a test can see the page recover. */
 export const trap = () => askShown("trap").catch(() => {});
 

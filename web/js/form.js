@@ -2,8 +2,7 @@
 
 import { byId, make, sentence } from "./dom.js";
 import { editorFor, idOf, Mistake } from "./editors.js";
-import { OWN } from "./job.js";
-import { plainNumber } from "./number.js";
+import { asText, brief, helpText, withOwn } from "./words.js";
 
 const GROUPS = {
   robot: "Robot",
@@ -24,7 +23,7 @@ export class Form {
   #rows = [];
   #groups = new Map();
 
-  /** Fills `parent`; `onchange` is called after every edit that changed the job or what is wrong with the inputs. */
+  /** Fills `parent`; `onchange` is called after every edit, with the field's path while it is typed into. */
   constructor(parent, job, fields, presets, onchange) {
     this.#job = job;
     this.#onchange = onchange;
@@ -52,10 +51,27 @@ export class Form {
     return { message: named, go: () => this.#go(row) };
   }
 
-  /** Shows another job: whatever was wrong before is forgotten. */
-  reload() {
+  /** What was typed and is not a value: path of the field -> what each of its inputs holds. */
+  get typed() {
+    const flawed = this.#rows.filter((row) => row.mistake);
+    return Object.fromEntries(flawed.map(({ field, editor }) => [field.path, editor.inputs.map((input) => (isBox(input) ? input.checked : input.value))]));
+  }
+
+  /** Shows another job: whatever was wrong before is forgotten, `typed` takes its place. */
+  reload(typed = {}) {
     for (const row of this.#rows) this.#setError(row, "");
     this.refresh();
+    for (const row of this.#rows) if (typed[row.field.path] && !row.node.hidden) this.#retype(row, typed[row.field.path]);
+    this.#digest();
+  }
+
+  /** Brings the first field that differs from `before`, a job's plain object, into view. */
+  reveal(before) {
+    const changed = new Set(this.#job.differences(before).map(({ field }) => field.path));
+    const row = this.#rows.find(({ node, mistake, field }) => !node.hidden && (mistake || changed.has(field.path)));
+    if (!row) return;
+    row.node.closest("details").open = true;
+    row.node.scrollIntoView({ block: "nearest" });
   }
 
   /** Shows the job: values, which fields exist, digests. */
@@ -119,7 +135,7 @@ export class Form {
     const row = { field, editor, node, reset, error, note, notes, mistake: false };
     // Some assistive tools and drivers choose an option with "change" alone.
     const kind = editor.inputs[0].tagName === "SELECT" ? "change" : "input";
-    node.addEventListener(kind, () => this.#edited(row));
+    node.addEventListener(kind, ({ target }) => this.#edited(row, kind === "change" || isBox(target) ? undefined : field.path));
     reset.addEventListener("click", () => {
       this.#setError(row, "");
       this.#job.reset(field);
@@ -141,7 +157,13 @@ export class Form {
     return button;
   }
 
-  #edited(row) {
+  #edited(row, typing) {
+    this.#take(row);
+    this.#changed(typing);
+  }
+
+  /** Puts what a row holds into the job, or says why not. */
+  #take(row) {
     try {
       this.#job.set(row.field, row.editor.read());
       this.#setError(row, "");
@@ -150,12 +172,20 @@ export class Form {
       this.#setError(row, error.message, error.input);
       row.mistake = true;
     }
-    this.#changed();
   }
 
-  #changed() {
+  #retype(row, texts) {
+    row.editor.inputs.forEach((input, i) => {
+      input.disabled = false;
+      if (isBox(input)) input.checked = texts[i];
+      else input.value = texts[i] ?? "";
+    });
+    this.#take(row);
+  }
+
+  #changed(typing) {
     this.refresh();
-    this.#onchange();
+    this.#onchange(typing);
   }
 
   #says(row) {
@@ -210,38 +240,7 @@ function helpButton(field, help) {
   return button;
 }
 
-/** A preset choice that also offers one's own numbers. */
-const withOwn = (field) =>
-  field.path.endsWith(".preset") ? { ...field, choices: [...field.choices, { value: OWN, label: "My own numbers" }] } : field;
+const isBox = (input) => input.type === "checkbox";
 
 /** Whether an error path such as "path.points_mm[3]" is about the field `own`. */
 const belongs = (path, own) => path === own || (path.startsWith(own) && "[.".includes(path[own.length]));
-
-const choiceLabel = (field, value) => field.choices.find((choice) => choice.value === value)?.label ?? String(value);
-
-function brief(field, value) {
-  if (field.kind === "set") return value.map((one) => choiceLabel(field, one)).join(" + ");
-  if (field.choices && typeof value === "string") return choiceLabel(field, value);
-  if (typeof value !== "number") return "";
-  return field.unit ? `${plainNumber(value)} ${field.unit}` : `${plainNumber(value)} ${field.label.toLowerCase()}`;
-}
-
-/** The default in words. */
-function asText(field) {
-  const value = field.default;
-  if (field.kind === "set") return value.map((one) => choiceLabel(field, one)).join(" + ");
-  if (typeof value === "string" && field.choices) return choiceLabel(field, value);
-  if (typeof value === "number") return [plainNumber(value), field.unit].filter(Boolean).join(" ");
-  if (field.kind === "vector") return value.join(", ");
-  return "its default";
-}
-
-function helpText(field) {
-  const { min, max, kind } = field;
-  const boundless = min <= -1e6 && max >= 1e6; // only there to keep arithmetic finite
-  const range =
-    boundless ? "" : min != null && max != null ? `${plainNumber(min)} to ${plainNumber(max)}` : min != null ? `At least ${plainNumber(min)}` : max != null ? `At most ${plainNumber(max)}` : "";
-  const standard = typeof field.default === "number" || kind === "vector" ? `default ${Array.isArray(field.default) ? field.default.join(", ") : plainNumber(field.default)}` : "";
-  const hint = [range, standard].filter(Boolean).join(", ");
-  return [field.help, hint && `${hint[0].toUpperCase()}${hint.slice(1)}.`].filter(Boolean).join(" ");
-}

@@ -20,7 +20,7 @@ export class Job {
 
   /** A job from its plain object, the core's fields and its presets `{ robots, materials }`. */
   constructor(data, fields, presets) {
-    this.#data = structuredClone(data);
+    this.#data = copy(data);
     this.#fields = fields;
     this.#presets = { robot: presets.robots, material: presets.materials };
   }
@@ -29,10 +29,15 @@ export class Job {
     return JSON.stringify(this.#data, null, 2);
   }
 
+  /** The job and what is kept for the way back, as plain data of its own. */
+  get state() {
+    return { job: copy(this.#data), drafts: copy(Object.fromEntries(this.#drafts)) };
+  }
+
   /** Replaces the whole job. */
-  load(data) {
-    this.#data = structuredClone(data);
-    this.#drafts.clear();
+  load(data, drafts = {}) {
+    this.#data = copy(data);
+    this.#drafts = new Map(Object.entries(copy(drafts)));
   }
 
   /** The value at `field.path`; where the job leaves it out, what then holds. */
@@ -69,6 +74,15 @@ export class Job {
   changed(field) {
     if (this.#read(parentOf(field.path))?.preset && !decides(field)) return this.#overrules(field);
     return JSON.stringify(this.get(field)) !== JSON.stringify(field.default);
+  }
+
+  /** The fields in which another job, a plain object, differs: [{ field, own, other }]; undefined where there is no such field. */
+  differences(data) {
+    const other = new Job(data, this.#fields, { robots: this.#presets.robot, materials: this.#presets.material });
+    return this.#fields.flatMap((field) => {
+      const [here, there] = [this, other].map((job) => (job.shows(field) ? job.get(field) : undefined));
+      return JSON.stringify(here) === JSON.stringify(there) ? [] : [{ field, own: here, other: there }];
+    });
   }
 
   /** The field that holds the same quantity in another unit, or undefined. */
@@ -165,6 +179,13 @@ export class Job {
     }
     return shape;
   }
+}
+
+/** A copy of plain data that shares its texts: a program of megabytes is never doubled. */
+function copy(value) {
+  if (Array.isArray(value)) return value.map(copy);
+  if (typeof value !== "object" || value === null) return value;
+  return Object.fromEntries(Object.entries(value).map(([key, part]) => [key, copy(part)]));
 }
 
 /** What a field's value is kept under: a program in one language is none in another. */

@@ -10,6 +10,7 @@ import { Job } from "./job.js";
 import { formatNumber } from "./number.js";
 import { followCaret, openProgram, programTools, setLines, showProgram } from "./program.js";
 import { showSummary, showThesis } from "./results.js";
+import { Session } from "./session.js";
 import { makeTabs } from "./tabs.js";
 
 const TYPING_MS = 150; // results follow this long after the last key
@@ -18,6 +19,7 @@ const PATIENCE_MS = 150; // a run that takes longer shows its progress
 const results = byId("results");
 let job;
 let form;
+let session;
 let standard; // the default job
 let formats = []; // programs that a run can be exported to
 let hasResult = false;
@@ -28,22 +30,25 @@ const state = (name) => (results.dataset.state = name);
 const say = (text) => (byId("status").textContent = text);
 const lastValid = () => (hasResult ? " Showing the last valid result." : "");
 
-const compute = debounced(() => {
+const computeNow = () => {
   typing = false;
   if (!form.flawed) core.run(job.json);
-}, TYPING_MS);
+};
+const compute = debounced(computeNow, TYPING_MS);
 
 /** After every edit: compute, or say what is wrong and keep the last result. */
 function edited() {
   alertOff();
   if (form.flawed) {
-    core.cancel();
+    if (hasResult) core.cancel();
+    else core.run(job.json); // the last valid value of what is wrong
     return stale();
   }
   form.clearErrors();
   state("computing");
   typing = true;
-  compute();
+  if (hasResult) compute();
+  else computeNow();
 }
 
 function stale() {
@@ -130,7 +135,7 @@ async function takeLines({ program, duration_s, samples }) {
 
 /** Makes a program the path of the job, whatever the job was before. */
 function useProgram(kind, text) {
-  load({ ...JSON.parse(job.json), path: { kind, text } });
+  session.load({ ...JSON.parse(job.json), path: { kind, text } });
   byId("group-path").open = true;
 }
 
@@ -158,12 +163,6 @@ function foldInputs(away) {
   byId("inputs-toggle").textContent = away ? "Show" : "Hide";
 }
 
-function load(data) {
-  job.load(data);
-  form.reload();
-  edited();
-}
-
 async function openJob(file) {
   byId("job-file").value = "";
   if (!file) return;
@@ -171,7 +170,7 @@ async function openJob(file) {
   core.cancel();
   try {
     await core.check(text);
-    load(JSON.parse(text));
+    session.load(JSON.parse(text));
   } catch ({ message, line, column }) {
     alertOn(`${file.name} was not opened: ${message}${line ? ` (line ${line}, column ${column})` : ""}`);
   }
@@ -197,7 +196,7 @@ async function recomputeThesis() {
 
 function wire() {
   byId("cancel").addEventListener("click", () => core.cancel());
-  byId("reset").addEventListener("click", () => load(standard));
+  byId("reset").addEventListener("click", () => session.load(standard));
   byId("open-job").addEventListener("click", () => byId("job-file").click());
   byId("job-file").addEventListener("change", ({ target }) => openJob(target.files[0]));
   byId("download-job").addEventListener("click", () => download("armill-job.json", "application/json", `${job.json}\n`));
@@ -222,13 +221,14 @@ try {
   standard = hello.job;
   job = new Job(standard, hello.fields, hello.presets);
   byId("version").textContent = `v${hello.version}`;
-  form = new Form(byId("form"), job, hello.fields, hello.presets, edited);
+  form = new Form(byId("form"), job, hello.fields, hello.presets, (typing) => session.edited(typing));
   byId("group-path").querySelector("legend").after(programTools(useProgram, alertOn));
   followCaret((time) => setCursor(time, "program"));
   wireDrop();
   formats = hello.formats.filter(({ id }) => !["columns-csv", "compensated-csv"].includes(id));
   byId("export-format").append(...formats.map(({ id, name, note }) => make("option", { value: id, title: note }, name)));
-  core.run(job.json);
+  session = new Session({ job, form, standard, core, changed: edited, warn: alertOn });
+  await session.open();
   byId("download-job").disabled = false;
 } catch (error) {
   state("stale");

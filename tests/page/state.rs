@@ -1,0 +1,221 @@
+//! Where the inputs come from and where they go: links, what the browser keeps, undo and redo.
+
+use crate::browser::{DESKTOP, Key, Page, Result, visit};
+use crate::common::run;
+use crate::{current, shows, stale, text};
+use serde_json::json;
+
+/// The fragment that stands for the JSON text of a job, as the page makes it.
+async fn fragment(page: &Page, job: &str) -> Result<String> {
+    let made = page
+        .js(&format!("return import('./js/link.js').then(link => link.fragmentOf({}))", json!(job)))
+        .await?;
+    Ok(made.as_str().unwrap_or_default().to_owned())
+}
+
+/// The fragment of the job that is shown.
+async fn shown(page: &Page) -> Result<String> {
+    let made = page
+        .js("return Promise.all([import('./js/link.js'), import('./js/core.js')]).then(([link, core]) => link.fragmentOf(core.shownJob()))")
+        .await?;
+    Ok(made.as_str().unwrap_or_default().to_owned())
+}
+
+/// What the line at the foot of the page says.
+async fn notice(page: &Page) -> Result<String> {
+    text(page, "notice").await
+}
+
+async fn feed(page: &Page) -> Result<String> {
+    page.value("#motion-feed_mm_s").await
+}
+
+/// Opens the page anew, as a bookmark or another page's link would.
+async fn open(page: &Page, fragment: &str) -> Result {
+    page.js("location.href = 'icon.svg'").await?;
+    page.wait_for("location.pathname.endsWith('icon.svg')", 10.0).await?;
+    page.goto(&format!("/index.html#{fragment}")).await
+}
+
+#[test]
+fn a_link_gives_the_same_bits_in_a_fresh_profile() -> Result {
+    let report = run(&[("motion.feed_mm_s", json!(80)), ("path.radius_mm", json!(250))]);
+    let link = std::cell::OnceCell::new();
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        page.type_into("#motion-feed_mm_s", "80").await?;
+        page.type_into("#path-radius_mm", "250").await?;
+        shows(page, &report).await?;
+        link.set(shown(page).await?)?;
+        Ok(())
+    })?;
+    let link = link.get().ok_or("no link")?;
+    visit(&format!("/#{link}"), DESKTOP, async |page| {
+        shows(page, &report).await?;
+        assert_eq!(notice(page).await?, "", "there was nothing before");
+        let address = page.js("return location.hash").await?;
+        assert_eq!(address, json!(format!("#{link}")), "the address is the job's until it is changed");
+        page.type_into("#motion-feed_mm_s", "90").await?;
+        assert_eq!(page.js("return location.hash").await?, json!(""));
+        page.reload().await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(90)), ("path.radius_mm", json!(250))])).await
+    })
+}
+
+#[test]
+fn a_link_that_cannot_be_opened_says_why_and_the_default_stands() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        page.type_into("#motion-feed_mm_s", "70").await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(70))])).await?;
+        let good = fragment(page, "{}").await?;
+        let damaged = format!("{}A{}", &good[..8], &good[9..]);
+        let bomb = fragment(page, &format!("{{\"version\":1}}{}", " ".repeat(5_000_000))).await?;
+        assert!(bomb.len() < 10_000);
+        for (broken, told) in [
+            (good[..good.len() - 2].to_owned(), "cut off or damaged"),
+            (damaged, "cut off or damaged"),
+            ("job=".to_owned(), "not of the form"),
+            ("job=1.a*b".to_owned(), "not of the form"),
+            (good.replace("=1.", "=2."), "newer Armill"),
+            (bomb, "more than 4 MB"),
+            (fragment(page, "{\"motion\":{\"feed_mm_s\":-5}}").await?, "legal is 0.001 to 10000"),
+            (fragment(page, "{\"motor\":1}").await?, "motor"),
+        ] {
+            open(page, &broken).await?;
+            shows(page, &run(&[])).await?;
+            let alert = text(page, "alert").await?;
+            assert!(alert.contains(told) && alert.contains("default inputs"), "{broken}: {alert}");
+        }
+        // One's own inputs are an undo away.
+        page.click("#undo").await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(70))])).await?;
+        assert_eq!(text(page, "alert").await?, "");
+
+        // A link pasted into the address of the open page takes the place of the inputs, a broken one does not.
+        let job = fragment(page, "{\"motion\":{\"feed_mm_s\":60}}").await?;
+        page.js(&format!("location.hash = '{job}'")).await?;
+        page.wait_for("document.querySelector('#motion-feed_mm_s').value === '60'", 10.0).await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(60))])).await?;
+        page.js("location.hash = 'job=3.abc'").await?;
+        page.wait_for("document.querySelector('#alert').textContent.includes('newer')", 10.0).await?;
+        assert_eq!(feed(page).await?, "60");
+        assert_eq!(page.js("return location.hash").await?, json!(""));
+        page.click("#undo").await?;
+        assert_eq!(feed(page).await?, "70");
+        Ok(())
+    })
+}
+
+#[test]
+fn nothing_typed_is_lost_by_a_reload() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        page.choose("#path-kind", "csv").await?;
+        page.type_into("#path-text", "600,-100,100\n650,0,110\n600,100,100").await?;
+        page.choose("#path-kind", "circle").await?;
+        page.type_into("#path-center_mm-y", "1e").await?;
+        page.type_into("#motion-feed_mm_s", "fast").await?;
+        page.reload().await?;
+        stale(page).await?;
+        assert_eq!(feed(page).await?, "fast");
+        assert_eq!(page.value("#path-center_mm-y").await?, "1e");
+        assert!(text(page, "motion-feed_mm_s-error").await?.contains("not a number"));
+        page.wait_for("document.querySelector('#before-max').dataset.value", 20.0).await?;
+        page.type_into("#motion-feed_mm_s", "80").await?;
+        page.type_into("#path-center_mm-y", "0").await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(80))])).await?;
+        // What stands in a kind of path that is not chosen now is kept too.
+        page.choose("#path-kind", "csv").await?;
+        assert!(page.value("#path-text").await?.contains("650,0,110"));
+        Ok(())
+    })
+}
+
+#[test]
+fn undo_and_redo_go_by_steps_that_make_sense() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        let can = async |id: &str| page.js(&format!("return !document.getElementById('{id}').disabled")).await;
+        assert_eq!((can("undo").await?, can("redo").await?), (json!(false), json!(false)));
+        // Five keys in one field are one step.
+        page.type_into("#motion-feed_mm_s", "80.25").await?;
+        page.type_into("#path-radius_mm", "zero").await?;
+        page.choose("#path-kind", "line").await?;
+        page.choose("#path-kind", "circle").await?;
+        page.click("#undo").await?;
+        assert_eq!(page.value("#path-kind").await?, "line");
+        page.click("#undo").await?;
+        assert_eq!(page.value("#path-radius_mm").await?, "zero", "what was typed wrong comes back too");
+        stale(page).await?;
+        page.click("#undo").await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(80.25))])).await?;
+        page.click("#undo").await?;
+        shows(page, &run(&[])).await?;
+        assert_eq!((can("undo").await?, can("redo").await?), (json!(false), json!(true)));
+
+        // By keys, wherever the focus is; only a field that is being typed into keeps its own undo.
+        let keys = |key: &str| format!("{}{key}{}", Key::Control, Key::Null);
+        page.press(keys("y")).await?;
+        assert_eq!(feed(page).await?, "80.25");
+        page.press(keys("z")).await?;
+        assert_eq!(feed(page).await?, "100");
+        page.press(format!("{}{}z{}", Key::Control, Key::Shift, Key::Null)).await?;
+        assert_eq!(feed(page).await?, "80.25");
+        page.type_into("#motion-acceleration_mm_s2", "300").await?;
+        page.press(keys("z")).await?;
+        assert_eq!(feed(page).await?, "80.25");
+        assert_eq!(can("redo").await?, json!(false), "a new edit ends what could be redone");
+        page.type_into("#motion-acceleration_mm_s2", "300").await?;
+        page.press(char::from(Key::Tab)).await?;
+        page.press(keys("z")).await?;
+        assert_eq!(page.value("#motion-acceleration_mm_s2").await?, "200");
+        shows(page, &run(&[("motion.feed_mm_s", json!(80.25))])).await?;
+        page.click("#reset").await?;
+        shows(page, &run(&[])).await?;
+        page.click("#undo").await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(80.25))])).await
+    })
+}
+
+#[test]
+fn without_storage_the_page_works_and_says_once_that_nothing_is_kept() -> Result {
+    visit("/icon.svg", DESKTOP, async |page| {
+        let denied = "for (const name of ['localStorage', 'sessionStorage']) Object.defineProperty(window, name, { get() { throw new DOMException('denied', 'SecurityError'); } });";
+        page.devtools("Page.addScriptToEvaluateOnNewDocument", json!({ "source": denied })).await?;
+        page.goto("/").await?;
+        current(page).await?;
+        assert_eq!(notice(page).await?, "");
+        page.type_into("#motion-feed_mm_s", "80").await?;
+        page.wait_for("document.querySelector('#notice').textContent.includes('Nothing is remembered')", 10.0).await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(80))])).await?;
+        page.click("#notice button").await?;
+        page.type_into("#motion-feed_mm_s", "90").await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(90))])).await?;
+        page.js("return new Promise(done => setTimeout(done, 500))").await?;
+        assert_eq!(notice(page).await?, "");
+        page.click("#undo").await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(80))])).await
+    })
+}
+
+#[test]
+fn two_tabs_keep_their_own_inputs() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        page.type_into("#motion-feed_mm_s", "80").await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(80))])).await?;
+        // Another tab of the same browser keeps others.
+        page.js("return new Promise(done => setTimeout(done, 500))").await?;
+        page.js("const other = document.createElement('iframe'); other.src = 'icon.svg'; other.id = 'other'; document.body.append(other); return new Promise(done => other.onload = () => done())").await?;
+        page.js("const store = document.getElementById('other').contentWindow.localStorage; const kept = JSON.parse(store.getItem('armill-inputs')); kept.state.job.motion.feed_mm_s = 55; store.setItem('armill-inputs', JSON.stringify(kept))").await?;
+        page.wait_for("document.querySelector('#notice').textContent.includes('another tab')", 10.0).await?;
+        assert_eq!(feed(page).await?, "80");
+        page.reload().await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(80))])).await?;
+        // A new tab has no session of its own: it opens with what was changed last.
+        page.js("sessionStorage.clear()").await?;
+        page.reload().await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(55))])).await
+    })
+}

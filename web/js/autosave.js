@@ -1,0 +1,72 @@
+// The inputs as they stand, kept in this browser so that a reload loses nothing that was typed.
+//
+// Every tab keeps its own (session storage) and opens with it again; a new tab opens with what was changed last
+// anywhere (local storage). So two tabs never change each other's inputs, and `onshared` tells when they compete.
+
+import { debounced } from "./dom.js";
+
+const KEY = "armill-inputs";
+const FORMAT = 1;
+const PAUSE_MS = 300; // of typing, before anything is written
+
+let events = { onrefused() {}, onshared() {} };
+let waiting; // state that is not written yet
+let refused = false;
+let shared = false;
+
+/** `onrefused(full)` is called once if nothing can be kept, `onshared()` once if another tab keeps inputs too. */
+export function start(handlers) {
+  events = handlers;
+  addEventListener("pagehide", flush);
+  document.addEventListener("visibilitychange", () => document.hidden && flush());
+  addEventListener("storage", ({ key, newValue }) => {
+    if (key !== KEY || newValue === null || shared) return;
+    shared = true;
+    events.onshared();
+  });
+}
+
+/** The inputs that this tab, or else any tab, kept last; undefined if there are none. */
+export function kept() {
+  for (const store of [() => sessionStorage, () => localStorage]) {
+    try {
+      const { format, state } = JSON.parse(store().getItem(KEY)) ?? {};
+      if (format === FORMAT && state && typeof state.job === "object") return state;
+    } catch {
+      // Denied, or not ours.
+    }
+  }
+  return undefined;
+}
+
+/** Keeps inputs that nobody has changed yet: for this tab alone. */
+export const keepHere = (state) => void write(() => sessionStorage, state);
+
+/** Keeps inputs, a moment from now. */
+export function keep(state) {
+  waiting = state;
+  later();
+}
+
+const later = debounced(flush, PAUSE_MS);
+
+function flush() {
+  if (waiting === undefined) return;
+  const state = waiting;
+  waiting = undefined;
+  const here = write(() => sessionStorage, state);
+  const everywhere = write(() => localStorage, state);
+  if (refused || (here === true && everywhere === true)) return;
+  refused = true;
+  events.onrefused([here, everywhere].includes("full"));
+}
+
+/** Writes a state; true, or "full" or "denied". */
+function write(store, state) {
+  try {
+    store().setItem(KEY, JSON.stringify({ format: FORMAT, state }));
+    return true;
+  } catch (error) {
+    return error.name === "QuotaExceededError" ? "full" : "denied";
+  }
+}

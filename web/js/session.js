@@ -1,0 +1,151 @@
+// The inputs over time: what the page opens with, undo and redo, and what is kept of them.
+
+import * as autosave from "./autosave.js";
+import { byId } from "./dom.js";
+import { History } from "./history.js";
+import { holdsJob, jobIn } from "./link.js";
+import { notify } from "./notice.js";
+
+const TYPED = "input:not([type=checkbox], [type=range]), textarea"; // what the browser undoes by itself while it is typed into
+
+export class Session {
+  #job;
+  #form;
+  #standard;
+  #core;
+  #changed;
+  #warn;
+  #history = new History();
+  #found = ""; // what the focused text field held when it got the focus
+  #own; // the focused text field, while it holds something else
+
+  /** `changed()` is called whenever the inputs are others than before, `warn(message)` with what could not be shown. */
+  constructor({ job, form, standard, core, changed, warn }) {
+    this.#job = job;
+    this.#form = form;
+    this.#standard = standard;
+    this.#core = core;
+    this.#changed = changed;
+    this.#warn = warn;
+  }
+
+  /** Shows what the link holds; without one, what this browser kept; without that, the default. */
+  async open() {
+    autosave.start({
+      onrefused: (full) => notify(`Nothing is remembered: this browser’s storage for the page is ${full ? "full" : "denied"}. Save the job as a file to keep it.`),
+      onshared: () => notify("Armill is open in another tab too. Each tab keeps its own inputs; a new tab opens with those that were changed last."),
+    });
+    this.#wire();
+    const kept = autosave.kept();
+    if (holdsJob(location.hash)) {
+      if (kept) this.#history.record(kept);
+      await this.#openLink((why) => {
+        this.#show({ job: this.#standard });
+        this.#warn(`${why} These are the default inputs.`);
+      });
+    } else if (!kept) {
+      this.#show({ job: this.#standard });
+    } else {
+      try {
+        this.#show(kept);
+      } catch {
+        this.#show({ job: this.#standard });
+        this.#warn("The inputs that this browser kept are not readable any more. These are the default inputs.");
+      }
+    }
+  }
+
+  /** Shows another job; undo goes back. */
+  load(job) {
+    this.#show({ job });
+    this.#keep();
+  }
+
+  /** After an edit in the form; `group` names the field while it is typed into. */
+  edited(group) {
+    this.#history.record(this.#state, group);
+    this.#keep();
+    this.#buttons();
+    this.#changed();
+  }
+
+  /** Undoes (`step` -1) or redoes (1) the last change. */
+  move(step) {
+    const before = this.#state.job;
+    const state = this.#history.move(step);
+    if (!state) return;
+    this.#put(state);
+    this.#keep();
+    this.#form.reveal(before);
+  }
+
+  get #state() {
+    return { ...this.#job.state, typed: this.#form.typed };
+  }
+
+  #show(state) {
+    this.#put(state, () => this.#history.record(this.#state));
+  }
+
+  #put({ job, drafts, typed }, then = () => {}) {
+    this.#job.load(job, drafts);
+    this.#form.reload(typed);
+    then();
+    this.#buttons();
+    this.#changed();
+  }
+
+  #keep() {
+    this.#unlink();
+    autosave.keep(this.#state);
+  }
+
+  /** Once the inputs are not the link's any more, the address must not say so. */
+  #unlink() {
+    if (holdsJob(location.hash)) history.replaceState(history.state, "", location.pathname + location.search);
+  }
+
+  async #openLink(fail) {
+    try {
+      const text = await jobIn(location.hash);
+      await this.#core.check(text);
+      this.#show({ job: JSON.parse(text) });
+      notify(this.#history.canUndo ? "Opened from the link. Undo brings your own inputs back." : "");
+    } catch ({ code, message }) {
+      fail(code === "link" ? message : `The job in the link was not opened: ${message.replace(/[.]?$/, ".")}`);
+    }
+  }
+
+  #buttons() {
+    byId("undo").disabled = !this.#history.canUndo;
+    byId("redo").disabled = !this.#history.canRedo;
+  }
+
+  #wire() {
+    byId("undo").addEventListener("click", () => this.move(-1));
+    byId("redo").addEventListener("click", () => this.move(1));
+    addEventListener("hashchange", () => this.#moved());
+    addEventListener("focusin", ({ target }) => {
+      [this.#found, this.#own] = [target.value, undefined];
+      this.#history.rest();
+    });
+    addEventListener("input", ({ target }) => (this.#own = target.matches(TYPED) && target.value !== this.#found ? target : undefined));
+    addEventListener("keydown", (event) => {
+      const key = event.key.toLowerCase();
+      const step = key === "y" || (key === "z" && event.shiftKey) ? 1 : key === "z" ? -1 : 0;
+      if (!step || event.altKey || !(event.ctrlKey || event.metaKey) || this.#own === document.activeElement) return;
+      if (document.querySelector(":modal")) return;
+      event.preventDefault();
+      this.move(step);
+    });
+  }
+
+  /** Another fragment: a job takes the place of the inputs, anything else must not lose a job that only the address had. */
+  #moved() {
+    if (!holdsJob(location.hash)) return autosave.keepHere(this.#state);
+    this.#openLink((why) => {
+      this.#unlink();
+      this.#warn(`${why} The inputs are as they were.`);
+    });
+  }
+}

@@ -1,0 +1,43 @@
+// Fields and their values in words.
+
+import { OWN } from "./job.js";
+import { plainNumber } from "./number.js";
+
+/** A preset choice that also offers one's own numbers. */
+export const withOwn = (field) =>
+  field.path.endsWith(".preset") ? { ...field, choices: [...field.choices, { value: OWN, label: "My own numbers" }] } : field;
+
+const choiceLabel = (field, value) => field.choices.find((choice) => choice.value === value)?.label ?? String(value);
+
+/** A value in a few words, with its unit or name; nothing for tables and texts. */
+export function brief(field, value) {
+  if (field.kind === "set") return value.map((one) => choiceLabel(field, one)).join(" + ");
+  if (field.choices && typeof value === "string") return choiceLabel(field, value);
+  if (typeof value !== "number") return "";
+  return field.unit ? `${plainNumber(value)} ${field.unit}` : `${plainNumber(value)} ${field.label.toLowerCase()}`;
+}
+
+/** A value in words: numbers with their unit, of tables and texts only how long they are. */
+export function inWords(field, value) {
+  if (value === undefined) return "–";
+  if (field.kind === "set") return value.map((one) => choiceLabel(field, one)).join(" + ") || "none";
+  if (field.choices && typeof value === "string") return choiceLabel(field, value);
+  if (typeof value === "number") return [plainNumber(value), field.unit].filter(Boolean).join(" ");
+  if (field.kind === "vector") return [value.join(", "), field.unit].filter(Boolean).join(" ");
+  if (typeof value !== "string") return `${value.length} rows`;
+  return value.includes("\n") ? `${value.trimEnd().split("\n").length} lines` : value;
+}
+
+/** The default in words. */
+export const asText = (field) => (["table", "text"].includes(field.kind) ? "its default" : inWords(field, field.default));
+
+/** What a field is, its range and default. */
+export function helpText(field) {
+  const { min, max, kind } = field;
+  const boundless = min <= -1e6 && max >= 1e6; // only there to keep arithmetic finite
+  const range =
+    boundless ? "" : min != null && max != null ? `${plainNumber(min)} to ${plainNumber(max)}` : min != null ? `At least ${plainNumber(min)}` : max != null ? `At most ${plainNumber(max)}` : "";
+  const standard = typeof field.default === "number" || kind === "vector" ? `default ${Array.isArray(field.default) ? field.default.join(", ") : plainNumber(field.default)}` : "";
+  const hint = [range, standard].filter(Boolean).join(", ");
+  return [field.help, hint && `${hint[0].toUpperCase()}${hint.slice(1)}.`].filter(Boolean).join(" ");
+}
