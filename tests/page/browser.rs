@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use std::{env, fs, thread};
 
 use fantoccini::elements::Element;
-use fantoccini::wd::WebDriverCompatibleCommand;
+use fantoccini::wd::{WebDriverCompatibleCommand, WindowHandle};
 use fantoccini::{Client, ClientBuilder, Locator};
 use hyper_util::client::legacy::connect::HttpConnector;
 use serde_json::{Value, json};
@@ -74,7 +74,7 @@ impl Page {
     ///
     /// # Errors
     /// If `cargo xtask test` has not started the site and the driver, or the browser does not start.
-    pub async fn open(path: &str, (width, height): Size) -> Result<Page> {
+    pub async fn open(path: &str, size: Size) -> Result<Page> {
         let origin = setting("ARMILL_SITE_URL")?;
         let mut capabilities: serde_json::Map<String, Value> = serde_json::from_str(CAPABILITIES)?;
         capabilities.insert("goog:loggingPrefs".into(), json!({ "browser": "ALL", "performance": "ALL" }));
@@ -87,9 +87,7 @@ impl Page {
         fs::create_dir_all(&downloads)?;
         let page =
             Page { client, origin, downloads, console: RefCell::default(), expected: RefCell::default() };
-        // A window cannot be as narrow as a phone, a device can.
-        let device = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
-        page.devtools("Emulation.setDeviceMetricsOverride", device).await?;
+        page.resize(size).await?;
         let allow = json!({ "behavior": "allow", "downloadPath": page.downloads });
         page.devtools("Browser.setDownloadBehavior", allow).await?;
         page.goto(path).await?;
@@ -111,6 +109,33 @@ impl Page {
     /// If that fails.
     pub async fn reload(&self) -> Result {
         Ok(self.client.refresh().await?)
+    }
+
+    /// Opens another tab of the same browser, at a page of the site, and tells how to come back to the tab before.
+    ///
+    /// # Errors
+    /// If the browser opens none.
+    pub async fn new_tab(&self, path: &str, size: Size) -> Result<WindowHandle> {
+        let before = self.client.window().await?;
+        let tab = self.client.new_window(true).await?;
+        self.client.switch_to_window(tab.handle).await?;
+        self.resize(size).await?;
+        self.goto(path).await?;
+        Ok(before)
+    }
+
+    /// Goes to an open tab.
+    ///
+    /// # Errors
+    /// If it is closed.
+    pub async fn switch_to(&self, tab: WindowHandle) -> Result {
+        Ok(self.client.switch_to_window(tab).await?)
+    }
+
+    /// A window cannot be as narrow as a phone, a device can.
+    async fn resize(&self, (width, height): Size) -> Result {
+        let device = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+        self.devtools("Emulation.setDeviceMetricsOverride", device).await.map(|_| ())
     }
 
     /// Shows the page as for somebody who prefers dark colours (or does not).
