@@ -16,3 +16,5 @@ pub const N_PER_MM2: f64 = 1e6;
 pub const N_PER_MM: f64 = 1e3;
 /// One hertz [rad/s].
 pub const HZ: f64 = std::f64::consts::TAU;
+/// One pound-force [N]: 0.45359237 kg at standard gravity, 9.80665 m/s^2.
+pub const POUND_FORCE: f64 = 4.448_221_615_260_5;

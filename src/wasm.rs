@@ -2,15 +2,17 @@
 //!
 //! Errors cross as `Error` objects with `code`, `message` and, where they apply, `field`, `line`, `column`.
 
-use crate::chart::{self, Options};
+use crate::chart::{self, ForceUnit, Options, Units};
+use crate::column::Column;
 use crate::cutting::material::MATERIALS;
 use crate::error::Error;
 use crate::job::fields;
+use crate::path::unit::LengthUnit;
 use crate::report::{Report, thesis};
 use crate::robot::library::ROBOTS;
 use crate::units::MM;
 use crate::{Job, Stage, export};
-use js_sys::{Float64Array, Function, Reflect};
+use js_sys::{Array, Float64Array, Function, Object, Reflect};
 use serde::{Deserialize, Serialize};
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
@@ -37,12 +39,15 @@ export interface Presets {
             joint_limits_deg: [number, number][]; joint_compliance_rad_per_nm: number[] }[];
   materials: { id: string; name: string; note: string; ktc_n_mm2: number; krc_n_mm2: number; kac_n_mm2: number; kte_n_mm: number; kre_n_mm: number; kae_n_mm: number }[];
 }
-export interface ChartEntry { name: string; title: string; view: string; figure: string; kind: "curve" | "space"; }
-export interface ChartOptions { width: number; height: number; x_range?: [number, number]; y_range?: [number, number]; }
-export interface Axis { label: string; unit: string; min: number; max: number; log: boolean; }
+export interface ChartEntry { name: string; title: string; view: string; figure: string; kind: "time" | "curve" | "space"; }
+export interface ChartUnits { length?: "mm" | "inch"; force?: "N" | "lbf"; }
+export interface ChartOptions extends ChartUnits { width: number; height: number; x_range?: [number, number]; y_range?: [number, number]; hidden?: string[]; }
+export interface ChartColumn { key: string; label: string; unit: string; values: Float64Array; }
+export interface Axis { label: string; unit: string; min: number; max: number; log: boolean; full: [number, number]; }
 export interface Chart {
   name: string; title: string; description: string; svg: string; width: number; height: number;
   plot: { left: number; top: number; width: number; height: number }; x: Axis; y: Axis; series: { key: string; label: string; class: string }[];
+  camera?: [[number, number, number], [number, number, number]];
 }
 export interface Format { id: string; name: string; extension: string; note: string; }
 export interface ThesisRow { quantity: string; source: string; printed: string; ours: string; agrees: boolean; reason: string; }
@@ -226,11 +231,39 @@ impl Run {
             height: f64,
             x_range: Option<(f64, f64)>,
             y_range: Option<(f64, f64)>,
+            #[serde(default)]
+            hidden: Vec<String>,
         }
-        let Asked { width, height, x_range, y_range } =
+        let units = units(&options)?;
+        let Asked { width, height, x_range, y_range, hidden } =
             serde_wasm_bindgen::from_value(options).map_err(JsValue::from)?;
-        let options = Options { width, height, x_range, y_range };
+        let options = Options { width, height, x_range, y_range, hidden, units };
         object(&chart::chart(&self.report, name, &options).map_err(|error| thrown(&error))?)
+    }
+
+    /// The values that a chart shows, every sample of them: what stands along its first axis (in space: the time), then each series.
+    #[wasm_bindgen(unchecked_return_type = "ChartColumn[]")]
+    pub fn chart_data(
+        &self,
+        name: &str,
+        #[wasm_bindgen(unchecked_param_type = "ChartUnits")] options: JsValue,
+    ) -> Result<Array, JsValue> {
+        let columns = chart::data(&self.report, name, units(&options)?).map_err(|error| thrown(&error))?;
+        let plain = |column: Column| {
+            let object = Object::new();
+            let values: JsValue = Float64Array::from(column.values.as_slice()).into();
+            for (key, value) in [
+                ("key", column.key.into()),
+                ("label", column.label.into()),
+                ("unit", column.unit.into()),
+                ("values", values),
+            ] {
+                // Setting a property of a fresh object cannot fail.
+                let _ = Reflect::set(&object, &key.into(), &value);
+            }
+            object
+        };
+        Ok(columns.into_iter().map(plain).collect())
     }
 
     /// A file to take away, in one of [`formats`]; `thinning_mm` is how far its points may stray from the samples (a tenth of the tolerance, if it is not given).
@@ -246,6 +279,17 @@ impl Run {
     pub fn fingerprint(&self) -> String {
         self.report.fingerprint()
     }
+}
+
+/// The units asked for; mm and N where none are.
+fn units(options: &JsValue) -> Result<Units, JsValue> {
+    #[derive(Deserialize)]
+    struct Asked {
+        length: Option<LengthUnit>,
+        force: Option<ForceUnit>,
+    }
+    let Asked { length, force } = serde_wasm_bindgen::from_value(options.clone()).map_err(JsValue::from)?;
+    Ok(Units { length: length.unwrap_or_default(), force: force.unwrap_or_default() })
 }
 
 /// Plain data as a JavaScript object; maps become objects, not `Map`s.

@@ -346,7 +346,7 @@ fn every_chart_draws() {
     for changes in [vec![], vec![("shaper", json!("none")), ("cutting.axial_depth_mm", json!(0))]] {
         let report = run(&changes);
         for entry in CATALOG {
-            let options = Options { width: 700.0, height: 320.0, x_range: None, y_range: None };
+            let options = Options::sized(700.0, 320.0);
             let drawn = chart(&report, entry.name, &options).unwrap();
             assert!(drawn.svg.starts_with("<svg") && !drawn.svg.contains("NaN"), "{}", entry.name);
             assert!(
@@ -356,13 +356,52 @@ fn every_chart_draws() {
             );
             assert!(!drawn.description.is_empty());
         }
-        assert_eq!(
-            chart(&report, "no such", &Options { width: 700.0, height: 320.0, x_range: None, y_range: None })
-                .unwrap_err()
-                .code(),
-            "invalid"
-        );
+        assert_eq!(chart(&report, "no such", &Options::sized(700.0, 320.0)).unwrap_err().code(), "invalid");
     }
+}
+
+/// What a chart shows is what the columns hold, in the unit asked for; and its axes say which.
+#[test]
+fn chart_data_are_the_columns_in_the_unit_asked_for() {
+    use armill::chart::{ForceUnit, Options, Units, chart, data};
+    use armill::path::unit::LengthUnit;
+    let report = run(&[]);
+    let columns = report.columns();
+    let column = |key: &str| &columns.iter().find(|column| column.key == key).unwrap().values;
+    let pairs = [
+        ("before-after", 1, "contour_error_mm"),
+        ("before-after", 2, "after_contour_error_mm"),
+        ("axis-error", 2, "after_axis_error_deg"),
+        ("coordinates", 3, "desired_z_mm"),
+        ("force", 1, "force_x_n"),
+        ("joints", 6, "q6_deg"),
+        ("joint-2", 2, "shaped_q2_deg"),
+        ("path", 2, "desired_y_mm"),
+    ];
+    for (name, place, key) in pairs {
+        let data = data(&report, name, Units::default()).unwrap();
+        assert_eq!((&data[0].values, data[0].key.as_str()), (column("time_s"), "time_s"), "{name}");
+        assert_eq!(&data[place].values, column(key), "{name}");
+    }
+    let units = Units { length: LengthUnit::Inch, force: ForceUnit::PoundForce };
+    let imperial = |name: &str| data(&report, name, units).unwrap().swap_remove(1);
+    // Published: 1 inch = 25.4 mm, 1 lbf = 4.448 221 615 260 5 N, both exact.
+    for (name, key, of, size) in [
+        ("error-shaping", "shaping_inch", "shaping_contour_error_mm", 25.4),
+        ("force", "x_lbf", "force_x_n", 4.448_221_615_260_5),
+    ] {
+        let shown = imperial(name);
+        assert_eq!(shown.key, key);
+        for (shown, si) in shown.values.iter().zip(column(of)) {
+            assert!((shown * size - si).abs() <= 1e-12 * si.abs(), "{name}: {shown} is not {si}");
+        }
+    }
+    let drawn = |name| chart(&report, name, &Options { units, ..Options::sized(700.0, 320.0) }).unwrap();
+    assert!(drawn("force").svg.contains(">Force, lbf<") && drawn("path").svg.contains(">z, inch<"));
+    // The largest error before is 1.253 mm, 0.0493 inch: ticks are round in the unit.
+    let errors = drawn("before-after");
+    assert!(errors.y.unit == "inch" && errors.svg.contains(">0.04<") && errors.svg.contains(">0.02<"));
+    assert!(errors.description.contains("max 0.0493 inch"), "{}", errors.description);
 }
 
 #[test]

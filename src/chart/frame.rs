@@ -13,8 +13,6 @@ use super::trace::{Point, Window, lines};
 pub(super) const TOP: f64 = 26.0;
 /// Room below, for ticks and the name of the x axis [SVG units].
 pub(super) const BOTTOM: f64 = 42.0;
-/// Room at the left where it cannot follow the labels [SVG units].
-pub(super) const LEFT: f64 = 54.0;
 /// Length of a tick mark; plotters puts its label as far again from its end [SVG units].
 const TICK: f64 = 4.0;
 /// Radius of the dot at a marked point [SVG units].
@@ -54,8 +52,8 @@ pub(super) struct Frame {
     pub(super) x: Scale,
     /// From bottom to top.
     pub(super) y: Scale,
-    /// Whether the grid has upright lines too.
-    pub(super) upright_grid: bool,
+    /// Ends of both axes where nothing is zoomed.
+    pub(super) full: [(f64, f64); 2],
 }
 
 impl Frame {
@@ -67,13 +65,14 @@ impl Frame {
         y: &Axis,
         series: &[Series],
         bands: &[Band],
+        options: &Options,
     ) -> Result<Chart, String> {
         let sheet = Sheet::new(self.width, self.height);
         for band in bands {
             sheet.layer(Layer::Band, || self.band(&sheet, band))?;
         }
         sheet.layer(Layer::Grid, || self.mesh(&sheet, x, true))?;
-        for one in series {
+        for one in series.iter().filter(|one| options.shows(one.key)) {
             sheet.layer(Layer::Series { class: one.class, key: one.key }, || self.series(&sheet, one))?;
         }
         sheet.layer(Layer::Axis, || {
@@ -90,9 +89,10 @@ impl Frame {
             width: f64::from(self.width),
             height: f64::from(self.height),
             plot: self.plot,
-            x: info(x, &self.x),
-            y: info(y, &self.y),
+            x: info(x, &self.x, self.full[0]),
+            y: info(y, &self.y, self.full[1]),
             series: series.iter().map(legend).collect(),
+            camera: None,
         })
     }
 
@@ -117,10 +117,7 @@ impl Frame {
         mesh.bold_line_style(BLACK).label_style(sheet.text.clone());
         mesh.set_all_tick_mark_size(TICK * TENTHS);
         if grid {
-            mesh.disable_axes();
-            if !self.upright_grid {
-                mesh.disable_x_mesh();
-            }
+            mesh.disable_axes().disable_x_mesh();
         } else {
             mesh.disable_mesh().axis_style(BLACK).x_desc(x.text());
         }
@@ -162,12 +159,13 @@ impl Frame {
     }
 }
 
-fn info(axis: &Axis, scale: &Scale) -> AxisInfo {
+fn info(axis: &Axis, scale: &Scale, full: (f64, f64)) -> AxisInfo {
     AxisInfo {
         label: axis.label.into(),
         unit: axis.unit.into(),
         min: scale.min,
         max: scale.max,
         log: scale.log,
+        full,
     }
 }

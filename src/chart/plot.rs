@@ -1,10 +1,11 @@
-//! Charts over two axes: curves, steps, marked points, paths seen in a plane.
+//! Charts over two axes: curves, steps, marked points.
 
 use serde::Serialize;
 
-use super::frame::{BOTTOM, Frame, LEFT, TOP, equal_aspect, size};
+use super::frame::{BOTTOM, Frame, TOP, size};
 use super::scale::{Scale, extent, widened};
 use super::trace::Window;
+use super::unit::Units;
 use crate::math;
 
 /// What a chart is called.
@@ -60,7 +61,7 @@ impl Axis<'_> {
 }
 
 /// What the page asks for.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Options {
     /// Width of the whole chart [px].
     pub width: f64,
@@ -70,6 +71,21 @@ pub struct Options {
     pub x_range: Option<(f64, f64)>,
     /// The part of the second axis to show: zoom.
     pub y_range: Option<(f64, f64)>,
+    /// Keys of the series that are not drawn; the legend still has them.
+    pub hidden: Vec<String>,
+    /// Units of the axes.
+    pub units: Units,
+}
+
+impl Options {
+    /// The whole chart in this size, in mm and N.
+    pub fn sized(width: f64, height: f64) -> Self {
+        Self { width, height, x_range: None, y_range: None, hidden: Vec::new(), units: Units::default() }
+    }
+
+    pub(super) fn shows(&self, key: &str) -> bool {
+        !self.hidden.iter().any(|hidden| hidden == key)
+    }
 }
 
 /// A range of y drawn behind the curves, such as a tolerance.
@@ -106,6 +122,9 @@ pub struct Chart {
     pub y: AxisInfo,
     /// The legend.
     pub series: Vec<Legend>,
+    /// Unit vectors of a picture of space, to its right and up; its axes count along them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera: Option<[[f64; 3]; 2]>,
 }
 
 /// The part of a chart between its axes [SVG units].
@@ -145,6 +164,8 @@ pub struct AxisInfo {
     pub max: f64,
     /// Whether the scale between them is logarithmic.
     pub log: bool,
+    /// Both ends where nothing is zoomed.
+    pub full: (f64, f64),
 }
 
 /// A line of the legend.
@@ -172,19 +193,22 @@ pub fn line_chart(
 ) -> Result<Chart, String> {
     let (width, height) = size(options)?;
     check_lengths(series)?;
-    let x_range = match options.x_range.or(x.range) {
+    let full_x = match x.range {
         Some(range) => valid(&x, range)?,
         None => fitted(&x, series.iter().flat_map(|s| s.x.iter().copied()), 0.0),
     };
-    let y_range = match options.y_range.or(y.range) {
+    let x_range = options.x_range.map_or(Ok(full_x), |range| valid(&x, range))?;
+    let full_y = match y.range {
         Some(range) => valid(&y, range)?,
         None => {
             let seen = |x: f64| (x_range.0..=x_range.1).contains(&x);
-            let values = series.iter().flat_map(|s| s.x.iter().zip(s.y));
+            let shown = series.iter().filter(|s| options.shows(s.key));
+            let values = shown.flat_map(|s| s.x.iter().zip(s.y));
             let values: Vec<f64> = values.filter(|(x, _)| seen(**x)).map(|(_, y)| *y).collect();
             fitted(&y, with_bands(&y, values, bands), 0.05)
         }
     };
+    let y_range = options.y_range.map_or(Ok(full_y), |range| valid(&y, range))?;
     let plot_height = f64::from(height) - TOP - BOTTOM;
     let y_scale = Scale::new(y_range, y.log).with_ticks(((plot_height / 36.0) as usize).clamp(2, 9), y.whole);
     let left = (y_scale.label_width() + 12.0).ceil();
@@ -192,43 +216,8 @@ pub fn line_chart(
         |right: f64| Scale::new(x_range, x.log).with_ticks_across(f64::from(width) - left - right, x.whole);
     let right = (x_scale(12.0).label_width() / 2.0 + 2.0).max(12.0).ceil();
     let plot = PlotArea { left, top: TOP, width: f64::from(width) - left - right, height: plot_height };
-    let frame = Frame { width, height, plot, x: x_scale(right), y: y_scale, upright_grid: false };
-    frame.draw(caption, &x, &y, series, bands)
-}
-
-/// Paths seen in a plane: a unit is as long upwards as it is sideways; the ranges grow to fill the chart.
-///
-/// # Errors
-/// As [`line_chart`].
-pub fn plane_chart(
-    caption: Caption,
-    x: Axis,
-    y: Axis,
-    series: &[Series],
-    options: &Options,
-) -> Result<Chart, String> {
-    let (width, height) = size(options)?;
-    check_lengths(series)?;
-    if x.log || y.log {
-        return Err("A plane has no logarithmic axis.".into());
-    }
-    let range = |axis: &Axis, zoom: Option<(f64, f64)>, values: Vec<f64>| match zoom.or(axis.range) {
-        Some(range) => valid(axis, range),
-        None => Ok(fitted(axis, values, 0.05)),
-    };
-    let x_range = range(&x, options.x_range, series.iter().flat_map(|s| s.x.iter().copied()).collect())?;
-    let y_range = range(&y, options.y_range, series.iter().flat_map(|s| s.y.iter().copied()).collect())?;
-    let plot = PlotArea {
-        left: LEFT,
-        top: TOP,
-        width: f64::from(width) - LEFT - 20.0,
-        height: f64::from(height) - TOP - BOTTOM,
-    };
-    let (x_range, y_range) = equal_aspect(x_range, y_range, &plot);
-    let x_scale = Scale::new(x_range, false).with_ticks_across(plot.width, x.whole);
-    let y_scale = Scale::new(y_range, false).with_ticks(((plot.height / 44.0) as usize).clamp(2, 9), y.whole);
-    let frame = Frame { width, height, plot, x: x_scale, y: y_scale, upright_grid: true };
-    frame.draw(caption, &x, &y, series, &[])
+    let frame = Frame { width, height, plot, x: x_scale(right), y: y_scale, full: [full_x, full_y] };
+    frame.draw(caption, &x, &y, series, bands, options)
 }
 
 /// A range that somebody asked for.
@@ -283,9 +272,18 @@ fn with_bands(axis: &Axis, mut values: Vec<f64>, bands: &[Band]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::chart::ForceUnit;
+    use crate::path::unit::LengthUnit;
 
     const CAPTION: Caption = Caption { name: "n", title: "t", description: "d" };
-    const OPTIONS: Options = Options { width: 860.0, height: 420.0, x_range: None, y_range: None };
+    const OPTIONS: Options = Options {
+        width: 860.0,
+        height: 420.0,
+        x_range: None,
+        y_range: None,
+        hidden: Vec::new(),
+        units: Units { length: LengthUnit::Mm, force: ForceUnit::Newton },
+    };
     const TIME: Axis = Axis { label: "Time", unit: "s", range: None, zero: false, log: false, whole: false };
     const ERROR: Axis = Axis { label: "Contour error", unit: "mm", zero: true, ..TIME };
 
@@ -366,14 +364,14 @@ mod tests {
     }
 
     #[test]
-    fn a_plane_has_equal_aspect() {
-        for (width, height) in [(860.0, 420.0), (340.0, 600.0)] {
-            let options = Options { width, height, ..OPTIONS };
-            let path = series(&[0.0, 300.0, 0.0], &[0.0, 20.0, 40.0]);
-            let Chart { plot, x, y, .. } = plane_chart(CAPTION, TIME, TIME, &[path], &options).unwrap();
-            let units = ((x.max - x.min) / plot.width, (y.max - y.min) / plot.height);
-            assert!((units.0 / units.1 - 1.0).abs() < 1e-12, "{units:?}");
-        }
+    fn a_hidden_series_is_in_the_legend_only_and_leaves_its_room() {
+        let (x, low, high) = ([0.0, 1.0], [0.0, 0.5], [0.0, 50.0]);
+        let both = [series(&x, &low), Series { key: "high", ..series(&x, &high) }];
+        let options = Options { hidden: vec!["high".into()], ..Options::sized(860.0, 420.0) };
+        let chart = line_chart(CAPTION, TIME, ERROR, &both, &[], &options).unwrap();
+        assert!(chart.y.max < 1.0 && !chart.svg.contains(r#"data-key="high""#));
+        assert_eq!(chart.series.len(), 2);
+        assert_eq!(chart.x.full, (0.0, 1.0));
     }
 
     #[test]

@@ -19,7 +19,7 @@ pub struct SpaceSeries<'a> {
     pub label: &'a str,
     /// How it looks: a class of the page's style sheet.
     pub class: &'static str,
-    /// x, y and z [mm]; a point that is not finite leaves a gap.
+    /// x, y and z in the unit that is read; a point that is not finite leaves a gap.
     pub points: &'a [[f64; 3]],
 }
 
@@ -48,7 +48,7 @@ const SHORT: f64 = 14.0;
 /// Least size of the box in a direction, as a share of its greatest.
 const FLATTEST: f64 = 0.15;
 
-/// Paths in millimetres in a box; zoom counts in millimetres of the picture. The first path casts a shadow on the floor.
+/// Paths in a box; zoom counts in lengths of the picture. The first path casts a shadow on the floor.
 ///
 /// # Errors
 /// A sentence if the size, the view or a range makes no chart.
@@ -70,19 +70,19 @@ pub fn space_chart(
         width: f64::from(width) - 2.0 * SIDE,
         height: f64::from(height) - TOP - BELOW,
     };
-    let axis = Axis { label: "", unit: "mm", ..Axis::default() };
+    let unit = options.units.length.name();
+    let axis = Axis { label: "", unit, ..Axis::default() };
     let shown: Vec<Point> = paths
         .iter()
         .flat_map(|path| path.points.iter().copied())
         .chain(room.frame(&camera))
         .map(|point| camera.project(point))
         .collect();
-    let range = |side: fn(&Point) -> f64, zoom: Option<(f64, f64)>| match zoom {
-        Some(range) => valid(&axis, range),
-        None => Ok(widened(extent(shown.iter().map(side), false).unwrap_or((0.0, 1.0)))),
-    };
-    let (across, up) =
-        equal_aspect(range(|p| p.0, options.x_range)?, range(|p| p.1, options.y_range)?, &plot);
+    let whole =
+        |side: fn(&Point) -> f64| widened(extent(shown.iter().map(side), false).unwrap_or((0.0, 1.0)));
+    let full = equal_aspect(whole(|p| p.0), whole(|p| p.1), &plot);
+    let range = |zoom: Option<(f64, f64)>, full| zoom.map_or(Ok(full), |range| valid(&axis, range));
+    let (across, up) = equal_aspect(range(options.x_range, full.0)?, range(options.y_range, full.1)?, &plot);
     let scene =
         Scene { camera, room, plot, origin: (across.0, up.1), scale: plot.width / (across.1 - across.0) };
 
@@ -94,12 +94,13 @@ pub fn space_chart(
             first.points.iter().map(|&[x, y, z]| scene.place([x, y, if z.is_finite() { floor } else { z }]));
         sheet.layer(Layer::Shadow, || scene.lines(&sheet, shadow))?;
     }
-    sheet.layer(Layer::Axis, || scene.axes(&sheet))?;
-    for path in paths {
+    sheet.layer(Layer::Axis, || scene.axes(&sheet, unit))?;
+    for path in paths.iter().filter(|path| options.shows(path.key)) {
         let layer = Layer::Series { class: path.class, key: path.key };
         sheet.layer(layer, || scene.lines(&sheet, path.points.iter().map(|&p| scene.place(p))))?;
     }
-    let info = |(min, max)| AxisInfo { label: String::new(), unit: "mm".into(), min, max, log: false };
+    let info =
+        |(min, max), full| AxisInfo { label: String::new(), unit: unit.into(), min, max, log: false, full };
     let legend = |s: &SpaceSeries| Legend { key: s.key.into(), label: s.label.into(), class: s.class.into() };
     Ok(Chart {
         name: caption.name.into(),
@@ -109,9 +110,10 @@ pub fn space_chart(
         width: f64::from(width),
         height: f64::from(height),
         plot,
-        x: info(across),
-        y: info(up),
+        x: info(across, full.0),
+        y: info(up, full.1),
         series: paths.iter().map(legend).collect(),
+        camera: Some([scene.camera.right, scene.camera.up]),
     })
 }
 
@@ -238,12 +240,12 @@ impl Scene {
     }
 
     /// x and y along the floor's edges next to the reader, z at the floor's leftmost corner.
-    fn axes(&self, sheet: &Sheet) -> Result<(), String> {
+    fn axes(&self, sheet: &Sheet, unit: &str) -> Result<(), String> {
         let low = self.room.min;
         let (near, _) = self.room.sides(&self.camera);
-        self.axis(sheet, 0, "x, mm", [low[0], near[1], low[2]])?;
-        self.axis(sheet, 1, "y, mm", [near[0], low[1], low[2]])?;
-        self.axis(sheet, 2, "z, mm", self.room.post(&self.camera))
+        self.axis(sheet, 0, &format!("x, {unit}"), [low[0], near[1], low[2]])?;
+        self.axis(sheet, 1, &format!("y, {unit}"), [near[0], low[1], low[2]])?;
+        self.axis(sheet, 2, &format!("z, {unit}"), self.room.post(&self.camera))
     }
 
     /// One axis as an arrow from `start` to the end of the room, with ticks and name on its outer side.
@@ -312,11 +314,10 @@ mod tests {
     use super::*;
 
     const CAPTION: Caption = Caption { name: "n", title: "t", description: "d" };
-    const OPTIONS: Options = Options { width: 860.0, height: 420.0, x_range: None, y_range: None };
 
     fn chart(points: &[[f64; 3]], view: View) -> Chart {
         let path = SpaceSeries { key: "p", label: "P", class: "desired", points };
-        space_chart(CAPTION, &[path], view, &OPTIONS).unwrap()
+        space_chart(CAPTION, &[path], view, &Options::sized(860.0, 420.0)).unwrap()
     }
 
     #[test]
@@ -361,6 +362,6 @@ mod tests {
             }
         }
         let blind = View { azimuth_deg: f64::NAN, elevation_deg: 0.0 };
-        assert!(space_chart(CAPTION, &[], blind, &OPTIONS).is_err());
+        assert!(space_chart(CAPTION, &[], blind, &Options::sized(860.0, 420.0)).is_err());
     }
 }

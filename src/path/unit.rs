@@ -1,9 +1,11 @@
 //! Units in which a text gives its lengths and feeds.
 
 use crate::units::{INCH, MINUTE, MM};
+use serde::Deserialize;
 
 /// Unit of length of a text.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum LengthUnit {
     /// Millimetre.
     #[default]

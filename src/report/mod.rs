@@ -97,13 +97,19 @@ impl Report {
 
 /// A length [m] in mm as read: three significant digits, but no finer than a tenth of a micrometre, which no machine knows.
 pub(crate) fn millimetres(length: f64) -> String {
-    let mm = length / MM;
-    if mm > 0.0 && mm < 5e-5 {
-        return "less than 0.0001".into();
+    length_text(length, MM, 4)
+}
+
+/// A length [m] in a unit [m] as read: three significant digits, but at most so many decimal places.
+pub(crate) fn length_text(length: f64, unit: f64, places: i32) -> String {
+    let value = length / unit;
+    let finest = crate::math::pow(10.0, f64::from(-places));
+    if value > 0.0 && value < 0.5 * finest {
+        return format!("less than {finest}");
     }
-    let magnitude = if mm == 0.0 { 0.0 } else { crate::math::log10(mm.abs()).floor() };
-    let digits = (2.0 - magnitude).clamp(0.0, 4.0) as usize;
-    let text = format!("{mm:.digits$}");
+    let magnitude = if value == 0.0 { 0.0 } else { crate::math::log10(value.abs()).floor() };
+    let digits = (2.0 - magnitude).clamp(0.0, f64::from(places)) as usize;
+    let text = format!("{value:.digits$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 

@@ -1,0 +1,109 @@
+//! What a chart shows, before it is drawn: the same values become a drawing or columns.
+
+use nalgebra::Vector3;
+
+use crate::chart::plot::{Axis, Band, Caption, Chart, Options, Series, line_chart};
+use crate::chart::space::{SpaceSeries, View, space_chart};
+use crate::column::Column;
+use crate::path::unit::LengthUnit;
+
+/// One chart's values and what they are.
+pub(super) struct Content {
+    /// One sentence with the extremes: the text alternative.
+    pub(super) description: String,
+    /// Values along the first axis; in space, the time of each point.
+    pub(super) at: Vec<f64>,
+    pub(super) shape: Shape,
+}
+
+pub(super) enum Shape {
+    /// Over two axes.
+    Curves { x: Axis<'static>, y: Axis<'static>, curves: Vec<Curve>, markers: bool, bands: Vec<Band> },
+    /// In the three of the base frame.
+    Paths { unit: LengthUnit, paths: Vec<Path> },
+}
+
+/// One curve: a value for each of the content's [`Content::at`].
+pub(super) struct Curve {
+    pub(super) key: &'static str,
+    pub(super) label: &'static str,
+    pub(super) class: &'static str,
+    pub(super) values: Vec<f64>,
+}
+
+/// One path, in the unit that is read.
+pub(super) struct Path {
+    pub(super) key: &'static str,
+    pub(super) label: String,
+    pub(super) class: &'static str,
+    pub(super) points: Vec<[f64; 3]>,
+}
+
+pub(super) const TIME: Axis<'static> =
+    Axis { label: "Time", unit: "s", range: None, zero: false, log: false, whole: false };
+
+impl Content {
+    pub(super) fn draw(&self, name: &str, title: &str, options: &Options) -> Result<Chart, String> {
+        let caption = Caption { name, title, description: &self.description };
+        match &self.shape {
+            Shape::Curves { x, y, curves, markers, bands } => {
+                let series: Vec<_> = curves
+                    .iter()
+                    .map(|&Curve { key, label, class, ref values }| Series {
+                        key,
+                        label,
+                        class,
+                        x: &self.at,
+                        y: values,
+                        markers: *markers,
+                    })
+                    .collect();
+                line_chart(caption, *x, *y, &series, bands, options)
+            }
+            Shape::Paths { paths, .. } => {
+                let paths: Vec<_> = paths
+                    .iter()
+                    .map(|Path { key, label, class, points }| SpaceSeries { key, label, class, points })
+                    .collect();
+                space_chart(caption, &paths, View::default(), options)
+            }
+        }
+    }
+
+    /// Every sample: what stands along the first axis, then each series; a path is three columns.
+    pub(super) fn columns(self) -> Vec<Column> {
+        match self.shape {
+            Shape::Curves { x, y, curves, .. } => {
+                let first = column(x.label, x.label, x.unit, self.at);
+                let rest =
+                    curves.into_iter().map(|curve| column(curve.key, curve.label, y.unit, curve.values));
+                std::iter::once(first).chain(rest).collect()
+            }
+            Shape::Paths { unit, paths } => {
+                let first = column(TIME.label, TIME.label, TIME.unit, self.at);
+                let rest = paths.iter().flat_map(|path| {
+                    [0, 1, 2].map(|axis| {
+                        let name = ["x", "y", "z"][axis];
+                        let values = path.points.iter().map(|point| point[axis]).collect();
+                        let (key, label) = (format!("{} {name}", path.key), format!("{} {name}", path.label));
+                        column(&key, &label, unit.name(), values)
+                    })
+                });
+                std::iter::once(first).chain(rest).collect()
+            }
+        }
+    }
+}
+
+/// A column whose key has the unit in it.
+fn column(key: &str, label: &str, unit: &'static str, values: Vec<f64>) -> Column {
+    let spelled = if unit == "%" { "percent" } else { unit };
+    let text = format!("{key} {spelled}").to_lowercase();
+    let words: Vec<_> = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    Column::new(words.join("_"), label, unit, values)
+}
+
+/// Points in the unit that is read.
+pub(super) fn points(positions: &[Vector3<f64>], unit: f64) -> Vec<[f64; 3]> {
+    positions.iter().map(|p| (p / unit).into()).collect()
+}
