@@ -5,12 +5,13 @@
 //! ago: [`Shaper::undo`] files it under them. The error corrected is the tip's way to the point of the path where the shaped
 //! motion should be, not only eq. 5.2's way to the closest point: it is smooth around corners and brings ends and corners where
 //! they belong, which the contour error cannot see. What is reported stays the contour error. Along a path whose tool axis turns, the
-//! axis is corrected in the same way.
+//! axis is corrected in the same way. Once it has arrived at the end the command rests, so that a program can say it.
 //!
 //! [`Shaper::undo`]: crate::motion::Shaper::undo
 
 use crate::deviation::{Deviation, Plan, Sources, contour, deviate};
 use crate::error::Error;
+use crate::motion::Trajectory;
 use crate::motion::joints::{StartBranch, joint_trajectory};
 use crate::robot::Joints;
 use nalgebra::Vector3;
@@ -84,7 +85,8 @@ pub fn compensate(
             break;
         }
         let undone = |missing: Vec<Vector3<f64>>| {
-            if acting.shaping { plan.shaper.undo(&missing, plan.trajectory.sample_time) } else { missing }
+            let Trajectory { sample_time, moving, .. } = plan.trajectory;
+            if acting.shaping { plan.shaper.undo(&missing, sample_time, moving) } else { missing }
         };
         let where_to = pace.arc_length.iter();
         let missing =

@@ -198,7 +198,7 @@ fn undoing_a_shaper_gives_back_a_slow_command() {
     let shaper = Shaper::new(shaper::kind("zvd").unwrap(), 18.0, 0.1);
     let slow = |k: i32| Vector3::new((f64::from(k) * 1e-3 * 0.5).sin(), 0.0, 1.0);
     let wanted: Vec<_> = (0..20_000).map(slow).collect();
-    let shaped = shaper.apply(&shaper.undo(&wanted, 1e-3), 1e-3);
+    let shaped = shaper.apply(&shaper.undo(&wanted, 1e-3, wanted.len()), 1e-3);
     // Away from the ends, where a command held before its start and after its end is no slow command.
     let middle = 6000..14_000;
     let worst =
@@ -207,7 +207,7 @@ fn undoing_a_shaper_gives_back_a_slow_command() {
     // It never makes anything worse: the residual of any command shrinks.
     let mut random = fastrand::Rng::with_seed(12);
     let noise: Vec<_> = (0..2000).map(|_| common::any_vector(&mut random, 1.0)).collect();
-    let left = shaper.apply(&shaper.undo(&noise, 1e-3), 1e-3);
+    let left = shaper.apply(&shaper.undo(&noise, 1e-3, noise.len()), 1e-3);
     let size = |v: &mut dyn Iterator<Item = f64>| v.sum::<f64>().sqrt();
     let before = size(&mut noise.iter().map(|v| v.norm_squared()));
     let after = size(&mut noise.iter().zip(&left).map(|(a, b)| (a - b).norm_squared()));

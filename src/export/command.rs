@@ -17,6 +17,8 @@ pub const FINEST: f64 = 1e-7;
 pub const COARSEST: f64 = 1e-2;
 /// Positions are written in steps of this size [m].
 pub const RESOLUTION: f64 = 1e-8;
+/// A commanded move's feed is at most this many times the desired one's.
+const STRETCH: f64 = 2.0;
 
 /// The compensated path as moves of a program.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +44,7 @@ pub struct Block {
     pub line: usize,
     /// Whether it positions without cutting.
     pub rapid: bool,
-    /// Speed along the path [m/s].
+    /// Speed along the commanded path [m/s]: while the command travels that, the tip travels the desired path at the feed asked for.
     pub feed: f64,
     /// Spindle speed [1/s]: the program's where it has said one, otherwise the job's.
     pub spindle: f64,
@@ -87,8 +89,8 @@ impl Command {
             let step = &path.moves()[index];
             let feed = match step.pace {
                 MovePace::Rapid => report.setup.tempo.rapid,
-                MovePace::Feed(feed) => feed,
-                MovePace::JobFeed => report.setup.tempo.feed,
+                MovePace::Feed(feed) => feed * piece.stretch,
+                MovePace::JobFeed => report.setup.tempo.feed * piece.stretch,
             };
             blocks.push(Block {
                 line: step.line,
@@ -149,6 +151,8 @@ impl Block {
 struct Piece {
     points: Vec<Point>,
     wait: f64,
+    /// Length of the commanded move by the length of the desired one.
+    stretch: f64,
 }
 
 fn pieces(report: &Report, path: &Path, back: &Pose) -> Vec<Piece> {
@@ -189,7 +193,11 @@ fn pieces(report: &Report, path: &Path, back: &Pose) -> Vec<Piece> {
         previous_end = points.last().copied();
         // One sample alone that happens to fall on a corner is no wait.
         let wait = if resting > 1 { resting as f64 * trajectory.sample_time } else { 0.0 };
-        pieces.push(Piece { points, wait });
+        let travelled = &points[resting.min(points.len() - 1)..];
+        let length: f64 = travelled.windows(2).map(|pair| (pair[1].position - pair[0].position).norm()).sum();
+        // A move that is shorter than its correction changes along it says nothing about speed.
+        let stretch = (length / (end - start)).clamp(1.0 / STRETCH, STRETCH);
+        pieces.push(Piece { points, wait, stretch });
     }
     pieces
 }

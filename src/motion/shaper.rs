@@ -173,7 +173,9 @@ impl Shaper {
     /// time, x is corrected by S*(wanted - S x) a fixed number of times (L. Landweber, An iteration formula for Fredholm integral
     /// equations of the first kind, Amer. J. Math. 73, 1951): what is left at a frequency shrinks by 1 - |S|^2 a time and never grows,
     /// because the amplitudes are positive and add up to 1.
-    pub fn undo(&self, wanted: &[Vector3<f64>], sample_time: f64) -> Vec<Vector3<f64>> {
+    ///
+    /// The change rests from sample `moving` (at least 1) on: each step is followed by what it holds there.
+    pub fn undo(&self, wanted: &[Vector3<f64>], sample_time: f64, moving: usize) -> Vec<Vector3<f64>> {
         let mut command = vec![Vector3::zeros(); wanted.len()];
         for _ in 0..UNDO_STEPS {
             let shaped = self.apply(&command, sample_time);
@@ -183,6 +185,8 @@ impl Shaper {
             for (c, more) in command.iter_mut().zip(ahead.iter().rev()) {
                 *c += more;
             }
+            let arrived = command[moving - 1];
+            command[moving..].fill(arrived);
         }
         command
     }

@@ -106,7 +106,7 @@ pub(crate) type Pinned = (&'static str, Vec<(&'static str, Value)>, &'static str
 pub(crate) fn pinned() -> [Pinned; 4] {
     use serde_json::json;
     [
-        ("default", vec![], "f04be8d866e1445c8d82fd88267286da"),
+        ("default", vec![], "8a1af3e745927855b8a01ee17d81210e"),
         (
             "rounded rectangle, EI in Hz, chip from feed, tilted part, offset tool",
             vec![
@@ -120,7 +120,7 @@ pub(crate) fn pinned() -> [Pinned; 4] {
                 ("workpiece_frame", json!({"xyz_mm":[10,20,30],"rpy_deg":[10,-20,30]})),
                 ("tool_frame", json!({"xyz_mm":[0,50,120],"rpy_deg":[0,30,0]})),
             ],
-            "a8ab439b14ae76eb0de16847a0e3fcce",
+            "a85dabc9b95eaa37cdd2251f6209482f",
         ),
         (
             "points, ZVDD, another branch",
@@ -129,7 +129,7 @@ pub(crate) fn pinned() -> [Pinned; 4] {
                 ("shaper", json!({"kind":"zvdd","frequency_rad_s":60,"damping":0.02})),
                 ("start_branch", json!({"shoulder":"front","elbow":"negative","wrist":"flipped"})),
             ],
-            "815cbafbe6544c3a5276bfdbfb86f139",
+            "13ad1969899d822e028b50861133df17",
         ),
         (
             "arc without shaper",
