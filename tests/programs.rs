@@ -26,7 +26,8 @@ fn gcode_and_csv_read_back_are_the_compensated_path() {
             let worst = largest_distance(&samples, &chain);
             assert!(worst <= thinning, "{name}: {worst}");
             assert!(
-                read[0].1 && read[1..].iter().all(|(_, rapid, feed, _)| !rapid && (feed / 0.1 - 1.0).abs() < 0.5),
+                read[0].1
+                    && read[1..].iter().all(|(_, rapid, feed, _)| !rapid && (feed / 0.1 - 1.0).abs() < 0.5),
                 "{name}"
             );
             // What is between the points is near the samples too: no move goes elsewhere.
