@@ -5,6 +5,10 @@
 #[path = "page/browser.rs"]
 pub mod browser;
 mod common;
+#[path = "page/policy.rs"]
+mod policy;
+#[path = "page/standalone.rs"]
+mod standalone;
 #[path = "page/state.rs"]
 mod state;
 

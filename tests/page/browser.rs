@@ -35,7 +35,7 @@ const CAPABILITIES: &str = include_str!("../../.cargo/webdriver.json");
 /// How long a download may take.
 const DOWNLOAD: Duration = Duration::from_secs(10);
 
-/// Opens a page of the site, runs a test on it and closes it again. A test that fails leaves a picture
+/// Opens a page of the site, or a file by its whole address, runs a test on it and closes it again. A test that fails leaves a picture
 /// `failed-<test>.png` among the screenshots, and what the console said in its output.
 ///
 /// # Errors
@@ -60,7 +60,7 @@ pub fn visit(path: &str, size: Size, test: impl AsyncFnOnce(&Page) -> Result) ->
 /// An open page, in a browser of its own.
 pub struct Page {
     client: Client,
-    /// Scheme, host and port of the site, with a slash at the end.
+    /// Scheme, host and port of the site, with a slash at the end; for a file its whole address.
     origin: String,
     downloads: PathBuf,
     /// What it has shown so far: the driver hands out every line once only.
@@ -75,7 +75,8 @@ impl Page {
     /// # Errors
     /// If `cargo xtask test` has not started the site and the driver, or the browser does not start.
     pub async fn open(path: &str, size: Size) -> Result<Page> {
-        let origin = setting("ARMILL_SITE_URL")?;
+        let origin =
+            if path.starts_with("file:") { path.to_owned() } else { setting("ARMILL_SITE_URL")? };
         let mut capabilities: serde_json::Map<String, Value> = serde_json::from_str(CAPABILITIES)?;
         capabilities.insert("goog:loggingPrefs".into(), json!({ "browser": "ALL", "performance": "ALL" }));
         let client = ClientBuilder::new(HttpConnector::new())
@@ -90,7 +91,7 @@ impl Page {
         page.resize(size).await?;
         let allow = json!({ "behavior": "allow", "downloadPath": page.downloads });
         page.devtools("Browser.setDownloadBehavior", allow).await?;
-        page.goto(path).await?;
+        page.goto(if path.starts_with("file:") { "" } else { path }).await?;
         Ok(page)
     }
 
@@ -267,7 +268,7 @@ impl Page {
         Ok(self.console.borrow().clone())
     }
 
-    /// Errors on the console with this text in them are meant to happen: [`Page::close`] lets them pass.
+    /// Errors on the console and requests with this text in them are meant to happen: [`Page::close`] lets them pass.
     pub fn expect_error(&self, part: &str) {
         self.expected.borrow_mut().push(part.to_owned());
     }
@@ -290,14 +291,15 @@ impl Page {
     /// the site's policy makes those that leave it errors on the console.)
     async fn faults(&self) -> Result<Vec<String>> {
         let mut faults = self.console().await?;
-        let expected = self.expected.take();
-        faults.retain(|line| line.starts_with("SEVERE") && !expected.iter().any(|part| line.contains(part)));
+        faults.retain(|line| line.starts_with("SEVERE"));
         for entry in self.log("performance").await? {
             let event: Value = serde_json::from_str(entry["message"].as_str().unwrap_or_default())?;
             if let Some(url) = requested(&event["message"]).filter(|url| !self.is_own(url)) {
                 faults.push(format!("a request left the site: {url}"));
             }
         }
+        let expected = self.expected.take();
+        faults.retain(|line| !expected.iter().any(|part| line.contains(part)));
         Ok(faults)
     }
 

@@ -2,6 +2,8 @@
 #![allow(clippy::print_stdout, reason = "a command-line tool speaks on its standard output")]
 
 mod workspace;
+mod modules;
+mod standalone;
 mod site;
 mod server;
 mod browser;

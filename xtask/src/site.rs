@@ -8,10 +8,14 @@ use std::time::SystemTime;
 
 use anyhow::{Context, Result};
 
+use crate::standalone;
 use crate::workspace::{self, WASM};
 
 /// Folder of the site that the compiled core lives in.
 const CORE: &str = "pkg";
+
+/// The whole site in one file.
+const STANDALONE: &str = "standalone.html";
 
 /// Makes the site in `target/site` and returns that folder. What is up to date stays untouched.
 ///
@@ -23,7 +27,8 @@ pub(crate) fn build() -> Result<PathBuf> {
     workspace::add_wasm_target()?;
     let wasm = compile(&root)?;
     bind(&wasm, &site.join(CORE)).context("wasm-bindgen failed")?;
-    mirror(&root.join("web"), &site, Some(OsStr::new(CORE)))?;
+    mirror(&root.join("web"), &site, &[CORE, STANDALONE])?;
+    update(standalone::page(&site)?.as_bytes(), &site.join(STANDALONE))?;
     println!("The site is in target/site");
     Ok(site)
 }
@@ -69,22 +74,23 @@ fn is_newer(outputs: &[PathBuf], inputs: &[PathBuf]) -> Result<bool> {
     Ok(outputs.iter().all(|output| changed(output).ok() >= newest))
 }
 
-/// Makes `copy` hold the same files as `original`, but for the entry `besides`, which is left alone.
-fn mirror(original: &Path, copy: &Path, besides: Option<&OsStr>) -> Result<()> {
+/// Makes `copy` hold the same files as `original`, but for the entries `besides`, which are left alone.
+fn mirror(original: &Path, copy: &Path, besides: &[&str]) -> Result<()> {
     fs::create_dir_all(copy).with_context(|| format!("cannot create {}", copy.display()))?;
     for entry in entries(copy)? {
         let twin = original.join(entry.file_name().unwrap_or_default());
         let stale = twin.is_dir() != entry.is_dir() || !twin.exists();
-        if stale && entry.file_name() != besides {
+        if stale && !besides.iter().any(|name| entry.file_name() == Some(OsStr::new(name))) {
             remove(&entry).with_context(|| format!("cannot remove {}", entry.display()))?;
         }
     }
     for entry in entries(original)? {
         let twin = copy.join(entry.file_name().unwrap_or_default());
         if entry.is_dir() {
-            mirror(&entry, &twin, None)?;
+            mirror(&entry, &twin, &[])?;
         } else {
-            update(&entry, &twin).with_context(|| format!("cannot copy {}", entry.display()))?;
+            let copied = fs::read(&entry).and_then(|content| update(&content, &twin));
+            copied.with_context(|| format!("cannot copy {}", entry.display()))?;
         }
     }
     Ok(())
@@ -99,13 +105,12 @@ fn remove(path: &Path) -> std::io::Result<()> {
     if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) }
 }
 
-/// Copies a file, unless the copy has the same content already.
-fn update(original: &Path, copy: &Path) -> std::io::Result<()> {
-    let wanted = fs::read(original)?;
-    match fs::read(copy) {
+/// Writes a file, unless it has this content already.
+fn update(wanted: &[u8], file: &Path) -> std::io::Result<()> {
+    match fs::read(file) {
         Ok(present) if present == wanted => Ok(()),
         Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
-        _ => fs::write(copy, wanted),
+        _ => fs::write(file, wanted),
     }
 }
 
@@ -137,7 +142,7 @@ mod tests {
         write(&site, "gone/away.js", "old");
         write(&site, "css/vanished.css", "old");
         write(&site, "becomes", "a file");
-        mirror(&web, &site, Some(OsStr::new("pkg"))).unwrap();
+        mirror(&web, &site, &["pkg"]).unwrap();
 
         let read = |file: &str| fs::read_to_string(site.join(file)).ok();
         assert_eq!(read("index.html").as_deref(), Some("one"));
@@ -152,16 +157,14 @@ mod tests {
     #[test]
     fn an_unchanged_file_is_not_written_again() {
         let folder = tempfile::tempdir().unwrap();
-        let (original, copy) = (folder.path().join("a"), folder.path().join("b"));
-        fs::write(&original, "same").unwrap();
-        fs::write(&copy, "same").unwrap();
-        age(&copy, 1000);
-        let before = fs::metadata(&copy).unwrap().modified().unwrap();
-        update(&original, &copy).unwrap();
-        assert_eq!(fs::metadata(&copy).unwrap().modified().unwrap(), before);
-        fs::write(&original, "other").unwrap();
-        update(&original, &copy).unwrap();
-        assert_eq!(fs::read_to_string(&copy).unwrap(), "other");
+        let file = folder.path().join("a");
+        fs::write(&file, "same").unwrap();
+        age(&file, 1000);
+        let before = fs::metadata(&file).unwrap().modified().unwrap();
+        update(b"same", &file).unwrap();
+        assert_eq!(fs::metadata(&file).unwrap().modified().unwrap(), before);
+        update(b"other", &file).unwrap();
+        assert_eq!(fs::read_to_string(&file).unwrap(), "other");
     }
 
     #[test]

@@ -1,0 +1,34 @@
+//! The one-file page, opened from disk as by a double click.
+
+use std::path::Path;
+
+use serde_json::json;
+
+use crate::browser::{DESKTOP, Result, visit};
+use crate::common::run;
+use crate::{current, shows, text};
+
+/// The address of the file on disk.
+pub(crate) fn address() -> String {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/site/standalone.html");
+    format!("file://{}", file.display())
+}
+
+#[test]
+fn the_one_file_page_works_from_disk() -> Result {
+    visit(&address(), DESKTOP, async |page| {
+        assert_eq!(page.js("return location.protocol").await?, "file:");
+        shows(page, &run(&[])).await?;
+        page.type_into("#motion-feed_mm_s", "80").await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(80))])).await?;
+        page.wait_for("document.querySelector('#chart-before-after svg .series')", 20.0).await?;
+        // The examples are inside.
+        page.choose("#examples", "rim.csv").await?;
+        current(page).await?;
+        assert_eq!(page.value("#path-kind").await?, "csv");
+        assert!(text(page, "understood").await?.contains("the tool axis turns"));
+        page.click("#download-compensated").await?;
+        assert!(page.downloaded("armill-compensated-path.csv").await?.starts_with("time_s,"));
+        Ok(())
+    })
+}

@@ -1,0 +1,209 @@
+//! Puts ES modules together in one script, for the one-file page: there a browser loads no module from beside it.
+//!
+//! Each module becomes a block (a block and not a function, for it may wait at its top level), after the modules that it needs:
+//!
+//! ```js
+//! import { byId } from "./dom.js";            const module_form = {};
+//! export class Form { … }                     {
+//!                                             const { byId } = module_dom;
+//!                                             class Form { … }
+//!                                             Object.assign(module_form, { Form });
+//!                                             }
+//! ```
+//!
+//! That is all of the language's module syntax that the page uses; anything else is refused.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail, ensure};
+
+/// The script of the module at `entry` and of all that it imports, directly or not. `read` tells the text of a module.
+///
+/// # Errors
+/// If a module cannot be read, uses syntax that this does not know, or needs itself.
+pub(crate) fn bundle(entry: &Path, read: &dyn Fn(&Path) -> Result<String>) -> Result<String> {
+    let mut script = String::from("\"use strict\";\n");
+    add(entry, read, &mut Vec::new(), &mut Vec::new(), &mut script)?;
+    Ok(script)
+}
+
+/// Appends a module after those that it needs. `open` are the modules that wait for this one, `done` those in the script.
+fn add(
+    path: &Path,
+    read: &dyn Fn(&Path) -> Result<String>,
+    open: &mut Vec<PathBuf>,
+    done: &mut Vec<PathBuf>,
+    script: &mut String,
+) -> Result<()> {
+    if done.iter().any(|each| each == path) {
+        return Ok(());
+    }
+    ensure!(
+        !open.iter().any(|each| each == path),
+        "modules need each other in a circle: {open:?}, then {path:?} again"
+    );
+    open.push(path.to_path_buf());
+    let module =
+        Module::parse(path, &read(path)?).with_context(|| format!("cannot bundle {}", path.display()))?;
+    for import in &module.imports {
+        add(import, read, open, done, script)?;
+    }
+    open.pop();
+    done.push(path.to_path_buf());
+    let Module { body, exports, .. } = module;
+    let name = variable(path);
+    let exports = exports.join(", ");
+    script.push_str(&format!("const {name} = {{}};\n{{\n{body}Object.assign({name}, {{ {exports} }});\n}}\n"));
+    Ok(())
+}
+
+/// A module without the syntax of modules.
+#[derive(Debug, PartialEq)]
+struct Module {
+    /// The modules it needs.
+    imports: Vec<PathBuf>,
+    /// What it exports, as the properties of an object: `name` or `name: local`.
+    exports: Vec<String>,
+    body: String,
+}
+
+impl Module {
+    fn parse(path: &Path, text: &str) -> Result<Module> {
+        let mut module = Module { imports: Vec::new(), exports: Vec::new(), body: String::new() };
+        let mut lines = text.lines();
+        while let Some(line) = lines.next() {
+            if line.starts_with("import ") || line.starts_with("export {") {
+                let mut statement = line.to_owned();
+                while !statement.contains(';') {
+                    statement.push_str(lines.next().context("an import or export does not end")?);
+                }
+                module.take(path, statement.trim_end().trim_end_matches(';'))?;
+            } else if let Some(declaration) = line.strip_prefix("export ") {
+                module.exports.push(declared(declaration)?.to_owned());
+                module.body.push_str(declaration);
+            } else {
+                module.body.push_str(line);
+            }
+            module.body.push('\n');
+        }
+        Ok(module)
+    }
+
+    /// Takes over an `import` or `export { … }` statement.
+    fn take(&mut self, path: &Path, statement: &str) -> Result<()> {
+        if let Some(list) = statement.strip_prefix("export {").and_then(|rest| rest.trim().strip_suffix('}')) {
+            // `local as name` becomes `name: local`.
+            self.exports.extend(items(list).map(|(local, name)| format!("{name}: {local}")));
+            return Ok(());
+        }
+        let unknown = || format!("no syntax that this knows: {statement}");
+        let (clause, from) = statement
+            .strip_prefix("import ")
+            .and_then(|rest| rest.split_once(" from "))
+            .with_context(unknown)?;
+        let from = from.trim().strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).with_context(unknown)?;
+        let target = beside(path, from)?;
+        let module = variable(&target);
+        let (first, list) = match clause.split_once('{') {
+            Some((first, list)) => (first, list.trim().strip_suffix('}').with_context(unknown)?),
+            None => (clause, ""),
+        };
+        let names: Vec<_> = items(list).map(|(name, local)| format!("{name}: {local}")).collect();
+        if !names.is_empty() {
+            self.body.push_str(&format!("const {{ {} }} = {module}; ", names.join(", ")));
+        }
+        for word in first.split(',').map(str::trim).filter(|word| !word.is_empty()) {
+            match word.strip_prefix("* as ") {
+                Some(namespace) => self.body.push_str(&format!("const {namespace} = {module}; ")),
+                None => self.body.push_str(&format!("const {word} = {module}.default; ")),
+            }
+        }
+        self.imports.push(target);
+        Ok(())
+    }
+}
+
+/// The items of `a, b as c`: each name, and what it is called on the other side.
+fn items(list: &str) -> impl Iterator<Item = (&str, &str)> {
+    let words = list.split(',').map(str::trim).filter(|item| !item.is_empty());
+    words.map(|item| item.split_once(" as ").unwrap_or((item, item)))
+}
+
+/// The name in `function name(…`, `async function name(…`, `class Name …`, `const name = …`.
+fn declared(declaration: &str) -> Result<&str> {
+    for keyword in ["async function ", "function ", "class ", "const "] {
+        if let Some(rest) = declaration.strip_prefix(keyword) {
+            let end = rest.find(|c: char| !c.is_alphanumeric() && !"_$".contains(c)).unwrap_or(rest.len());
+            ensure!(end > 0, "an export without a name: {declaration}");
+            return Ok(&rest[..end]);
+        }
+    }
+    // A copy of a `let` would not follow it.
+    bail!("no export that this knows: {declaration}")
+}
+
+/// The module that `path` means by `specifier`.
+fn beside(path: &Path, specifier: &str) -> Result<PathBuf> {
+    let mut target = path.parent().unwrap_or(Path::new("")).to_path_buf();
+    for name in specifier.split('/') {
+        match name {
+            "." => (),
+            ".." => ensure!(target.pop(), "{specifier} leads out of the site"),
+            name => target.push(name),
+        }
+    }
+    Ok(target)
+}
+
+/// What a module's exports are called in the script.
+fn variable(path: &Path) -> String {
+    let name = path.with_extension("").to_string_lossy().replace(|c: char| !c.is_ascii_alphanumeric(), "_");
+    format!("module_{name}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bundled(files: &[(&str, &str)]) -> Result<String> {
+        bundle(Path::new(files[0].0), &|path| {
+            let file = files.iter().find(|(name, _)| Path::new(name) == path);
+            file.map(|(_, text)| (*text).to_owned()).with_context(|| format!("no {}", path.display()))
+        })
+    }
+
+    #[test]
+    fn modules_become_functions_in_the_order_of_their_needs() {
+        let script = bundled(&[
+            ("js/main.js", "import start, * as core from \"../pkg/core.js\";\nimport {\n  a,\n  b as c,\n} from \"./two.js\";\nstart(core, a, c);\n"),
+            ("js/two.js", "import { x } from \"../pkg/core.js\";\nexport const a = x;\nexport async function b() {}\nexport class D {}\n"),
+            ("pkg/core.js", "function init() {}\nexport const x = 1;\nexport { init as default };\n"),
+        ])
+        .unwrap();
+        assert_eq!(
+            script,
+            "\"use strict\";\n\
+             const module_pkg_core = {};\n{\nfunction init() {}\nconst x = 1;\n\nObject.assign(module_pkg_core, { x, default: init });\n}\n\
+             const module_js_two = {};\n{\nconst { x: x } = module_pkg_core; \nconst a = x;\nasync function b() {}\nclass D {}\nObject.assign(module_js_two, { a, b, D });\n}\n\
+             const module_js_main = {};\n{\nconst start = module_pkg_core.default; const core = module_pkg_core; \nconst { a: a, b: c } = module_js_two; \nstart(core, a, c);\nObject.assign(module_js_main, {  });\n}\n"
+        );
+    }
+
+    #[test]
+    fn what_would_change_its_meaning_is_refused() {
+        for text in [
+            "export let x = 1;",
+            "export default 1;",
+            "export * from \"./b.js\";",
+            "export { x } from \"./b.js\";",
+            "import \"./b.js\";",
+            "import { a } from './b.js';",
+            "import { a } from \"../../b.js\";",
+            "export const { a } = b;",
+        ] {
+            assert!(bundled(&[("js/a.js", text), ("js/b.js", "")]).is_err(), "{text}");
+        }
+        let circle = [("a.js", "import { b } from \"./b.js\";"), ("b.js", "import { a } from \"./a.js\";")];
+        assert!(bundled(&circle).unwrap_err().to_string().contains("circle"));
+    }
+}
