@@ -75,8 +75,7 @@ impl Page {
     /// # Errors
     /// If `cargo xtask test` has not started the site and the driver, or the browser does not start.
     pub async fn open(path: &str, size: Size) -> Result<Page> {
-        let origin =
-            if path.starts_with("file:") { path.to_owned() } else { setting("ARMILL_SITE_URL")? };
+        let origin = if path.starts_with("file:") { path.to_owned() } else { setting("ARMILL_SITE_URL")? };
         let mut capabilities: serde_json::Map<String, Value> = serde_json::from_str(CAPABILITIES)?;
         capabilities.insert("goog:loggingPrefs".into(), json!({ "browser": "ALL", "performance": "ALL" }));
         let client = ClientBuilder::new(HttpConnector::new())

@@ -9,7 +9,8 @@ use crate::standalone;
 /// Every HTML file of the site.
 fn pages() -> Result<Vec<PathBuf>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/site");
-    let mut pages: Vec<PathBuf> = fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<Result<_>>()?;
+    let mut pages: Vec<PathBuf> =
+        fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<Result<_>>()?;
     pages.retain(|path| path.extension().is_some_and(|extension| extension == "html"));
     Ok(pages)
 }
@@ -27,7 +28,8 @@ fn every_page_says_what_may_run() -> Result {
     for page in pages {
         let html = fs::read_to_string(&page)?;
         let name = page.display();
-        let (head, rest) = html.split_once("<meta http-equiv=\"Content-Security-Policy\" content=\"").unwrap();
+        let (head, rest) =
+            html.split_once("<meta http-equiv=\"Content-Security-Policy\" content=\"").unwrap();
         assert!(!head.contains("<script") && !head.contains("<link") && !head.contains("<style"), "{name}");
         let (policy, body) = rest.split_once("\">").unwrap();
         let mut directives: Vec<&str> = Vec::new();
@@ -74,7 +76,10 @@ const ATTEMPTS: [(&str, &str); 6] = [
         "script-src-elem",
         "const s = document.createElement('script'); s.textContent = 'window.intruder = true'; document.head.append(s)",
     ),
-    ("script-src-attr", "document.body.setAttribute('onclick', 'window.intruder = true'); document.body.click()"),
+    (
+        "script-src-attr",
+        "document.body.setAttribute('onclick', 'window.intruder = true'); document.body.click()",
+    ),
     // A driver's own script may evaluate; a timer's is the page's.
     ("script-src", "setTimeout(() => (0, eval)('window.intruder = true'))"),
     (

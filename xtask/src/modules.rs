@@ -53,7 +53,8 @@ fn add(
     let Module { body, exports, .. } = module;
     let name = variable(path);
     let exports = exports.join(", ");
-    script.push_str(&format!("const {name} = {{}};\n{{\n{body}Object.assign({name}, {{ {exports} }});\n}}\n"));
+    script
+        .push_str(&format!("const {name} = {{}};\n{{\n{body}Object.assign({name}, {{ {exports} }});\n}}\n"));
     Ok(())
 }
 
@@ -91,7 +92,8 @@ impl Module {
 
     /// Takes over an `import` or `export { … }` statement.
     fn take(&mut self, path: &Path, statement: &str) -> Result<()> {
-        if let Some(list) = statement.strip_prefix("export {").and_then(|rest| rest.trim().strip_suffix('}')) {
+        if let Some(list) = statement.strip_prefix("export {").and_then(|rest| rest.trim().strip_suffix('}'))
+        {
             // `local as name` becomes `name: local`.
             self.exports.extend(items(list).map(|(local, name)| format!("{name}: {local}")));
             return Ok(());
@@ -101,7 +103,8 @@ impl Module {
             .strip_prefix("import ")
             .and_then(|rest| rest.split_once(" from "))
             .with_context(unknown)?;
-        let from = from.trim().strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).with_context(unknown)?;
+        let from =
+            from.trim().strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).with_context(unknown)?;
         let target = beside(path, from)?;
         let module = variable(&target);
         let (first, list) = match clause.split_once('{') {

@@ -29,7 +29,8 @@ pub(crate) fn page(site: &Path) -> Result<String> {
         let file = site.join(path);
         fs::read_to_string(&file).with_context(|| format!("cannot read {}", file.display()))
     };
-    let module = |path: &Path| if path == Path::new("js/files.js") { Ok(FILES.to_owned()) } else { read(path) };
+    let module =
+        |path: &Path| if path == Path::new("js/files.js") { Ok(FILES.to_owned()) } else { read(path) };
     let icon = format!("data:image/svg+xml;base64,{}", BASE64_STANDARD.encode(read(Path::new("icon.svg"))?));
     let mut policy = Policy::default();
 
@@ -46,11 +47,8 @@ pub(crate) fn page(site: &Path) -> Result<String> {
     let worker = bundle(Path::new("js/worker.js"), &module)?.replace("import.meta.url", "location.href");
     ensure!(!worker.contains("</script"), "the Worker's script would end early in HTML");
     let core = fs::read(site.join("pkg/armill_bg.wasm")).context("cannot read the core")?;
-    let data = [
-        ("core", BASE64_STANDARD.encode(compressed(&core)?)),
-        ("worker", worker),
-        ("files", files(site)?),
-    ];
+    let data =
+        [("core", BASE64_STANDARD.encode(compressed(&core)?)), ("worker", worker), ("files", files(site)?)];
     let blocks = data.map(|(id, text)| format!("<script type=\"text/plain\" id=\"{id}\">{text}</script>\n"));
     let html = html.replace("</body>", &format!("{}</body>", blocks.concat()));
     let start = "<meta http-equiv=\"Content-Security-Policy\" content=\"";
