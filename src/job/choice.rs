@@ -1,6 +1,8 @@
 //! A number, or one word that stands for a rule that gives it.
 
-use serde::{Deserialize, Serialize};
+use crate::error::Error;
+use crate::job::json::{Node, Read};
+use serde::Serialize;
 
 /// A number, or one word that stands for a rule.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,42 +53,45 @@ impl<W: Word> Serialize for Choice<W> {
     }
 }
 
-impl<'de, W: Word> Deserialize<'de> for Choice<W> {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Visitor<W>(std::marker::PhantomData<W>);
-        impl<W: Word> serde::de::Visitor<'_> for Visitor<W> {
-            type Value = Choice<W>;
-            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                write!(f, "a number or \"{}\"", W::WORD)
-            }
-            fn visit_f64<E>(self, value: f64) -> Result<Self::Value, E> {
-                Ok(Choice::value(value))
-            }
-            fn visit_u64<E>(self, value: u64) -> Result<Self::Value, E> {
-                Ok(Choice::value(value as f64))
-            }
-            fn visit_i64<E>(self, value: i64) -> Result<Self::Value, E> {
-                Ok(Choice::value(value as f64))
-            }
-            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Self::Value, E> {
-                if text == W::WORD {
-                    Ok(Choice::Word)
-                } else {
-                    Err(E::invalid_value(serde::de::Unexpected::Str(text), &self))
-                }
-            }
-        }
-        deserializer.deserialize_any(Visitor(std::marker::PhantomData))
+impl<W: Word> Read for Choice<W> {
+    fn read(&mut self, node: &Node) -> Result<(), Error> {
+        let unexpected = || node.error(&format!("expected a number or \"{}\"", W::WORD));
+        *self = match node.is_text() {
+            false => Self::value(node.value().map_err(|_| unexpected())?),
+            true if node.value::<String>()? == W::WORD => Self::Word,
+            true => return Err(unexpected()),
+        };
+        Ok(())
     }
 }
 
-/// Declares an enumeration of the job whose values are written in lower case.
+/// Declares an enumeration of the job, with the word of each value in the JSON.
 macro_rules! choice {
-    ($(#[$doc:meta])* $name:ident { $($(#[$item_doc:meta])* $item:ident),+ $(,)? }) => {
+    ($(#[$doc:meta])* $name:ident { $($(#[$item_doc:meta])* $item:ident = $word:literal),+ $(,)? }) => {
         $(#[$doc])*
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-        #[serde(rename_all = "lowercase")]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
         pub enum $name { $($(#[$item_doc])* $item),+ }
+
+        impl $name {
+            /// The word in the JSON.
+            pub fn word(self) -> &'static str {
+                match self { $($name::$item => $word),+ }
+            }
+        }
+
+        impl serde::Serialize for $name {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.serialize_str(self.word())
+            }
+        }
+
+        impl $crate::job::json::Read for $name {
+            fn read(&mut self, node: &$crate::job::json::Node) -> Result<(), $crate::error::Error> {
+                let all = [$($name::$item),+];
+                *self = all[node.one_of(&all.map($name::word))?];
+                Ok(())
+            }
+        }
     };
 }
 pub(super) use choice;

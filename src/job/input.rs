@@ -1,12 +1,13 @@
 //! The job's keys, one to one as in the JSON. Values are as typed, not yet checked.
 
+use crate::error::Error;
 use crate::job::choice::{Choice, Dwell, FeedPerTooth, choice};
+use crate::job::json::{Node, Read, keys};
 use crate::job::path::{Path, PathKind};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// The whole question. `Job::default()` is the thesis's case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Job {
     /// Version of the format: 1.
     pub version: u32,
@@ -64,29 +65,27 @@ impl Default for Job {
 }
 
 /// The arm: a preset (whose limits and compliances may be overruled), or a modified DH table.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Robot {
     /// Key of a robot in the library.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub preset: Option<String>,
     /// Name of a robot that is not in the library.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Modified DH table, six rows.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub modified_dh: Option<[DhRow; 6]>,
     /// Joint ranges [deg].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub joint_limits_deg: Option<[[f64; 2]; 6]>,
     /// Joint compliances [rad/(N m)].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub joint_compliance_rad_per_nm: Option<[f64; 6]>,
 }
 
 /// One row of a modified DH table.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct DhRow {
     /// Twist alpha_{i-1}.
     pub alpha_deg: f64,
@@ -95,13 +94,11 @@ pub struct DhRow {
     /// Offset d_i.
     pub d_mm: f64,
     /// Constant part of theta_i.
-    #[serde(default)]
     pub theta_offset_deg: f64,
 }
 
 /// A frame: position, then roll, pitch and yaw about the fixed x, y and z axes.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Frame {
     /// Position.
     pub xyz_mm: [f64; 3],
@@ -110,8 +107,7 @@ pub struct Frame {
 }
 
 /// Which of the arm's up to eight solutions the path starts on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Branch {
     /// Facing the point, or over its back.
     pub shoulder: Shoulder,
@@ -123,40 +119,27 @@ pub struct Branch {
 
 choice! {
     /// Shoulder of the start branch.
-    Shoulder { #[default] /** Facing the point. */ Front, /** Over its back. */ Back }
+    Shoulder { #[default] /** Facing the point. */ Front = "front", /** Over its back. */ Back = "back" }
 }
 choice! {
     /// Elbow of the start branch.
-    Elbow { #[default] /** Positive elbow angle. */ Positive, /** Negative elbow angle. */ Negative }
+    Elbow { #[default] /** Positive elbow angle. */ Positive = "positive", /** Negative elbow angle. */ Negative = "negative" }
 }
 choice! {
     /// Wrist of the start branch.
-    Wrist { #[default] /** Smaller |q4|. */ Near, /** Turned by 180 degrees. */ Flipped }
+    Wrist { #[default] /** Smaller |q4|. */ Near = "near", /** Turned by 180 degrees. */ Flipped = "flipped" }
 }
 choice! {
     /// Kind of input shaper.
-    ShaperKind { /** Zero vibration. */ Zv, #[default] /** And its derivative. */ Zvd, /** And two derivatives. */ Zvdd, /** Extra-insensitive. */ Ei }
+    ShaperKind { /** Zero vibration. */ Zv = "zv", #[default] /** And its derivative. */ Zvd = "zvd", /** And two derivatives. */ Zvdd = "zvdd", /** Extra-insensitive. */ Ei = "ei" }
 }
 choice! {
     /// A source of error.
-    Source { #[default] /** Cutting forces bend the arm. */ Deflection, /** The input shaper bends the path. */ Shaping }
-}
-
-impl ShaperKind {
-    /// The key in the JSON.
-    pub fn id(self) -> &'static str {
-        match self {
-            ShaperKind::Zv => "zv",
-            ShaperKind::Zvd => "zvd",
-            ShaperKind::Zvdd => "zvdd",
-            ShaperKind::Ei => "ei",
-        }
-    }
+    Source { #[default] /** Cutting forces bend the arm. */ Deflection = "deflection", /** The input shaper bends the path. */ Shaping = "shaping" }
 }
 
 /// Speed and sampling.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Motion {
     /// Feed along the path.
     pub feed_mm_s: f64,
@@ -186,8 +169,7 @@ impl Default for Motion {
 }
 
 /// The end mill.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Tool {
     /// Diameter.
     pub diameter_mm: f64,
@@ -204,35 +186,33 @@ impl Default for Tool {
 }
 
 /// Cutting coefficients: a preset, or numbers.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Material {
     /// Key of a material in the library.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub preset: Option<String>,
     /// Tangential cutting coefficient.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub ktc_n_mm2: Option<f64>,
     /// Radial cutting coefficient.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub krc_n_mm2: Option<f64>,
     /// Axial cutting coefficient.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub kac_n_mm2: Option<f64>,
     /// Tangential edge coefficient; default 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub kte_n_mm: Option<f64>,
     /// Radial edge coefficient; default 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub kre_n_mm: Option<f64>,
     /// Axial edge coefficient; default 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub kae_n_mm: Option<f64>,
 }
 
 /// Engagement.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Cutting {
     /// Axial depth of cut.
     pub axial_depth_mm: f64,
@@ -268,16 +248,15 @@ pub enum Shaper {
 }
 
 /// A shaper of a kind; the frequency is given in exactly one of the two units.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct ShaperSpec {
     /// Kind.
     pub kind: ShaperKind,
     /// Undamped natural frequency.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub frequency_rad_s: Option<f64>,
     /// Undamped natural frequency.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub frequency_hz: Option<f64>,
     /// Damping ratio.
     pub damping: f64,
@@ -292,32 +271,25 @@ impl Serialize for Shaper {
     }
 }
 
-impl<'de> Deserialize<'de> for Shaper {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Visitor;
-        impl<'de> serde::de::Visitor<'de> for Visitor {
-            type Value = Shaper;
-            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                write!(f, "\"none\" or an object with kind, frequency_rad_s or frequency_hz, and damping")
-            }
-            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Shaper, E> {
-                match text {
-                    "none" => Ok(Shaper::None),
-                    _ => Err(E::invalid_value(serde::de::Unexpected::Str(text), &self)),
-                }
-            }
-            fn visit_map<A: serde::de::MapAccess<'de>>(self, map: A) -> Result<Shaper, A::Error> {
-                let map = serde::de::value::MapAccessDeserializer::new(map);
-                ShaperSpec::deserialize(map).map(Shaper::Spec)
-            }
+impl Read for Shaper {
+    fn read(&mut self, node: &Node) -> Result<(), Error> {
+        if node.is_object() {
+            let mut spec = ShaperSpec::default();
+            spec.read(node)?;
+            *self = Shaper::Spec(spec);
+        } else if node.is_text() && node.value::<String>()? == "none" {
+            *self = Shaper::None;
+        } else {
+            return Err(node.error(
+                "expected \"none\" or an object with kind, frequency_rad_s or frequency_hz, and damping",
+            ));
         }
-        deserializer.deserialize_any(Visitor)
+        Ok(())
     }
 }
 
 /// What to compensate and how far.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Compensation {
     /// Largest contour error to reach.
     pub tolerance_mm: f64,
@@ -332,3 +304,28 @@ impl Default for Compensation {
         Self { tolerance_mm: 0.01, max_passes: 5, sources: vec![Source::Deflection, Source::Shaping] }
     }
 }
+
+keys!(Job {
+    version,
+    robot,
+    tool_frame,
+    workpiece_frame,
+    start_branch,
+    path,
+    motion,
+    tool,
+    material,
+    cutting,
+    shaper,
+    compensation
+});
+keys!(new Robot { preset, name, modified_dh, joint_limits_deg, joint_compliance_rad_per_nm });
+keys!(new DhRow { alpha_deg, a_mm, d_mm, theta_offset_deg } required alpha_deg, a_mm, d_mm);
+keys!(Frame { xyz_mm, rpy_deg });
+keys!(Branch { shoulder, elbow, wrist });
+keys!(Motion { feed_mm_s, rapid_mm_s, acceleration_mm_s2, sample_time_s, corner_angle_deg, corner_dwell });
+keys!(Tool { diameter_mm, flutes, helix_deg });
+keys!(new Material { preset, ktc_n_mm2, krc_n_mm2, kac_n_mm2, kte_n_mm, kre_n_mm, kae_n_mm });
+keys!(Cutting { axial_depth_mm, entry_deg, exit_deg, spindle_rpm, feed_per_tooth_mm });
+keys!(new ShaperSpec { kind, frequency_rad_s, frequency_hz, damping } required kind, damping);
+keys!(Compensation { tolerance_mm, max_passes, sources });

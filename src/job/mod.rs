@@ -3,8 +3,9 @@
 //! [`Job`] mirrors the JSON one to one. Keys that are not given take the value of the default job, the thesis's case, and the
 //! report says which; unknown keys are errors. [`Job::setup`] checks everything and gives the validated model in SI.
 
-mod input;
+mod json;
 mod choice;
+mod input;
 mod path;
 mod read;
 mod setup;

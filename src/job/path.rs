@@ -2,106 +2,103 @@
 
 use crate::error::Error;
 use crate::job::choice::choice;
+use crate::job::json::keys;
 use crate::job::setup::{invalid, missing};
 use crate::job::{Job, fields};
 use crate::path::unit::{self, LengthUnit};
 use crate::path::{self, Listing, Program, apt, csv, gcode, shape};
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 choice! {
     /// What the path is made from.
     PathKind {
         #[default]
-        /** Full circle. */ Circle,
-        /** Part of a circle. */ Arc,
-        /** One straight line. */ Line,
-        /** Rectangle with sharp or rounded corners. */ Rectangle,
-        /** Straight lines through points. */ Polyline,
-        /** Straight lines through pasted rows of x, y, z, with tool axis and feed where they are given. */ Csv,
-        /** A G-code program. */ Gcode,
-        /** An APT or CLDATA program. */ Apt,
+        /** Full circle. */ Circle = "circle",
+        /** Part of a circle. */ Arc = "arc",
+        /** One straight line. */ Line = "line",
+        /** Rectangle with sharp or rounded corners. */ Rectangle = "rectangle",
+        /** Straight lines through points. */ Polyline = "polyline",
+        /** Straight lines through pasted rows of x, y, z, with tool axis and feed where they are given. */ Csv = "csv",
+        /** A G-code program. */ Gcode = "gcode",
+        /** An APT or CLDATA program. */ Apt = "apt",
     }
 }
 choice! {
     /// Unit of length of a text that does not say its own.
-    Unit { #[default] /** Millimetres. */ Mm, /** Inches. */ Inch }
+    Unit { #[default] /** Millimetres. */ Mm = "mm", /** Inches. */ Inch = "inch" }
 }
 
-/// Unit of the feeds in a text that does not say its own.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub enum FeedUnit {
-    /// Millimetres a second.
-    #[default]
-    #[serde(rename = "mm/s")]
-    MmPerS,
-    /// Millimetres a minute.
-    #[serde(rename = "mm/min")]
-    MmPerMin,
-    /// Inches a minute.
-    #[serde(rename = "inch/min")]
-    InchPerMin,
+choice! {
+    /// Unit of the feeds in a text that does not say its own.
+    FeedUnit {
+        #[default]
+        /** Millimetres a second. */ MmPerS = "mm/s",
+        /** Millimetres a minute. */ MmPerMin = "mm/min",
+        /** Inches a minute. */ InchPerMin = "inch/min",
+    }
 }
 
 /// The desired path in the workpiece frame; which keys belong to it depends on `kind`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Path {
     /// What it is made from.
     pub kind: PathKind,
     /// Centre of a circle, an arc or a rectangle.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub center_mm: Option<[f64; 3]>,
     /// Radius of a circle or an arc.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_mm: Option<f64>,
     /// Normal of a circle or an arc, of any length; default +Z.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub normal: Option<[f64; 3]>,
     /// Start of an arc, from the projection of +X.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub start_deg: Option<f64>,
     /// Sweep of an arc, counter-clockwise about the normal if positive.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub sweep_deg: Option<f64>,
     /// Start of a line.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub from_mm: Option<[f64; 3]>,
     /// End of a line.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub to_mm: Option<[f64; 3]>,
     /// Size of a rectangle along X.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub width_mm: Option<f64>,
     /// Size of a rectangle along Y.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub height_mm: Option<f64>,
     /// Radius of a rectangle's corners; default 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub corner_radius_mm: Option<f64>,
     /// Points of a polyline.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub points_mm: Option<Vec<[f64; 3]>>,
     /// Text of a program, or pasted rows.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub text: Option<String>,
     /// Unit of length of rows, or of an APT text, that do not say their own; default mm.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<Unit>,
     /// Unit of the feeds of rows that do not say their own; default mm/s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub feed_unit: Option<FeedUnit>,
     /// Tool length offsets of a G-code program: rows of the number H and the offset.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub tool_length_offsets_mm: Option<Vec<(u32, f64)>>,
     /// Work offsets of a G-code program: G54, G55 and so on, in this order.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub work_offsets_mm: Option<Vec<[f64; 3]>>,
     /// Whether lines of a G-code program that start with a slash are left out; default true.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub block_delete: Option<bool>,
 }
+
+keys!(new Path { kind, center_mm, radius_mm, normal, start_deg, sweep_deg, from_mm, to_mm, width_mm, height_mm, corner_radius_mm, points_mm, text, unit, feed_unit, tool_length_offsets_mm, work_offsets_mm, block_delete } required kind);
 
 impl Path {
     /// A path of a kind, with none of its keys.

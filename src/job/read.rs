@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::job::Job;
+use crate::job::json::{Node, Read};
 use serde_json::Value;
 
 impl Job {
@@ -10,15 +11,8 @@ impl Job {
     /// # Errors
     /// [`Error::Json`] or [`Error::UnknownKey`], with line and column. Values are not checked yet: see [`Job::setup`].
     pub fn from_json(text: &str) -> Result<Self, Error> {
-        let mut deserializer = serde_json::Deserializer::from_str(text);
-        let mut track = serde_path_to_error::Track::new();
-        let tracked = serde_path_to_error::Deserializer::new(&mut deserializer, &mut track);
-        let job = <Job as serde::Deserialize>::deserialize(tracked).map_err(|error| {
-            let path = track.path().to_string();
-            read_error(&error, (path != ".").then_some(path))
-        })?;
-        deserializer.end().map_err(|error| read_error(&error, None))?;
-        check_shape(text)?;
+        let mut job = Job::default();
+        job.read(&Node::of(text)?)?;
         Ok(job)
     }
 
@@ -56,57 +50,6 @@ impl Job {
     }
 }
 
-/// Refuses lists where an object belongs: serde would take their items for the keys in order.
-fn check_shape(text: &str) -> Result<(), Error> {
-    let Ok(given) = serde_json::from_str::<Value>(text) else { return Ok(()) };
-    let list = |field: &str| Error::Json {
-        field: (!field.is_empty()).then(|| field.to_owned()),
-        message: format!(
-            "{}a list stands where an object with named keys belongs",
-            if field.is_empty() { String::new() } else { format!("{field}: ") }
-        ),
-        line: 1,
-        column: 1,
-    };
-    let Value::Object(sections) = &given else { return Err(list("")) };
-    for (key, section) in sections {
-        if section.is_array() {
-            return Err(list(key));
-        }
-    }
-    let rows = given.pointer("/robot/modified_dh").and_then(Value::as_array);
-    match rows.into_iter().flatten().position(Value::is_array) {
-        Some(row) => Err(list(&format!("robot.modified_dh[{row}]"))),
-        None => Ok(()),
-    }
-}
-
-/// An error of serde_json in our words: unknown keys with the nearest known one, types with the field.
-fn read_error(error: &serde_json::Error, field: Option<String>) -> Error {
-    let (line, column) = (error.line(), error.column());
-    let whole = error.to_string();
-    let message = whole.split(" at line ").next().unwrap_or(&whole).to_owned();
-    let mut quoted = message.split('`').skip(1).step_by(2);
-    if message.starts_with("unknown field")
-        && let Some(key) = quoted.next()
-    {
-        // The path ends with the unknown key where the parser got as far as its value.
-        let parent =
-            field.as_deref().map_or("", |path| path.strip_suffix(key).unwrap_or(path)).trim_end_matches('.');
-        let join = |key: &str| if parent.is_empty() { key.to_owned() } else { format!("{parent}.{key}") };
-        let nearest = quoted
-            .map(|known| (strsim::normalized_damerau_levenshtein(key, known), known))
-            .max_by(|a, b| a.0.total_cmp(&b.0))
-            .filter(|(similarity, _)| *similarity > 0.4)
-            .map(|(_, known)| join(known));
-        // The parser stands behind the key; the reader looks for where it begins.
-        let column = column.saturating_sub(key.chars().count() + 1);
-        return Error::UnknownKey { field: join(key), nearest, line, column };
-    }
-    let place = field.as_ref().map_or_else(String::new, |path| format!("{path}: "));
-    Error::Json { field, message: format!("{place}{message} (line {line}, column {column})"), line, column }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -130,6 +73,17 @@ mod tests {
             at("{\"motion\": {\"feed_mm_s\": \"fast\"}}"),
             ("json", Some("motion.feed_mm_s".into()), (1, 31))
         );
+        assert_eq!(
+            at("{\"tool\": {\n \"flutes\": 4, \"flutes\": 5}}"),
+            ("json", Some("tool".into()), (2, 24))
+        );
+        assert_eq!(
+            at("{\"path\": {\"kind\": \"line\", \"from_mm\": [1,2]}}"),
+            ("json", Some("path.from_mm".into()), (1, 42))
+        );
+        assert_eq!(at("{\"path\":\n {}}"), ("json", Some("path".into()), (2, 3)));
+        assert_eq!(at("{\"shaper\": 3}"), ("json", Some("shaper".into()), (1, 12)));
+        assert_eq!(at("{\n\"motion\": {\"feed_mm_s\": }}"), ("json", None, (2, 25)));
         assert_eq!(at("{\"tool\": {\"flutes\": 2.5}}").1, Some("tool.flutes".into()));
         assert_eq!(at("{} x"), ("json", None, (1, 4)));
         assert_eq!(at("{\"path\": {\"kind\": \"spiral\"}}").1, Some("path.kind".into()));

@@ -187,7 +187,7 @@ impl Job {
                 ));
             }
         };
-        let kind = shaper::kind(kind.id()).ok_or_else(|| missing("shaper.kind", "a kind of shaper"))?;
+        let kind = shaper::kind(kind.word()).ok_or_else(|| missing("shaper.kind", "a kind of shaper"))?;
         if damping > kind.damping_max {
             let field = "shaper.damping".into();
             return Err(Error::OutOfRange {
