@@ -47,6 +47,9 @@ export const thesis = () => (spare ??= spawn()).ask("thesis");
 /** One chart of the shown result, drawn at `options.width` pixels. */
 export const chart = (name, options) => askShown("chart", name, options);
 
+/** The values that a chart of the shown result is drawn from: its first axis, then each series, every sample. */
+export const chartData = (name, units) => askShown("data", name, units);
+
 /** One column of the shown result, as a Float64Array. */
 export const column = (key) => askShown("column", key);
 

@@ -33,6 +33,7 @@ const answers = {
   frames: (sample) => run.frames(sample),
   track: (most) => run.track(most),
   chart: (name, options) => run.chart(name, options),
+  data: (name, units) => run.chart_data(name, units),
   export: (format) => run.export(format),
   release,
   thesis: () => armill.thesis_recomputed(),

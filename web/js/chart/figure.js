@@ -1,0 +1,388 @@
+// One chart of the page: the core's drawing, and all that a person can do with it.
+
+import * as core from "../core.js";
+import { cursor, setCursor } from "../cursor.js";
+import { make, makeSvg } from "../dom.js";
+import { download } from "../download.js";
+import { lineAt, showLine } from "../program.js";
+import { setting } from "../settings.js";
+import { csvText, pngOf, svgText } from "./export.js";
+import { listen } from "./gestures.js";
+import { Legend, sample } from "./legend.js";
+import { Marks, Readout, nearestInSpace } from "./readout.js";
+import { tableOf } from "./table.js";
+import { toolbar } from "./toolbar.js";
+import { between, fractionOf, nearest, ranged, scaled, shifted, valueAt } from "./view.js";
+
+const REACH_PX = 60; // a path in space is read off from no further away
+const SPILL = 4; // what a line at the edge needs beside the plot [px]
+
+export class Figure {
+  #plot = make("div", { className: "drawing", tabIndex: 0, role: "slider", "aria-describedby": "chart-keys" });
+  #table = make("div", { className: "chart-table", tabIndex: 0, role: "region", hidden: true });
+  #caption = make("figcaption");
+  #readout = new Readout();
+  #marks = new Marks();
+  #legend;
+  #title;
+  #link;
+  #svg = null;
+  #chart = null; // as drawn last
+  #data = null; // its values, fetched when first needed
+  #fetching = null;
+  #view = { x: null, y: null }; // ranges asked for; null: all
+  #index = null; // the sample at the cursor
+  #local = null; // that of a chart that is not over the run
+  #before = undefined; // where the cursor was when the pointer came
+  #waiting = false;
+  #drawing = null;
+
+  /** `link(figure, range)` is called when the range of time changes, to take the other charts along. */
+  constructor({ name, title, figure, kind }, link) {
+    this.name = name;
+    this.kind = kind;
+    this.overRun = kind !== "curve";
+    this.plane = kind === "space";
+    this.#link = link;
+    this.#title = make("h3", {}, title);
+    this.#legend = new Legend(title, () => this.#changed());
+    const source = make("span", { className: "source" }, figure ? `Thesis fig. ${figure}` : "");
+    const tools = toolbar(title, {
+      zoomIn: () => this.scale([0.5, this.plane ? 0.5 : 1]),
+      zoomOut: () => this.scale([2, this.plane ? 2 : 1]),
+      reset: () => this.reset(),
+      table: (on) => this.#tabulate(on),
+      save: (format) => this.#save(format),
+    });
+    this.#plot.setAttribute("aria-label", title);
+    this.#plot.setAttribute("aria-valuenow", "0");
+    this.#table.setAttribute("aria-label", `Table: ${title}`);
+    this.node = make("figure", { className: "chart-figure", id: `chart-${name}` },
+      make("header", {}, this.#title, source), make("div", { className: "chart-head" }, this.#legend.node, tools),
+      this.#plot, this.#table, make("div", { className: "below" }, this.#readout.node, this.#caption));
+    listen(this.#plot, this);
+  }
+
+  /** Draws with what holds now; what is asked for meanwhile is drawn after that. */
+  draw() {
+    this.#waiting = true;
+    this.#drawing ??= this.#drawAll().finally(() => (this.#drawing = null));
+    return this.#drawing;
+  }
+
+  async #drawAll() {
+    while (this.#waiting) {
+      this.#waiting = false;
+      const size = this.#size();
+      if (size.width < 1) return;
+      this.#plot.style.setProperty("min-height", `${size.height}px`);
+      const { x, y } = this.#view;
+      const options = { ...size, ...units(), hidden: this.#legend.hidden, ...(x && { x_range: x }), ...(y && { y_range: y }) };
+      this.#show(await core.chart(this.name, options));
+    }
+  }
+
+  /** Forgets the values of a result, or of units, that no longer hold. */
+  forget() {
+    this.#data = this.#fetching = null;
+    this.#index = null;
+  }
+
+  /** The room to draw in [px]. */
+  #size() {
+    const width = Math.round((this.#plot.hidden ? this.#table : this.#plot).clientWidth);
+    const height = this.plane ? Math.min(560, Math.max(230, width * 0.6)) : Math.min(300, Math.max(220, width * 0.38));
+    return { width, height: Math.round(height) };
+  }
+
+  #show(chart) {
+    this.#chart = chart;
+    this.#svg = drawn(chart);
+    this.#plot.replaceChildren(this.#svg, this.#marks.node);
+    const { width, height } = chart;
+    for (const [name, value] of Object.entries({ width, height, viewBox: `0 0 ${width} ${height}` })) this.#marks.node.setAttribute(name, value);
+    this.#title.textContent = chart.title;
+    this.#caption.textContent = chart.description;
+    this.#legend.show(chart.series);
+    this.#plot.setAttribute("aria-valuemin", String(this.plane ? 0 : chart.x.min));
+    this.#plot.setAttribute("aria-valuemax", String(this.plane ? 1 : chart.x.max));
+    this.#move();
+    this.#fill();
+    this.follow(cursor());
+  }
+
+  /** The axes as they are to be seen, which may be ahead of the drawing. */
+  get #axes() {
+    const { x, y } = this.#chart;
+    return { x: ranged(x, this.#view.x ?? x.full), y: ranged(y, this.#view.y ?? y.full) };
+  }
+
+  /** What gestures, marks and tables read. */
+  get #content() {
+    return { chart: this.#chart, data: this.#data, hidden: this.#legend.hidden };
+  }
+
+  /** Moves the drawing to where the exact one will be. */
+  #move() {
+    const { plot, x, y } = this.#chart;
+    const to = this.#axes;
+    const [left, right] = [fractionOf(x, to.x.min), fractionOf(x, to.x.max)];
+    const [low, high] = [fractionOf(y, to.y.min), fractionOf(y, to.y.max)];
+    const [sx, sy] = [1 / (right - left), 1 / (high - low)];
+    const same = Math.abs(sx - 1) + Math.abs(sy - 1) + Math.abs(left) + Math.abs(low) < 1e-9 || ![sx, sy].every(Number.isFinite);
+    const tx = plot.left - (plot.left + left * plot.width) * sx;
+    const ty = plot.top - (plot.top + (1 - high) * plot.height) * sy;
+    for (const layer of this.#svg.querySelectorAll(".moving")) {
+      if (same) layer.removeAttribute("transform");
+      else layer.setAttribute("transform", `matrix(${sx} 0 0 ${sy} ${tx} ${ty})`);
+    }
+    this.node.classList.toggle("zoomed", this.zoomed);
+  }
+
+  // -- Zoom --
+
+  get zoomed() {
+    return this.#view.x !== null || this.#view.y !== null;
+  }
+
+  /** The plot inside the drawing [px]. */
+  get area() {
+    return this.#chart?.plot ?? { left: 0, top: 0, width: 1, height: 1 };
+  }
+
+  /** Shows these ranges; null is all, undefined as it is. */
+  zoom(x = this.#view.x, y = this.#view.y, linked = false) {
+    if (!this.#chart) return void (this.#view = { x, y });
+    const moved = String(x) !== String(this.#view.x);
+    this.#view = { x, y };
+    this.#changed();
+    if (moved && !linked && this.kind === "time") this.#link(this, x);
+  }
+
+  #changed() {
+    if (!this.#chart) return;
+    this.#move();
+    this.#mark();
+    this.draw().catch(() => {}); // a newer result, or a recovery, draws again
+  }
+
+  scale([fx, fy], place = this.#middle()) {
+    if (!this.#chart) return;
+    const { x, y } = this.#axes;
+    this.zoom(fx === 1 ? undefined : scaled(x, place[0], fx), fy === 1 ? undefined : scaled(y, place[1], fy));
+  }
+
+  shift(dx, dy) {
+    if (!this.#chart) return;
+    const { x, y } = this.#axes;
+    this.zoom(dx && this.#view.x ? shifted(x, dx) : undefined, dy && this.#view.y ? shifted(y, dy) : undefined);
+  }
+
+  /** What a drag starts from. */
+  grab() {
+    return this.#chart && this.#axes;
+  }
+
+  drag(grip, dx, dy, factor = 1, place = [0.5, 0.5]) {
+    if (!grip) return;
+    const { width, height } = this.area;
+    const move = (axis, by, at) => between(axis, at - at * factor - by * factor, at + (1 - at) * factor - by * factor);
+    const upright = this.plane || (factor === 1 && this.#view.y);
+    this.zoom(move(grip.x, dx / width, place[0]), upright ? move(grip.y, -dy / height, place[1]) : undefined);
+  }
+
+  zoomBox([x1, y1], [x2, y2]) {
+    const { left, top, width, height } = this.area;
+    const { x, y } = this.#axes;
+    const across = [x1, x2].map((value) => (value - left) / width).sort((a, b) => a - b);
+    const up = [y1, y2].map((value) => 1 - (value - top) / height).sort((a, b) => a - b);
+    const whole = ([from, to]) => from < 1e-6 && to > 1 - 1e-6;
+    this.zoom(whole(across) ? undefined : between(x, ...across), whole(up) ? undefined : between(y, ...up));
+  }
+
+  box(corners) {
+    this.#marks.box(corners);
+  }
+
+  reset() {
+    this.zoom(null, null);
+  }
+
+  /** Where keys and buttons zoom: at the cursor if it is seen. */
+  #middle() {
+    const { x } = this.#axes;
+    const at = this.plane || this.#index === null || !this.#data ? NaN : fractionOf(x, this.#data[0].values[this.#index]);
+    return [at >= 0 && at <= 1 ? at : 0.5, 0.5];
+  }
+
+  // -- Cursor --
+
+  /** Where an event is, as fractions of the plot; null beside it unless `anyway`. */
+  place({ clientX, clientY }, anyway = false) {
+    const { left, top, width, height } = this.area;
+    const box = this.#plot.getBoundingClientRect();
+    const [across, up] = [(clientX - box.left - left) / width, 1 - (clientY - box.top - top) / height];
+    const inside = [across, up].every((value) => value >= 0 && value <= 1);
+    return inside ? [across, up] : anyway ? [across, up].map((value) => Math.min(1, Math.max(0, value))) : null;
+  }
+
+  async point(place) {
+    if (this.#before === undefined) this.#before = this.overRun ? cursor() : this.#local;
+    if (!this.#data && !(await this.#fetch())) return;
+    if (this.#before === undefined) return; // the pointer has left meanwhile
+    const axes = this.#axes;
+    if (!this.plane) return this.#set(nearest(this.#data[0].values, valueAt(axes.x, place[0])));
+    const { index, distance } = nearestInSpace(this.#content, axes, place);
+    if (distance <= REACH_PX) this.#set(index);
+  }
+
+  /** The pointer leaves: the cursor goes back to where it was. */
+  leave() {
+    if (this.#before === undefined) return;
+    const before = this.#before;
+    this.#before = undefined;
+    if (this.overRun) setCursor(before, null);
+    else this.#set(before);
+  }
+
+  /** The cursor stays where it is. */
+  pin() {
+    this.#before = this.overRun ? cursor() : this.#local;
+  }
+
+  clear() {
+    this.#before = undefined;
+    this.#set(null);
+  }
+
+  /** Moves by pixels, at least by one sample, or by a share of what is seen. */
+  async step(pixels, share) {
+    if (!this.#data && !(await this.#fetch())) return;
+    const { values } = this.#data[0];
+    const { x } = this.#axes;
+    const [from, to] = this.plane ? [0, values.length - 1] : [nearest(values, x.min), nearest(values, x.max)];
+    const now = this.#index ?? from;
+    const by = pixels ? Math.max(1, (to - from) / this.area.width) * pixels : (to - from) * share;
+    const rounded = Math.sign(by) * Math.max(1, Math.round(Math.abs(by)));
+    this.#keep(this.#index === null && pixels > 0 ? from : Math.min(values.length - 1, Math.max(0, now + rounded)));
+  }
+
+  async ends(last) {
+    if (!this.#data && !(await this.#fetch())) return;
+    const { values } = this.#data[0];
+    const { x } = this.#axes;
+    const [from, to] = this.plane ? [0, values.length - 1] : [nearest(values, x.min), nearest(values, x.max)];
+    this.#keep(last ? to : from);
+  }
+
+  /** Sets the cursor to stay, and brings it into view. */
+  #keep(index) {
+    this.#set(index);
+    this.pin();
+    const { x } = this.#axes;
+    const at = this.plane ? 0.5 : fractionOf(x, this.#data[0].values[index]);
+    if (at < 0 || at > 1) this.shift(at < 0 ? at - 0.1 : at - 0.9, 0);
+  }
+
+  #set(index) {
+    if (this.overRun) {
+      const time = index === null ? null : this.#data[0].values[index];
+      this.#at(index);
+      return setCursor(time, this);
+    }
+    this.#local = index;
+    this.#at(index);
+  }
+
+  /** Follows the page's cursor, at an instant of the run [s] or at none. */
+  async follow(time) {
+    if (!this.#chart || !this.node.isConnected) return;
+    if (!this.overRun) return this.#at(this.#local);
+    if (time === null) return this.#at(null);
+    if (!this.#data && !(await this.#fetch())) return;
+    if (time === cursor()) this.#at(nearest(this.#data[0].values, time));
+  }
+
+  #at(index) {
+    const beyond = index !== null && (!this.#data || index >= this.#data[0].values.length);
+    this.#index = beyond ? null : index;
+    this.#mark();
+    const line = this.#line;
+    this.#readout.show(this.#content, this.#index, line, () => showLine(line));
+    this.#plot.setAttribute("aria-valuenow", String(this.#index === null ? 0 : this.#data[0].values[this.#index]));
+    this.#plot.setAttribute("aria-valuetext", this.#readout.text || "no sample chosen");
+  }
+
+  get #line() {
+    return this.overRun && this.#index !== null ? lineAt(this.#data[0].values[this.#index]) : undefined;
+  }
+
+  /** Leads to the line of the program that runs at the cursor. */
+  go() {
+    if (this.#line) showLine(this.#line);
+  }
+
+  #mark() {
+    this.#marks.show(this.#content, this.#axes, this.#data ? this.#index : null);
+  }
+
+  /** Fetches the values; resolves to whether they are there, and still those of what is shown. */
+  #fetch() {
+    this.#fetching ??= core.chartData(this.name, units()).catch(() => null);
+    const mine = this.#fetching;
+    return mine.then((data) => {
+      if (mine !== this.#fetching) return false;
+      if (data) this.#data = data;
+      else this.#fetching = null;
+      return Boolean(data);
+    });
+  }
+
+  // -- Table and files --
+
+  #tabulate(on) {
+    this.#table.style.setProperty("height", `${this.#plot.clientHeight || this.#size().height}px`);
+    this.#plot.hidden = on;
+    this.#table.hidden = !on;
+    this.#fill();
+  }
+
+  async #fill() {
+    if (this.#table.hidden || (!this.#data && !(await this.#fetch()))) return;
+    this.#table.replaceChildren(tableOf(this.#content, this.#axes));
+  }
+
+  async #save(format) {
+    const file = (type, content) => download(`armill-${this.name}.${format}`, type, content);
+    if (!this.#chart) return;
+    if (format === "csv") {
+      if (this.#data || (await this.#fetch())) file("text/csv", csvText(this.#data));
+      return;
+    }
+    const hidden = this.#legend.hidden;
+    const shown = this.#chart.series.filter(({ key }) => !hidden.includes(key));
+    const legend = shown.map((series) => ({ label: series.label, sample: this.#legend.node.querySelector(`[data-key="${CSS.escape(series.key)}"] .sample`) ?? sample(series) }));
+    const svg = svgText(this.#chart, this.#svg, legend);
+    file(format === "svg" ? "image/svg+xml" : "image/png", format === "svg" ? svg : await pngOf(svg));
+  }
+}
+
+const units = () => ({ length: setting("length"), force: setting("force") });
+
+/** The core's drawing as elements; what is data can be moved within the plot. */
+function drawn(chart) {
+  const parsed = new DOMParser().parseFromString(chart.svg, "image/svg+xml");
+  const svg = document.importNode(parsed.documentElement, true);
+  svg.setAttribute("aria-hidden", "true"); // heading and caption say it; a <title> would pop up under the pointer
+  svg.querySelectorAll(":scope > :is(title, desc)").forEach((element) => element.remove());
+  const { left, top, width, height } = chart.plot;
+  const id = `clip-${chart.name}`;
+  const room = makeSvg("rect", { x: left - SPILL, y: top - SPILL, width: width + 2 * SPILL, height: height + 2 * SPILL });
+  for (const layer of svg.querySelectorAll(":scope > g:not(.axis)")) {
+    const clip = makeSvg("g", { "clip-path": `url(#${id})` });
+    layer.replaceWith(clip);
+    clip.append(makeSvg("g", { class: "moving" }, layer));
+  }
+  svg.prepend(makeSvg("defs", {}, makeSvg("clipPath", { id }, room)));
+  return svg;
+}

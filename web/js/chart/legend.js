@@ -1,0 +1,63 @@
+// A chart's legend: each entry is a button that hides its series, or shows it alone.
+
+import { make, makeSvg, rove } from "../dom.js";
+
+export class Legend {
+  node = make("ul", { className: "legend" });
+  #hidden = new Set();
+  #keys = [];
+  #change;
+
+  /** `change()` is called after a series was hidden or shown. */
+  constructor(title, change) {
+    this.#change = change;
+    this.node.setAttribute("aria-label", `Series of ${title}`);
+    this.node.addEventListener("click", ({ target, shiftKey }) => this.#choose(target, shiftKey));
+    this.node.addEventListener("dblclick", ({ target }) => this.#choose(target, true));
+  }
+
+  /** Keys of the series that are not to be drawn. */
+  get hidden() {
+    return this.#keys.filter((key) => this.#hidden.has(key));
+  }
+
+  /** Takes over the series of a drawing. */
+  show(series) {
+    const said = JSON.stringify(series);
+    if (this.node.dataset.series === said) return; // buttons keep the focus
+    this.node.dataset.series = said;
+    this.#keys = series.map(({ key }) => key);
+    this.node.replaceChildren(...series.map(entry));
+    rove(this.node);
+    this.#mark();
+  }
+
+  #choose(target, alone) {
+    const key = target.closest("button")?.dataset.key;
+    if (!key) return;
+    const others = this.#keys.filter((each) => each !== key);
+    if (alone) {
+      const isAlone = !this.#hidden.has(key) && others.every((each) => this.#hidden.has(each));
+      this.#hidden = new Set(isAlone ? [] : others);
+    } else if (!this.#hidden.delete(key)) this.#hidden.add(key);
+    this.#mark();
+    this.#change();
+  }
+
+  #mark() {
+    for (const button of this.node.querySelectorAll("button")) {
+      button.setAttribute("aria-pressed", String(!this.#hidden.has(button.dataset.key)));
+    }
+  }
+}
+
+/** A short line in the look of a series. */
+export const sample = ({ key, class: name }) =>
+  makeSvg("svg", { viewBox: "0 0 28 8", class: "sample", "aria-hidden": "true" },
+    makeSvg("g", { class: `series ${name}`, "data-key": key }, makeSvg("path", { d: "M0 4H28" })));
+
+function entry(series) {
+  const button = make("button", { type: "button", title: "Click: hide or show. Double-click or Shift: show alone, or all again." }, sample(series), series.label);
+  button.dataset.key = series.key;
+  return make("li", {}, button);
+}
