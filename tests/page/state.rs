@@ -2,7 +2,7 @@
 
 use crate::browser::{DESKTOP, Key, Page, Result, visit};
 use crate::common::run;
-use crate::{current, shows, stale, text};
+use crate::{current, number, shows, stale, text};
 use serde_json::json;
 
 /// The fragment that stands for the JSON text of a job, as the page makes it.
@@ -13,12 +13,19 @@ async fn fragment(page: &Page, job: &str) -> Result<String> {
     Ok(made.as_str().unwrap_or_default().to_owned())
 }
 
-/// The fragment of the job that is shown.
-async fn shown(page: &Page) -> Result<String> {
-    let made = page
-        .js("return Promise.all([import('./js/link.js'), import('./js/core.js')]).then(([link, core]) => link.fragmentOf(core.shownJob()))")
+/// What the dialog "Share" gives as `form`, and whether the page's own copy button says that it is copied.
+async fn shared(page: &Page, form: &str) -> Result<String> {
+    page.click("#share").await?;
+    page.wait_for("document.querySelector('#share-dialog').open", 5.0).await?;
+    page.js(&format!("document.querySelector('#share-{form}').click()")).await?;
+    page.wait_for("document.querySelector('#share-text').value", 5.0).await?;
+    let value = page.value("#share-text").await?;
+    let selected = page
+        .js("const text = document.querySelector('#share-text'); return text.value.slice(text.selectionStart, text.selectionEnd)")
         .await?;
-    Ok(made.as_str().unwrap_or_default().to_owned())
+    assert_eq!(selected, json!(value));
+    page.click("#share-close").await?;
+    Ok(value)
 }
 
 /// What the line at the foot of the page says.
@@ -46,10 +53,11 @@ fn a_link_gives_the_same_bits_in_a_fresh_profile() -> Result {
         page.type_into("#motion-feed_mm_s", "80").await?;
         page.type_into("#path-radius_mm", "250").await?;
         shows(page, &report).await?;
-        link.set(shown(page).await?)?;
+        link.set(shared(page, "link").await?.split_once('#').ok_or("no fragment")?.1.to_owned())?;
         Ok(())
     })?;
     let link = link.get().ok_or("no link")?;
+    assert!(link.starts_with("job=1."), "{link}");
     visit(&format!("/#{link}"), DESKTOP, async |page| {
         shows(page, &report).await?;
         assert_eq!(notice(page).await?, "", "there was nothing before");
@@ -223,5 +231,152 @@ fn two_tabs_keep_their_own_inputs() -> Result {
         shows(page, &run(&[("motion.feed_mm_s", json!(80))])).await?;
         page.new_tab("/", DESKTOP).await?;
         shows(page, &run(&[("motion.feed_mm_s", json!(55))])).await
+    })
+}
+
+#[test]
+fn a_result_is_shared_in_three_forms() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        page.type_into("#motion-feed_mm_s", "80").await?;
+        let report = run(&[("motion.feed_mm_s", json!(80))]);
+        shows(page, &report).await?;
+        // What is shared is what is shown, whatever is being typed.
+        page.type_into("#motion-feed_mm_s", "fast").await?;
+        stale(page).await?;
+        let link = shared(page, "link").await?;
+        let markdown = shared(page, "markdown").await?;
+        let summary = report.summary();
+        let figures = format!(
+            "| both, before compensation | {:.4} | {:.4} |",
+            summary.before_mm.both.mean, summary.before_mm.both.max
+        );
+        for part in [
+            &format!("**{}**", summary.verdict),
+            &figures,
+            "- Feed: 80 mm/s (default 100 mm/s)\n\n",
+            &format!("({link})"),
+            &summary.fingerprint,
+        ] {
+            assert!(markdown.contains(part), "{part} is not in {markdown}");
+        }
+        let frame = shared(page, "embed").await?;
+        let source = link.replace("/#", "/embed.html#");
+        assert!(frame.starts_with(&format!("<iframe src=\"{source}\"")), "{frame}");
+
+        // Copying: as the browser lets the page, or by hand.
+        page.click("#share").await?;
+        page.js("Object.defineProperty(navigator, 'clipboard', { configurable: true, value: { writeText: async (text) => { window.copied = text; } } })").await?;
+        page.click("#share-copy").await?;
+        page.wait_for("document.querySelector('#share-dialog .said').textContent === 'Copied.'", 5.0).await?;
+        assert_eq!(page.js("return window.copied").await?, json!(link));
+        page.js("Object.defineProperty(navigator, 'clipboard', { value: { writeText: async () => { throw new DOMException('denied', 'NotAllowedError'); } } })").await?;
+        page.click("#share-copy").await?;
+        page.wait_for(
+            "document.querySelector('#share-dialog .said').textContent.includes('does not let')",
+            5.0,
+        )
+        .await?;
+        assert_eq!(page.js("return document.activeElement.id").await?, "share-text");
+        assert_eq!(page.js("return getSelection().toString()").await?, json!(link));
+        page.click("#share-close").await?;
+
+        // A job that makes the link too long becomes a file.
+        let points: Vec<[f64; 3]> = (0..1500)
+            .map(|k| [600.0 + 0.1 * f64::from(k), (f64::from(k) * 0.7).sin() * 50.0, 100.0])
+            .collect();
+        let rows: Vec<String> = points.iter().map(|[x, y, z]| format!("{x},{y},{z}")).collect();
+        page.click("#undo").await?;
+        page.choose("#path-kind", "csv").await?;
+        page.js(&format!("const text = document.querySelector('#path-text'); text.value = {}; text.dispatchEvent(new Event('input', {{ bubbles: true }}))", json!(rows.join("\n")))).await?;
+        current(page).await?;
+        page.click("#share").await?;
+        page.wait_for(
+            "document.querySelector('#share-note').textContent.includes('send the job as a file')",
+            5.0,
+        )
+        .await?;
+        page.click("#share-file").await?;
+        let saved = page.downloaded("armill-job.json").await?;
+        assert!(saved.contains(&rows[1400]));
+        Ok(())
+    })
+}
+
+#[test]
+fn a_pinned_result_stands_beside_the_next() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        page.click("#pin").await?;
+        page.type_into("#motion-feed_mm_s", "50").await?;
+        let (a, b) = (run(&[]), run(&[("motion.feed_mm_s", json!(50))]));
+        shows(page, &b).await?;
+        let difference = async |id: &str| {
+            let told = page
+                .js(&format!("return document.getElementById('{id}').closest('.number').querySelector('.versus').dataset.value"))
+                .await?;
+            Ok::<f64, Box<dyn std::error::Error>>(told.as_str().ok_or("no difference")?.parse()?)
+        };
+        let (before, after) = (a.summary(), b.summary());
+        assert_eq!(difference("before-max").await?, after.before_mm.both.max - before.before_mm.both.max);
+        assert_eq!(difference("after-max").await?, after.after_mm.max - before.after_mm.max);
+        assert_eq!(difference("duration").await?, after.duration_s - before.duration_s);
+        let rows = page.js("return [...document.querySelectorAll('#compare tbody tr')].map(row => [...row.cells].map(cell => cell.textContent))").await?;
+        assert_eq!(rows, json!([["Feed", "100 mm/s", "50 mm/s"]]));
+        page.click("#back-to-a").await?;
+        shows(page, &a).await?;
+        assert_eq!(difference("before-max").await?, 0.0);
+        page.click("#unpin").await?;
+        assert_eq!(page.js("return document.querySelector('.versus') === null && document.querySelector('#compare').hidden").await?, true);
+        Ok(())
+    })
+}
+
+#[test]
+fn units_colours_and_open_panels_are_remembered() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        let background = "return getComputedStyle(document.body).backgroundColor";
+        let light = page.js(background).await?;
+        page.click("#tab-joints").await?;
+        page.js("document.querySelector('#group-motion > summary').click(); document.querySelector('#group-tool > summary').click()").await?;
+        page.click("#open-settings").await?;
+        for choice in ["length-inch", "force-lbf", "theme-dark"] {
+            page.click(&format!("#setting-{choice}")).await?;
+        }
+        let check = async || -> Result {
+            let summary = run(&[]).summary();
+            let read = async |id: &str| Ok::<f64, Box<dyn std::error::Error>>(text(page, id).await?.parse()?);
+            let max = summary.before_mm.both.max / 25.4;
+            assert!((read("before-max").await? - max).abs() < 5e-5, "three digits");
+            assert!((read("both-max").await? - max).abs() < 5e-7, "to a millionth");
+            let force = run(&[]).mean_force().norm() / 4.4482216152605;
+            assert!((read("force").await? - force).abs() < 0.5);
+            assert_eq!(
+                number(page, "before-max").await?,
+                summary.before_mm.both.max,
+                "in full it stays in mm"
+            );
+            let units = page.js("return [...new Set([...document.querySelectorAll('[data-unit]')].map(unit => unit.textContent))].sort()").await?;
+            assert_eq!(units, json!(["in", "lbf"]));
+            assert_eq!(text(page, "verdict").await?, summary.verdict);
+            assert_ne!(page.js(background).await?, light);
+            Ok(())
+        };
+        check().await?;
+        page.reload().await?;
+        shows(page, &run(&[])).await?;
+        check().await?;
+        let open = page.js("return ['motion', 'tool', 'path'].map(name => document.getElementById(`group-${name}`).open)").await?;
+        assert_eq!(open, json!([false, true, true]));
+        assert_eq!(page.js("return document.querySelector('#panel-joints').hidden").await?, false);
+        // Light was chosen: the system does not count.
+        page.click("#open-settings").await?;
+        page.click("#setting-theme-light").await?;
+        page.prefer_dark(true).await?;
+        assert_eq!(page.js(background).await?, light);
+        page.click("#setting-theme-auto").await?;
+        assert_ne!(page.js(background).await?, light);
+        Ok(())
     })
 }

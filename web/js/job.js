@@ -76,9 +76,14 @@ export class Job {
     return JSON.stringify(this.get(field)) !== JSON.stringify(field.default);
   }
 
+  /** Another job of the same kind, from its plain object. */
+  of(data) {
+    return new Job(data, this.#fields, { robots: this.#presets.robot, materials: this.#presets.material });
+  }
+
   /** The fields in which another job, a plain object, differs: [{ field, own, other }]; undefined where there is no such field. */
   differences(data) {
-    const other = new Job(data, this.#fields, { robots: this.#presets.robot, materials: this.#presets.material });
+    const other = this.of(data);
     return this.#fields.flatMap((field) => {
       const [here, there] = [this, other].map((job) => (job.shows(field) ? job.get(field) : undefined));
       return JSON.stringify(here) === JSON.stringify(there) ? [] : [{ field, own: here, other: there }];

@@ -3,14 +3,19 @@
 import * as core from "./core.js";
 import { setCharts, showPanel } from "./charts.js";
 import { setCursor } from "./cursor.js";
+import { pin, pinnedResult, showCompared } from "./compare.js";
 import { byId, debounced, make, sentence } from "./dom.js";
 import { download } from "./download.js";
 import { Form } from "./form.js";
 import { Job } from "./job.js";
 import { formatNumber } from "./number.js";
+import { openPanels, rememberPanels, restoreGroups } from "./panels.js";
 import { followCaret, openProgram, programTools, setLines, showProgram } from "./program.js";
 import { showSummary, showThesis } from "./results.js";
 import { Session } from "./session.js";
+import { onSetting } from "./settings.js";
+import { settingsPanel } from "./settings-panel.js";
+import { shareDialog } from "./share.js";
 import { makeTabs } from "./tabs.js";
 
 const TYPING_MS = 150; // results follow this long after the last key
@@ -22,13 +27,13 @@ let form;
 let session;
 let standard; // the default job
 let formats = []; // programs that a run can be exported to
-let hasResult = false;
+let shown = null; // the shown result: { json, summary } and its job
 let slow; // timer that shows the progress
 let typing = false; // there are edits that no run has been started for yet
 
 const state = (name) => (results.dataset.state = name);
 const say = (text) => (byId("status").textContent = text);
-const lastValid = () => (hasResult ? " Showing the last valid result." : "");
+const lastValid = () => (shown ? " Showing the last valid result." : "");
 
 const computeNow = () => {
   typing = false;
@@ -40,14 +45,14 @@ const compute = debounced(computeNow, TYPING_MS);
 function edited() {
   alertOff();
   if (form.flawed) {
-    if (hasResult) core.cancel();
+    if (shown) core.cancel();
     else core.run(job.json); // the last valid value of what is wrong
     return stale();
   }
   form.clearErrors();
   state("computing");
   typing = true;
-  if (hasResult) compute();
+  if (shown) compute();
   else computeNow();
 }
 
@@ -86,12 +91,11 @@ const events = {
   },
   onresult({ summary, charts }, took) {
     idle();
-    hasResult = true;
-    showSummary(summary);
-    showProgram(summary.program, summary.duration_s);
+    shown = { json: core.shownJob(), summary, get job() { return job.of(JSON.parse(this.json)); } };
+    showFigures();
     takeLines(summary);
     setCharts(charts);
-    for (const id of ["download-compensated", "download-columns", "download-program", "export-format"]) byId(id).disabled = false;
+    for (const id of ["download-compensated", "download-columns", "download-program", "export-format", "share", "pin"]) byId(id).disabled = false;
     if (form.flawed) return stale();
     if (typing) return; // shown, but of an earlier edit
     state("current");
@@ -121,6 +125,14 @@ const events = {
     say("The core was restarted.");
   },
 };
+
+/** Figures and tables of the shown result, in the units of the settings. */
+function showFigures() {
+  if (!shown) return;
+  showSummary(shown.summary);
+  showProgram(shown.summary.program, shown.summary.duration_s);
+  showCompared(shown);
+}
 
 /** Charts name the line of the program that runs at a time. */
 async function takeLines({ program, duration_s, samples }) {
@@ -208,11 +220,24 @@ function wire() {
   });
   byId("inputs-toggle").addEventListener("click", () => foldInputs(byId("inputs").classList.contains("open")));
   byId("form").addEventListener("submit", (event) => event.preventDefault());
+  wireResultTools();
   const tabs = makeTabs(document.querySelector("[role=tablist]"), (panel) => {
     showPanel(panel);
+    rememberPanels({ tab: panel.getAttribute("aria-labelledby") });
     if (panel.id === "panel-thesis") recomputeThesis();
   });
-  showPanel(tabs.current());
+  if (!tabs.show(openPanels().tab)) showPanel(tabs.current());
+}
+
+/** What is done with the shown result as a whole: shared, pinned, read in other units. */
+function wireResultTools() {
+  const share = shareDialog();
+  byId("share").addEventListener("click", () => share({ ...shown, job: shown.job, standard }));
+  byId("pin").addEventListener("click", () => pin(shown));
+  byId("unpin").addEventListener("click", () => (pin(null), byId("pin").focus()));
+  byId("back-to-a").addEventListener("click", () => session.load(JSON.parse(pinnedResult().json)));
+  settingsPanel(byId("settings"));
+  onSetting((key) => key !== "theme" && showFigures());
 }
 
 try {
@@ -227,6 +252,7 @@ try {
   wireDrop();
   formats = hello.formats.filter(({ id }) => !["columns-csv", "compensated-csv"].includes(id));
   byId("export-format").append(...formats.map(({ id, name, note }) => make("option", { value: id, title: note }, name)));
+  restoreGroups();
   session = new Session({ job, form, standard, core, changed: edited, warn: alertOn });
   await session.open();
   byId("download-job").disabled = false;

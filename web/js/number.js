@@ -22,16 +22,17 @@ export function formatNumber(value, digits = 3) {
   return minus(group(text));
 }
 
-/** An error in mm to a tenth of a micrometre, so that a column of them lines up. */
-export function formatError(mm) {
-  return mm > 0 && mm < 5e-5 ? "<0.0001" : mm >= 1000 ? formatNumber(mm) : minus(mm.toFixed(4));
+/** A length to a fixed place, in mm a tenth of a micrometre, so that a column of them lines up. */
+export function formatError(length, decimals = 4) {
+  if (length > 0 && length < finest(decimals)) return least(decimals);
+  return length >= 1000 ? formatNumber(length) : minus(length.toFixed(decimals));
 }
 
-/** A length in mm: three digits, but no finer than a tenth of a micrometre, which no machine knows. */
-export function formatLength(mm) {
-  const size = Math.abs(mm);
-  if (size > 0 && size < 5e-5) return "<0.0001";
-  return size > 0 && size < 0.01 ? minus(String(Number(mm.toFixed(4)))) : formatNumber(mm);
+/** A length to three digits, but no finer than a place that no machine knows: in mm a tenth of a micrometre. */
+export function formatLength(length, decimals = 4) {
+  const size = Math.abs(length);
+  if (size > 0 && size < finest(decimals)) return least(decimals);
+  return size > 0 && size < 10 ** (2 - decimals) ? minus(String(Number(length.toFixed(decimals)))) : formatNumber(length);
 }
 
 /** `value` as an input field shows it: all its digits, nothing added. */
@@ -46,6 +47,10 @@ export function stepped(value, direction, whole) {
   const step = 10 ** (Math.floor(Math.log10(Math.abs(value)) + 1e-9) - 1);
   return Number((value + direction * step).toPrecision(12));
 }
+
+const finest = (decimals) => 0.5 * 10 ** -decimals;
+
+const least = (decimals) => `<${(10 ** -decimals).toFixed(decimals)}`;
 
 const minus = (text) => text.replace("-", "\u2212");
 

@@ -3,6 +3,7 @@
 import { byId, make } from "./dom.js";
 import { readText } from "./files.js";
 import { formatNumber } from "./number.js";
+import { inLength, lengthUnit } from "./units.js";
 
 const LANGUAGES = { gcode: "G-code", apt: "APT / CLDATA", csv: "Points" };
 const ENDINGS = { apt: ["apt", "aptsource", "cls", "cl", "ncl"], csv: ["csv", "txt", "tsv", "xyz"], gcode: ["nc", "ngc", "gcode", "g", "tap", "cnc", "mpf", "eia", "iso"] };
@@ -53,14 +54,14 @@ export function showProgram(program, duration) {
   const box = byId("program");
   box.hidden = !program;
   if (!program) return;
-  const read = (value) => String(Number(value.toFixed(3))).replace("-", "\u2212");
+  const read = (value) => String(Number(inLength(value).toFixed(lengthUnit() === "mm" ? 3 : 4))).replace("-", "\u2212");
   const span = (low, high) => (read(low) === read(high) ? read(low) : `${read(low)} to ${read(high)}`);
   const extents = ["X", "Y", "Z"].map((axis, i) => `${axis} ${span(program.lowest_mm[i], program.highest_mm[i])}`);
   const facts = [
     ["Language", `${LANGUAGES[program.language]}, ${program.lines} lines in ${program.unit}`],
     ["Moves", `${program.cutting_moves} that cut, ${program.rapid_moves} rapid${program.multi_axis ? "; the tool axis turns" : ""}`],
-    ["Extents, mm", extents.join(", ")],
-    ["Feeds, mm/s", program.feeds_mm_s ? span(...program.feeds_mm_s) : "none in the program: the job's feed holds"],
+    [`Extents, ${lengthUnit()}`, extents.join(", ")],
+    [`Feeds, ${lengthUnit()}/s`, program.feeds_mm_s ? span(...program.feeds_mm_s) : "none in the program: the job's feed holds"],
     ["Time, s", formatNumber(duration, 4)],
     ["Without effect", program.ignored.length ? "" : "nothing"],
   ];

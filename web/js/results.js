@@ -1,7 +1,8 @@
 // Writes a summary into the page: verdict, large numbers, warnings, tables.
 
 import { byId, make, sentence } from "./dom.js";
-import { formatError, formatLength, formatNumber, plainNumber } from "./number.js";
+import { formatNumber, plainNumber } from "./number.js";
+import { errorText, forceText, forceUnit, lengthText, lengthUnit } from "./units.js";
 
 /** Puts a number on the page: rounded to read, in full in `data-value`. */
 function put(id, value, format = formatNumber) {
@@ -12,30 +13,35 @@ function put(id, value, format = formatNumber) {
 
 export function showSummary(summary) {
   const { before_mm: before, after_mm: after } = summary;
+  for (const unit of document.querySelectorAll("[data-unit]")) unit.textContent = unit.dataset.unit === "force" ? forceUnit() : lengthUnit();
   byId("verdict").textContent = summary.verdict;
-  put("before-mean", before.both.mean, formatLength);
-  put("before-max", before.both.max, formatLength);
-  put("after-mean", after.mean, formatLength);
-  put("after-max", after.max, formatLength);
+  put("before-mean", before.both.mean, lengthText);
+  put("before-max", before.both.max, lengthText);
+  put("after-mean", after.mean, lengthText);
+  put("after-max", after.max, lengthText);
   put("passes", summary.passes);
-  put("force", Math.hypot(...summary.mean_force_n), (force) => formatNumber(force));
+  put("force", Math.hypot(...summary.mean_force_n), forceText);
   put("duration", summary.duration_s);
-  byId("force-parts").textContent = summary.mean_force_n.map((part, i) => `${"xyz"[i]} ${formatNumber(part)}`).join(", ");
-  byId("length").textContent = `path length ${formatNumber(summary.path_length_mm, 4)} mm`;
+  byId("force-parts").textContent = summary.mean_force_n.map((part, i) => `${"xyz"[i]} ${forceText(part)}`).join(", ");
+  byId("length").textContent = `path length ${lengthText(summary.path_length_mm, 4)} ${lengthUnit()}`;
   showTolerance(summary);
   showErrors(before, after);
-  byId("fact-tolerance").textContent = plainNumber(summary.tolerance_mm);
+  byId("fact-tolerance").textContent = toleranceText(summary);
   put("samples", summary.samples);
-  byId("history").textContent = summary.history_max_mm.map(formatLength).join(" → ");
+  byId("history").textContent = summary.history_max_mm.map(lengthText).join(" → ");
   byId("branch").textContent = summary.branch;
   byId("fingerprint").textContent = summary.fingerprint;
   showWarnings(summary.warnings);
 }
 
-function showTolerance({ converged, tolerance_mm, after_mm }) {
+/** The tolerance as it was typed; in another unit, to three digits. */
+const toleranceText = ({ tolerance_mm }) => (lengthUnit() === "mm" ? plainNumber(tolerance_mm) : lengthText(tolerance_mm));
+
+function showTolerance(summary) {
+  const { converged, tolerance_mm, after_mm } = summary;
   const met = after_mm.max <= tolerance_mm;
   const line = byId("tolerance-met");
-  line.textContent = `${met ? "✓ within" : "✗ above"} ${plainNumber(tolerance_mm)} mm`;
+  line.textContent = `${met ? "✓ within" : "✗ above"} ${toleranceText(summary)} ${lengthUnit()}`;
   line.classList.toggle("bad", !met);
   line.dataset.converged = String(converged);
 }
@@ -43,8 +49,8 @@ function showTolerance({ converged, tolerance_mm, after_mm }) {
 function showErrors(before, after) {
   const rows = { deflection: before.deflection, shaping: before.shaping, both: before.both, compensated: after };
   for (const [name, { mean, max }] of Object.entries(rows)) {
-    put(`${name}-mean`, mean, formatError);
-    put(`${name}-max`, max, formatError);
+    put(`${name}-mean`, mean, errorText);
+    put(`${name}-max`, max, errorText);
   }
 }
 

@@ -29,5 +29,8 @@ export function makeTabs(list, onshow) {
     tab.focus();
     select(tab);
   });
-  return { current: () => panelOf(tabs.find((tab) => tab.getAttribute("aria-selected") === "true")) };
+  return {
+    show: (id) => tabs.some((tab) => tab.id === id) && select(document.getElementById(id)),
+    current: () => panelOf(tabs.find((tab) => tab.getAttribute("aria-selected") === "true")),
+  };
 }

@@ -1,0 +1,27 @@
+// Lengths and forces as the settings want them read. Everything is computed, typed and saved in millimetres and newtons.
+
+import { formatError, formatLength, formatNumber } from "./number.js";
+import { setting } from "./settings.js";
+
+const LENGTHS = { mm: { name: "mm", size: 1, decimals: 4 }, inch: { name: "in", size: 25.4, decimals: 6 } };
+const FORCES = { N: { name: "N", size: 1 }, lbf: { name: "lbf", size: 4.4482216152605 } }; // 0.45359237 kg at 9.80665 m/s2
+
+const length = () => LENGTHS[setting("length")];
+const force = () => FORCES[setting("force")];
+
+export const lengthUnit = () => length().name;
+export const forceUnit = () => force().name;
+
+/** Millimetres in the chosen unit, as a number. */
+export const inLength = (mm) => mm / length().size;
+
+/** Newtons in the chosen unit, as a number. */
+export const inForce = (newton) => newton / force().size;
+
+/** Millimetres to three digits (or `digits`), but no finer than any machine knows. */
+export const lengthText = (mm, digits) => (digits ? formatNumber(inLength(mm), digits) : formatLength(inLength(mm), length().decimals));
+
+/** Millimetres to a fixed place, so that a column of them lines up. */
+export const errorText = (mm) => formatError(inLength(mm), length().decimals);
+
+export const forceText = (newton) => formatNumber(inForce(newton));
