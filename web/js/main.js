@@ -17,6 +17,7 @@ import { onSetting } from "./settings.js";
 import { settingsPanel } from "./settings-panel.js";
 import { shareDialog } from "./share.js";
 import { makeTabs } from "./tabs.js";
+import { followTheme } from "./theme.js";
 
 const TYPING_MS = 150; // results follow this long after the last key
 const PATIENCE_MS = 150; // a run that takes longer shows its progress
@@ -237,6 +238,7 @@ function wireResultTools() {
   byId("unpin").addEventListener("click", () => (pin(null), byId("pin").focus()));
   byId("back-to-a").addEventListener("click", () => session.load(JSON.parse(pinnedResult().json)));
   settingsPanel(byId("settings"));
+  followTheme();
   onSetting((key) => key !== "theme" && showFigures());
 }
 

@@ -34,7 +34,9 @@ pub(crate) fn page(site: &Path) -> Result<String> {
     let icon = format!("data:image/svg+xml;base64,{}", BASE64_STANDARD.encode(read(Path::new("icon.svg"))?));
     let mut policy = Policy::default();
 
-    let html = read(Path::new("index.html"))?.replace("\"icon.svg\"", &format!("\"{icon}\""));
+    // What stands in the page does not need to be waited for.
+    let html = read(Path::new("index.html"))?.replace(" blocking=\"render\"", "");
+    let html = html.replace("\"icon.svg\"", &format!("\"{icon}\""));
     let html = replaced(&html, "<link rel=\"stylesheet\" href=\"", ">", |rest| {
         let (file, media) = rest.split_once('"').context("a stylesheet without an address")?;
         Ok(format!("<style{media}>{}</style>", policy.style(read(Path::new(file))?)?))
