@@ -44,10 +44,12 @@ pub fn run_json(text: &str, on_progress: impl FnMut(Stage)) -> Result<Report, Er
 /// # Errors
 /// See [`run`].
 pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report, Error> {
-    let setup = job.setup()?;
-    // Inverse, three deviations, the passes and the final run, weighed alike.
-    let steps = (5 + setup.goal.max_passes) as f64;
-    let mut tell = |step: usize, name| on_progress(Stage { fraction: step as f64 / steps, name });
+    // Reading, if there is a program to read; inverse, three deviations, the passes and the final run: weighed alike.
+    let reading = if job.path.text.is_some() { 1.0 } else { 0.0 };
+    let steps = reading + 5.0 + job.compensation.max_passes as f64;
+    let setup =
+        job.setup_with(|share| on_progress(Stage { fraction: share / steps, name: "reading the program" }))?;
+    let mut tell = |step: usize, name| on_progress(Stage { fraction: (reading + step as f64) / steps, name });
     tell(0, "joint commands");
     let plan = Plan {
         robot: setup.robot.clone(),

@@ -10,7 +10,7 @@ use armill::path::unit::LengthUnit;
 use common::moves::{assert_sound, described};
 
 fn read(text: &str) -> Result<Program, armill::Error> {
-    program(text, &Options { field: "path.text", unit: LengthUnit::Mm })
+    program(text, &Options { field: "path.text", unit: LengthUnit::Mm }, |_| {})
 }
 
 #[test]

@@ -12,7 +12,7 @@ use std::fmt::Write;
 const MM: Options<'_> = Options { field: "path.text", unit: LengthUnit::Mm, feed_unit: FeedUnit::MmPerS };
 
 fn read(text: &str) -> Result<Program, armill::Error> {
-    program(text, &MM)
+    program(text, &MM, |_| {})
 }
 
 #[test]
@@ -146,7 +146,7 @@ fn the_chosen_units_hold_unless_the_header_gives_others() {
         ("x_mm,y_mm,z_mm,feed\n0,0,0,6\n1,0,0,6", inch, "line 1 0 0 feed 2.54", "mm", 1),
         ("x_in,y_in,z_in,feed_mm_s\n0,0,0,6\n1,0,0,6", MM, "line 25.4 0 0 feed 6", "inch", 1),
     ] {
-        let program = program(text, &options).unwrap();
+        let program = program(text, &options, |_| {}).unwrap();
         assert_eq!(described(&program), expected, "{text:?}");
         assert_eq!((program.unit, program.remarks.len()), (unit, remarks), "{text:?}");
     }

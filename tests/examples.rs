@@ -4,11 +4,11 @@
 mod common;
 
 use armill::Report;
+use common::program::{example, folder};
 use common::{column, run};
 use serde::Deserialize;
-use serde_json::json;
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// An entry of `web/examples/index.json`, from which the page makes its menu.
 #[derive(Deserialize)]
@@ -147,23 +147,9 @@ const KNOWN: [Known; 9] = [
     },
 ];
 
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("web/examples")
-}
-
 fn index() -> Vec<Entry> {
     let text = std::fs::read_to_string(folder().join("index.json")).unwrap();
     serde_json::from_str(&text).unwrap()
-}
-
-/// An example in the default job, with a cut and a mode as a milling robot has them.
-fn computed(entry: &Entry) -> Report {
-    let text = std::fs::read_to_string(folder().join(&entry.file)).unwrap();
-    run(&[
-        ("path", json!({"kind": entry.kind, "text": text})),
-        ("cutting.axial_depth_mm", json!(2)),
-        ("shaper", json!({"kind": "zvd", "frequency_hz": 10, "damping": 0.03})),
-    ])
 }
 
 #[test]
@@ -193,7 +179,7 @@ fn the_index_names_the_files_that_are_there() {
 fn every_example_is_read_as_meant_and_gains_from_compensation() {
     for entry in index() {
         let known = KNOWN.iter().find(|known| known.file == entry.file).unwrap();
-        let report = computed(&entry);
+        let report = run(&example(&entry.file, &entry.kind));
         is_read_as_meant(known, &report);
         rapids_carry_no_force(known, &report);
         gains(known, &report);

@@ -160,7 +160,9 @@ fn every_program_says_where_it_comes_from_and_what_it_does_not_promise() {
             );
             assert!(export.deviation > 0.0 && export.deviation <= 1e-6, "{}", format.id);
             assert!(
-                export.points > 50 && export.points < report.samples() / 5,
+                // An arc of 200 deg: few arcs say what takes many chords.
+                export.points > if format.id == "gcode" { 20 } else { 50 }
+                    && export.points < report.samples() / 5,
                 "{}: {}",
                 format.id,
                 export.points

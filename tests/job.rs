@@ -307,6 +307,21 @@ fn progress_ascends_and_ends() {
     armill::run_json(&Job::default().to_json(), |stage| told.push(stage.fraction)).unwrap();
     assert!(told.len() >= 5 && told.windows(2).all(|pair| pair[0] < pair[1]));
     assert!(told[0] == 0.0 && told.iter().all(|fraction| *fraction <= 1.0));
+    // A long program tells while it is read, whichever its language.
+    let way = |row: fn(f64) -> String| (0..20_000).map(|i| row(f64::from(i) * 1e-3)).collect::<String>();
+    for (kind, text) in [
+        ("gcode", way(|x| format!("G1 X{} Y600 Z100 F6000\n", 10.0 + x))),
+        ("apt", way(|x| format!("GOTO/{},600,100\n", 10.0 + x))),
+        ("csv", way(|x| format!("{};600.5;100\n", 10.0 + x))),
+    ] {
+        let mut told = Vec::new();
+        let job = job_text(&[("path", json!({"kind":kind,"text":text}))]);
+        armill::run_json(&job, |stage| told.push((stage.name, stage.fraction))).unwrap();
+        assert!(told.windows(2).all(|pair| pair[0].1 < pair[1].1), "{kind}: {told:?}");
+        let reading = told.iter().take_while(|(name, _)| *name == "reading the program").count();
+        assert!(reading >= 9 && told[reading].0 == "joint commands", "{kind}: {told:?}");
+        assert!(told.iter().all(|(_, fraction)| (0.0..=1.0).contains(fraction)), "{kind}");
+    }
 }
 
 #[test]

@@ -6,52 +6,11 @@ mod common;
 use armill::Report;
 use armill::export::{Options, export};
 use armill::math::rotation_about;
-use armill::path::{Listing, Move, MovePace, Path, Program, Segment, csv};
-use common::program::{commanded, largest_distance, read_gcode, small_jobs, written};
+use armill::path::{Listing, Move, MovePace, Path, Program, Segment};
+use common::program::{chain, commanded, largest_distance, read_back, small_jobs, written};
 use common::run;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
-
-#[test]
-fn gcode_and_csv_read_back_are_the_compensated_path() {
-    for (name, changes) in small_jobs() {
-        let report = run(&changes);
-        for thinning in [1e-6, 2e-5] {
-            let options = Options { thinning: Some(thinning) };
-            let gcode = export(&report, "gcode", &options).unwrap();
-            let read = read_gcode(&gcode.text);
-            let chain: Vec<_> = read.iter().map(|(.., p)| *p).collect();
-            assert_eq!(chain.len(), gcode.points, "{name}");
-            let samples = commanded(&report);
-            let worst = largest_distance(&samples, &chain);
-            assert!(worst <= thinning, "{name}: {worst}");
-            assert!(
-                read[0].1
-                    && read[1..].iter().all(|(_, rapid, feed, _)| !rapid && (feed / 0.1 - 1.0).abs() < 0.5),
-                "{name}"
-            );
-            // What is between the points is near the samples too: no move goes elsewhere.
-            let between: Vec<_> = chain.windows(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect();
-            assert!(largest_distance(&between, &samples) <= thinning * 1.01, "{name}");
-
-            let rows = export(&report, "path-csv", &options).unwrap().text;
-            let rows: String = rows
-                .lines()
-                .map(|line| {
-                    if line.starts_with('#') {
-                        line.to_owned()
-                    } else {
-                        line.splitn(4, ',').take(3).collect::<Vec<_>>().join(",")
-                    }
-                })
-                .map(|line| line + "\n")
-                .collect();
-            let points = csv::points(&rows, "path.text").unwrap();
-            assert_eq!(points.len(), chain.len(), "{name}");
-            assert!(points.iter().zip(&chain).all(|(a, b)| (a - b).norm() < 1e-12), "{name}");
-        }
-    }
-}
 
 #[test]
 fn a_wait_in_a_corner_is_written() {
@@ -134,13 +93,12 @@ fn a_program_keeps_its_lines() {
     assert_eq!(lines[find("(was: / N45")], "(was: / N45 M7)", "what a switch decides is not run");
     assert!(find("N20 ") < find("N30 ") && find("N30 ") < find("N40 ") && find("N50 ") < find("N60 M30"));
     // Read back, it is the compensated path; the rapids are where they were.
-    let read = read_gcode(&export.text);
-    let chain: Vec<_> = read.iter().map(|(.., p)| *p).collect();
-    assert!(largest_distance(&commanded(&report), &chain) <= 1e-6);
-    for (line, rapid, feed, _) in &read {
-        let cuts = (find("N30 ")..find("N50 ")).contains(line);
-        assert_eq!(*rapid, !cuts, "line {line}: {}", lines[line - 1]);
-        assert!(!cuts || (feed / 0.1 - 1.0).abs() < 0.05);
+    let (_, read) = read_back(&report, "gcode", &Options::default());
+    assert!(largest_distance(&commanded(&report), &chain(&read)) <= 1e-6);
+    for step in &read.moves {
+        let cuts = (find("N30 ")..find("N50 ")).contains(&(step.line - 1));
+        assert_eq!(step.pace == MovePace::Rapid, !cuts, "line {}: {}", step.line, lines[step.line - 1]);
+        assert!(!cuts || matches!(step.pace, MovePace::Feed(feed) if (feed / 0.1 - 1.0).abs() < 0.05));
     }
     // A plain line that need not bend stays one block with its number.
     let mut straight = report.clone();
@@ -149,10 +107,9 @@ fn a_program_keeps_its_lines() {
     assert!(text.contains("\nN30 G1 X60.1 Y0.0 Z0.0 F6000.0 (side)\n"), "{text}");
     assert!(text.contains("\nN50 G0 X80.1 Y60.0 Z20.0 M9\n"), "{text}");
 
-    let inches = written(&from_gcode(text_in_inches(), "inch"), "gcode").text;
-    assert!(inches.contains("\nG20 G17") && inches.contains(" F23"), "{inches}");
-    let chain: Vec<_> = read_gcode(&inches).iter().map(|(.., p)| *p).collect();
-    assert!(largest_distance(&commanded(&report), &chain) <= 1e-6);
+    let (inches, read) = read_back(&from_gcode(text_in_inches(), "inch"), "gcode", &Options::default());
+    assert!(inches.text.contains("\nG20 G17") && inches.text.contains(" F23"), "{}", inches.text);
+    assert!(largest_distance(&commanded(&report), &chain(&read)) <= 1e-6);
 }
 
 fn text_in_inches() -> &'static str {
@@ -192,10 +149,8 @@ fn a_tilted_axis_goes_to_apt_not_to_gcode() {
 /// path first desired, with the place on it. The distance is sought over the whole path, not near an expected place.
 fn simulated_again(changes: &[(&'static str, Value)]) -> Vec<(f64, Vector3<f64>)> {
     let report = run(changes);
-    let points: Vec<_> = read_gcode(&written(&report, "gcode").text)
-        .iter()
-        .map(|(.., p)| [p.x, p.y, p.z].map(|x| x * 1e3))
-        .collect();
+    let (_, program) = read_back(&report, "gcode", &Options::default());
+    let points: Vec<_> = chain(&program).iter().map(|p| [p.x, p.y, p.z].map(|x| x * 1e3)).collect();
     let mut again = changes.to_vec();
     again.retain(|(key, _)| *key != "path");
     again.push(("path", json!({"kind":"polyline","points_mm":points})));

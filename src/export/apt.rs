@@ -11,9 +11,8 @@ use crate::units::{INCH, MM, RPM};
 
 /// The program, in mm or, if the original is, in inches.
 pub fn program(report: &Report, command: &Command) -> String {
-    let inch = report.setup.listing.as_ref().is_some_and(|listing| listing.program.unit == "inch");
     let (unit, size, decimals, per_minute) =
-        if inch { ("INCHES", INCH, 6, "IPM") } else { ("MM", MM, 5, "MMPM") };
+        if command.style.inch { ("INCHES", INCH, 6, "IPM") } else { ("MM", MM, 5, "MMPM") };
     let tilted = command.is_tilted();
     let goto = |point: &Point| {
         let [x, y, z] = point.position.map(|x| number(x / size, decimals)).into();
@@ -42,11 +41,11 @@ pub fn program(report: &Report, command: &Command) -> String {
         if block.wait > 0.0 {
             lines.push(format!("DELAY/{}", number(block.wait, 4)));
         }
-        if !block.rapid && feed != Some(block.feed) && !block.points.is_empty() {
+        if !block.rapid && feed != Some(block.feed) && !block.steps.is_empty() {
             feed = Some(block.feed);
             lines.push(format!("FEDRAT/{},{per_minute}", number(block.feed / (size * RPM), 4)));
         }
-        for point in &block.points {
+        for point in block.points() {
             if block.rapid {
                 lines.push("RAPID".into());
             }

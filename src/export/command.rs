@@ -1,24 +1,40 @@
 //! The compensated path as a program: the commanded samples of each move, thinned, in the workpiece frame.
 //!
+//! A move becomes straight moves; where a language has arcs and the move is one about an axis of the workpiece frame, as few arcs as do.
 //! A sample belongs to the move that holds its arc length; a block ends where the correction at the move's own end puts it. Samples
 //! at rest in a corner belong to the move that follows: while the tool waits, the correction goes over from one direction of feed to the next.
 
 use crate::error::Error;
+use crate::export::arc::{self, Step, rounded};
 use crate::export::thin::{self, Point};
 use crate::math::Pose;
-use crate::path::{MovePace, Path};
+use crate::path::{MovePace, Path, Segment};
 use crate::report::{Report, millimetres};
-use crate::units::{MM, RPM};
+use crate::units::{INCH, MM, RPM};
 use nalgebra::{Matrix3, Vector3};
 
-/// Finest thinning tolerance [m]; what is written is rounded to [`RESOLUTION`].
+/// Finest thinning tolerance [m].
 pub const FINEST: f64 = 1e-7;
 /// Coarsest thinning tolerance [m].
 pub const COARSEST: f64 = 1e-2;
-/// Positions are written in steps of this size [m].
-pub const RESOLUTION: f64 = 1e-8;
 /// A commanded move's feed is at most this many times the desired one's.
 const STRETCH: f64 = 2.0;
+
+/// How a language says a path.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Style {
+    /// Whether it has arcs.
+    pub arcs: bool,
+    /// Whether lengths are in inches, with six decimals, instead of in mm with five.
+    pub inch: bool,
+}
+
+impl Style {
+    /// Positions are written in steps of this size [m].
+    pub fn resolution(self) -> f64 {
+        if self.inch { INCH * 1e-6 } else { MM * 1e-5 }
+    }
+}
 
 /// The compensated path as moves of a program.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +49,8 @@ pub struct Command {
     pub deviation: f64,
     /// Number of commanded samples.
     pub samples: usize,
+    /// How it is to be said.
+    pub style: Style,
     /// The desired path in the workpiece frame.
     path: Path,
 }
@@ -52,8 +70,8 @@ pub struct Block {
     pub wait: f64,
     /// Whether the tool comes to rest at its end.
     pub stops: bool,
-    /// Ends of its straight moves, in order; none if the block moves less than can be written.
-    pub points: Vec<Point>,
+    /// Its moves in order; none if the block moves less than can be written.
+    pub steps: Vec<Step>,
 }
 
 impl Command {
@@ -62,7 +80,7 @@ impl Command {
     /// # Errors
     /// [`Error::OutOfRange`] for a tolerance that is not from [`FINEST`] to [`COARSEST`]; [`Error::Invalid`] if what is left strays
     /// further from the samples than that.
-    pub fn new(report: &Report, thinning: Option<f64>) -> Result<Self, Error> {
+    pub fn new(report: &Report, thinning: Option<f64>, style: Style) -> Result<Self, Error> {
         let thinning = thinning.unwrap_or((report.setup.goal.tolerance / 10.0).clamp(FINEST, COARSEST));
         if !(FINEST..=COARSEST).contains(&thinning) {
             return Err(Error::OutOfRange {
@@ -75,18 +93,18 @@ impl Command {
         }
         let back = report.setup.workpiece.inverse();
         let path = report.plan.path.placed(&back);
-        let pieces = pieces(report, &path, &back);
         let mut start = None;
+        let mut end: Option<Point> = None;
         let mut deviation = 0.0_f64;
-        let mut blocks = Vec::with_capacity(pieces.len());
-        for (index, piece) in pieces.iter().enumerate() {
-            let kept = thin::thin(&piece.points, thinning - RESOLUTION);
-            let mut written: Vec<Point> = kept.iter().map(|&k| rounded(&piece.points[k])).collect();
-            deviation = deviation.max(thin::deviation(&piece.points, &kept, &written));
-            start.get_or_insert(written[0]);
-            written.dedup();
-            written.remove(0);
-            let step = &path.moves()[index];
+        let mut blocks = Vec::with_capacity(path.moves().len());
+        for (step, mut piece) in path.moves().iter().zip(pieces(report, &path, &back)) {
+            // A move starts where the one before ends as written.
+            let first = end.unwrap_or_else(|| rounded(&piece.points[0], style.resolution()));
+            piece.points[0] = first;
+            start.get_or_insert(first);
+            let (steps, strayed) = steps(&piece.points, &step.segment, thinning, style);
+            end = Some(steps.last().map_or(first, |last| last.to));
+            deviation = deviation.max(strayed);
             let feed = match step.pace {
                 MovePace::Rapid => report.setup.tempo.rapid,
                 MovePace::Feed(feed) => feed * piece.stretch,
@@ -101,7 +119,7 @@ impl Command {
                     .unwrap_or(report.setup.teeth_per_second / f64::from(report.setup.cut.flutes)),
                 wait: piece.wait,
                 stops: true,
-                points: written,
+                steps,
             });
         }
         let ends = path.moves().len();
@@ -120,18 +138,18 @@ impl Command {
             });
         }
         let start = start.unwrap_or(Point { position: path.point(0.0), axis: path.axis(0.0) });
-        Ok(Self { start, blocks, thinning, deviation, samples: report.samples(), path })
+        Ok(Self { start, blocks, thinning, deviation, samples: report.samples(), style, path })
     }
 
     /// Number of points, the start included.
     pub fn points(&self) -> usize {
-        1 + self.blocks.iter().map(|block| block.points.len()).sum::<usize>()
+        1 + self.blocks.iter().map(|block| block.steps.len()).sum::<usize>()
     }
 
     /// Whether the tool axis is other than +Z of the workpiece frame anywhere.
     pub fn is_tilted(&self) -> bool {
         let tilted = |point: &Point| (point.axis - Vector3::z()).norm() > 1e-9;
-        tilted(&self.start) || self.blocks.iter().flat_map(|block| &block.points).any(tilted)
+        tilted(&self.start) || self.blocks.iter().flat_map(Block::points).any(tilted)
     }
 
     /// Orientation of the TCP in the workpiece frame (see [`Path::orientation`]).
@@ -141,6 +159,11 @@ impl Command {
 }
 
 impl Block {
+    /// Ends of its moves, in order.
+    pub fn points(&self) -> impl DoubleEndedIterator<Item = &Point> + ExactSizeIterator {
+        self.steps.iter().map(|step| &step.to)
+    }
+
     /// Spindle speed [rev/min].
     pub fn rpm(&self) -> f64 {
         self.spindle / RPM
@@ -171,12 +194,14 @@ fn pieces(report: &Report, path: &Path, back: &Pose) -> Vec<Piece> {
         let (start, end) = (path.start(index), path.start(index + 1));
         let is_last = index + 1 == path.moves().len();
         let mut points: Vec<Point> = previous_end.into_iter().collect();
+        let mut desired: Vec<_> = previous_end.iter().map(|_| path.point(start)).collect();
         let mut resting = 0;
         while k <= last && (is_last || arc_length[k] < end) {
             if index > 0 && arc_length[k] == start && trajectory.pace.speed[k] == 0.0 {
                 resting += 1;
             }
             points.push(sample(k));
+            desired.push(back.point(&trajectory.position[k]));
             k += 1;
         }
         if !is_last && k > 0 && k <= last {
@@ -189,19 +214,51 @@ fn pieces(report: &Report, path: &Path, back: &Pose) -> Vec<Piece> {
                     + back.direction(&(correction[k - 1] * (1.0 - t) + correction[k] * t)),
                 axis: turned.normalize(),
             });
+            desired.push(path.point(end));
         }
         previous_end = points.last().copied();
         // One sample alone that happens to fall on a corner is no wait.
         let wait = if resting > 1 { resting as f64 * trajectory.sample_time } else { 0.0 };
-        let travelled = &points[resting.min(points.len() - 1)..];
-        let length: f64 = travelled.windows(2).map(|pair| (pair[1].position - pair[0].position).norm()).sum();
+        let travelled = resting.min(points.len() - 1);
+        let commanded = length(points[travelled..].iter().map(|point| point.position));
+        // By the same samples, so that a move without a correction keeps its feed to the last digit.
+        let desired = length(desired[travelled..].iter().copied()).max(f64::MIN_POSITIVE);
         // A move that is shorter than its correction changes along it says nothing about speed.
-        let stretch = (length / (end - start)).clamp(1.0 / STRETCH, STRETCH);
+        let stretch = (commanded / desired).clamp(1.0 / STRETCH, STRETCH);
         pieces.push(Piece { points, wait, stretch });
     }
     pieces
 }
 
-fn rounded(point: &Point) -> Point {
-    Point { position: point.position.map(|x| (x / RESOLUTION).round() * RESOLUTION), axis: point.axis }
+/// Length of the straight moves between points [m].
+fn length(mut points: impl Iterator<Item = Vector3<f64>>) -> f64 {
+    let Some(mut last) = points.next() else { return 0.0 };
+    points.map(|point| (point - std::mem::replace(&mut last, point)).norm()).sum()
+}
+
+/// A move's samples as few moves, and how far they are from these at most [m].
+fn steps(points: &[Point], segment: &Segment, thinning: f64, style: Style) -> (Vec<Step>, f64) {
+    let resolution = style.resolution();
+    // Rounding moves the ends of straight moves, and what a control makes of a rounded centre the arcs.
+    let tolerance = thinning - resolution;
+    let kept = thin::thin(points, tolerance);
+    let mut written: Vec<Point> = kept.iter().map(|&k| rounded(&points[k], resolution)).collect();
+    let deviation = thin::deviation(points, &kept, &written);
+    written.dedup();
+    let straight: Vec<Step> = written.into_iter().skip(1).map(|to| Step { to, arc: None }).collect();
+    if let Some(normal) = turning_about(segment).filter(|_| style.arcs && straight.len() > 1) {
+        let (turned, strayed) = arc::steps(points, normal, tolerance - resolution, resolution);
+        if turned.len() < straight.len() {
+            return (turned, strayed);
+        }
+    }
+    (straight, deviation)
+}
+
+/// The axis of the workpiece frame about which an arc turns, if it does.
+fn turning_about(segment: &Segment) -> Option<usize> {
+    let Segment::Arc { u, v, .. } = segment else { return None };
+    let normal = u.cross(v);
+    // What is left of a tilt is measured with the rest.
+    (0..3).find(|&axis| normal[axis].abs() > 1.0 - 1e-6)
 }

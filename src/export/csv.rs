@@ -33,7 +33,7 @@ pub fn path(report: &Report, command: &Command) -> String {
     };
     row(&command.start, command.blocks.first().map_or(report.setup.tempo.feed, |block: &Block| block.feed));
     for block in &command.blocks {
-        for point in &block.points {
+        for point in block.points() {
             row(point, block.feed);
         }
     }

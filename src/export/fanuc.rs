@@ -43,7 +43,7 @@ pub fn program(report: &Report, command: &Command) -> String {
         }
         let speed = number(block.feed / MM, 3);
         let speed = speed.trim_end_matches(".0");
-        for point in &block.points {
+        for point in block.points() {
             points.push(point);
             code.push(format!("L P[{}] {speed}mm/sec FINE    ;", points.len()));
         }

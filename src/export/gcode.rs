@@ -1,23 +1,29 @@
 //! The compensated path as G-code (RS-274, ISO 6983).
 //!
 //! A program that was read from G-code keeps its lines, block numbers, comments, spindle and auxiliary words; only what tells
-//! positions, modes and feeds is written anew. A block that stays one straight move stays one block; others are split into straight moves within the thinning
-//! tolerance, behind a comment with the original. All else becomes a plain program. Points are absolute, in the workpiece frame, in the original's unit of length:
-//! its work offsets and tool lengths are in them already.
+//! positions, modes and feeds is written anew. A block that stays one straight move or one arc stays one block; others are split within
+//! the thinning tolerance, arcs into arcs where these are fewer, behind a comment with the original. All else becomes a plain program. Points are
+//! absolute, in the workpiece frame, in the original's unit of length: its work offsets and tool lengths are in them already. I, J and K
+//! count from the start of the arc (G91.1); P counts turns where an arc has more than one.
 
 use crate::error::Error;
+use crate::export::arc::Step;
 use crate::export::command::{Block, Command};
 use crate::export::header::{self, number};
-use crate::export::thin::Point;
 use crate::path::Listing;
 use crate::report::Report;
 use crate::units::{INCH, MM, RPM};
+use nalgebra::Vector3;
 use std::fmt::Write;
 
+/// The plane across each axis.
+const PLANES: [&str; 3] = ["G19", "G18", "G17"];
 /// M words that act after the motion of their block.
 const AFTER: [&str; 7] = ["M0", "M1", "M2", "M5", "M9", "M30", "M60"];
 /// Letters of words that are written anew with every block.
-const REPLACED: [char; 4] = ['X', 'Y', 'Z', 'F'];
+const REPLACED: [char; 9] = ['X', 'Y', 'Z', 'F', 'I', 'J', 'K', 'R', 'P'];
+/// Codes that are written anew with every block.
+const MOTION: [&str; 7] = ["G0", "G1", "G2", "G3", "G17", "G18", "G19"];
 
 /// The program.
 ///
@@ -35,11 +41,12 @@ pub fn program(report: &Report, command: &Command) -> Result<String, Error> {
         report.setup.listing.as_ref().filter(|listing| {
             listing.language == "gcode" && command.blocks.is_sorted_by_key(|block| block.line)
         });
-    let unit = match &report.setup.listing {
-        Some(listing) if listing.program.unit == "inch" => Unit { word: "G20", size: INCH, decimals: 6 },
-        _ => Unit { word: "G21", size: MM, decimals: 5 },
+    let unit = match command.style.inch {
+        true => Unit { word: "G20", size: INCH, decimals: 6 },
+        false => Unit { word: "G21", size: MM, decimals: 5 },
     };
-    let mut writer = Writer { text: String::new(), unit, motion: "", feed: String::new() };
+    let (text, feed, at) = (String::new(), String::new(), command.start.position);
+    let mut writer = Writer { text, unit, at, motion: "", plane: PLANES[2], feed };
     let header: Vec<String> =
         header::lines(report, Some(command)).into_iter().map(|line| format!("({line})")).collect();
     match original {
@@ -58,8 +65,12 @@ struct Unit {
 struct Writer {
     text: String,
     unit: Unit,
-    /// G0 or G1, as last written.
+    /// Where the tool is [m].
+    at: Vector3<f64>,
+    /// G0 to G3, as last written.
     motion: &'static str,
+    /// G17, G18 or G19, as last written.
+    plane: &'static str,
     /// Feed word as last written.
     feed: String,
 }
@@ -70,26 +81,53 @@ impl Writer {
         self.text.push('\n');
     }
 
-    fn preamble(&mut self, header: &[String]) {
+    fn preamble(&mut self, header: &[String], centers: &str) {
         for line in header {
             self.line(line);
         }
         let unit = self.unit.word;
-        self.line(&format!("{unit} G17 G40 G49 G80 G90 G94"));
+        self.line(&format!("{unit} G17 G40 G49 G80 G90 G94{centers}"));
     }
 
-    /// The words of one straight move.
-    fn words(&mut self, point: &Point, rapid: bool, feed: f64) -> String {
+    /// The words of one move.
+    fn words(&mut self, step: &Step, rapid: bool, feed: f64) -> String {
         let mut words = String::new();
-        let motion = if rapid { "G0" } else { "G1" };
+        let motion = match step.arc {
+            None if rapid => "G0",
+            None => "G1",
+            Some(arc) if arc.sweep < 0.0 => "G2",
+            Some(_) => "G3",
+        };
+        if let Some(arc) = step.arc
+            && self.plane != PLANES[arc.normal]
+        {
+            self.plane = PLANES[arc.normal];
+            words.push_str(self.plane);
+            words.push(' ');
+        }
         if self.motion != motion {
             words.push_str(motion);
             self.motion = motion;
         }
-        for (letter, value) in ['X', 'Y', 'Z'].into_iter().zip(point.position.iter()) {
-            // Writing to a string cannot fail.
+        // Writing to a string cannot fail.
+        let mut length = |letter: char, value: f64| {
             let _ = write!(words, " {letter}{}", number(value / self.unit.size, self.unit.decimals));
+        };
+        for (letter, value) in ['X', 'Y', 'Z'].into_iter().zip(step.to.position.iter()) {
+            length(letter, *value);
         }
+        if let Some(arc) = step.arc {
+            let offset = arc.center - self.at;
+            let in_plane = |(axis, _): &(usize, char)| *axis != arc.normal;
+            for (axis, letter) in ['I', 'J', 'K'].into_iter().enumerate().filter(in_plane) {
+                length(letter, offset[axis]);
+            }
+            let turns = arc.turns();
+            if turns > 1.0 {
+                let _ = write!(words, " P{turns}");
+            }
+        }
+        self.at = step.to.position;
         if !rapid {
             let feed = format!(" F{}", number(feed / (self.unit.size * RPM), 4));
             if self.feed != feed {
@@ -98,6 +136,19 @@ impl Writer {
             }
         }
         words
+    }
+
+    fn start(&mut self, command: &Command) {
+        let words = self.words(&Step { to: command.start, arc: None }, true, 0.0);
+        self.line(&words);
+    }
+
+    /// The moves of a block, a line each.
+    fn moves(&mut self, block: &Block) {
+        for step in &block.steps {
+            let words = self.words(step, block.rapid, block.feed);
+            self.line(&words);
+        }
     }
 
     fn wait(&mut self, block: &Block) {
@@ -111,11 +162,10 @@ impl Writer {
 
     fn plain(&mut self, command: &Command, header: &[String]) {
         self.line("%");
-        self.preamble(header);
+        self.preamble(header, "");
         let mut spindle = None;
         let mut line = 0;
-        let start = self.words(&command.start, true, 0.0);
-        self.line(&start);
+        self.start(command);
         for block in &command.blocks {
             if block.line != line {
                 line = block.line;
@@ -126,10 +176,7 @@ impl Writer {
                 self.line(&format!("S{} M3", number(block.rpm(), 2)));
             }
             self.wait(block);
-            for point in &block.points {
-                let words = self.words(point, block.rapid, block.feed);
-                self.line(&words);
-            }
+            self.moves(block);
         }
         self.line("M5");
         self.line("M30");
@@ -144,7 +191,11 @@ impl Writer {
             let source = Source::of(line);
             // The header follows what must be first: the tape mark and the program's number.
             if !(preamble || source.code.starts_with(['%', 'O'])) {
-                self.preamble(header);
+                // A control that knows one of these needs to be told; others would refuse it.
+                let knows = |line| {
+                    words(&uncommented(line).0).iter().any(|word| ["G90.1", "G91.1"].contains(&word.as_str()))
+                };
+                self.preamble(header, if listing.text.lines().any(knows) { " G91.1" } else { "" });
                 preamble = true;
             }
             let mut own = Vec::new();
@@ -153,8 +204,7 @@ impl Writer {
             }
             if !own.is_empty() && !started {
                 started = true;
-                let start = self.words(&command.start, true, 0.0);
-                self.line(&start);
+                self.start(command);
             }
             self.block(&source, &own);
         }
@@ -162,15 +212,16 @@ impl Writer {
 
     /// One line of the original, with the blocks that its moves have become.
     fn block(&mut self, source: &Source, blocks: &[&Block]) {
-        let moves: usize = blocks.iter().map(|block| block.points.len()).sum();
+        let moves: usize = blocks.iter().map(|block| block.steps.len()).sum();
         if let Some(first) = blocks.first() {
             self.wait(first);
         }
-        let stays = moves == 1 && blocks.len() == 1 && source.simple;
-        let was = if stays || !source.dropped { String::new() } else { format!("(was: {})", source.code) };
+        let stays = moves == 1 && blocks.len() == 1;
+        let said = stays && source.simple || !source.dropped;
+        let was = if said { String::new() } else { format!("(was: {})", source.code) };
         let one: String = match (stays, blocks) {
             (true, [block, ..]) => {
-                block.points.iter().map(|point| self.words(point, block.rapid, block.feed)).collect()
+                block.steps.iter().map(|step| self.words(step, block.rapid, block.feed)).collect()
             }
             _ => String::new(),
         };
@@ -183,10 +234,7 @@ impl Writer {
             if index > 0 {
                 self.wait(block);
             }
-            for point in &block.points {
-                let words = self.words(point, block.rapid, block.feed);
-                self.line(&words);
-            }
+            self.moves(block);
         }
         if !source.after.is_empty() {
             self.line(&source.after);
@@ -212,7 +260,7 @@ struct Source {
     comments: String,
     /// Whether it has words that do not stay.
     dropped: bool,
-    /// Whether these are no more than G0 or G1, positions and a feed.
+    /// Whether these are no more than a motion, its plane, positions and a feed.
     simple: bool,
 }
 
@@ -244,9 +292,8 @@ impl Source {
                 'G' if ["G61", "G61.1", "G64"].contains(&word.as_str()) => &mut source.before,
                 'P' if blending => &mut source.before,
                 _ => {
-                    let line = ["G0", "G1"].contains(&unpadded(&word).as_str());
                     source.dropped = true;
-                    source.simple &= line || REPLACED.contains(&letter);
+                    source.simple &= MOTION.contains(&unpadded(&word).as_str()) || REPLACED.contains(&letter);
                     continue;
                 }
             };

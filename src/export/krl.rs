@@ -50,7 +50,7 @@ pub fn program(report: &Report, command: &Command) -> String {
             feed = Some(block.feed);
             lines.push(format!("$VEL.CP={}", number(block.feed, 7)));
         }
-        lines.extend(block.points.iter().map(|point| format!("LIN {}", at(point))));
+        lines.extend(block.points().map(|point| format!("LIN {}", at(point))));
     }
     lines.extend(["END".into(), String::new()]);
     lines.join("\n")

@@ -1,6 +1,7 @@
 //! Files to take away: tables of numbers, and the compensated path as a program for a machine or a robot.
 
 pub mod thin;
+pub mod arc;
 pub mod orientation;
 pub mod command;
 pub mod header;
@@ -14,7 +15,7 @@ pub mod fanuc;
 
 use crate::error::Error;
 use crate::report::Report;
-use command::Command;
+use command::{Command, Style};
 
 /// A kind of file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -36,7 +37,7 @@ pub const FORMATS: [Format; 10] = [
     Format { id: "compensated-csv", name: "Compensated samples", extension: "csv", note: "Time, position in the base frame and joint commands, one row a sample." },
     Format { id: "path-csv", name: "Compensated points", extension: "csv", note: "Thinned points in the workpiece frame with tool axis and feed." },
     Format { id: "joints-csv", name: "Joint commands", extension: "csv", note: "Time and six joint values at the sample time." },
-    Format { id: "gcode", name: "G-code", extension: "nc", note: "Three axes; a program read from G-code keeps its block numbers and auxiliary words." },
+    Format { id: "gcode", name: "G-code", extension: "nc", note: "Three axes, with arcs; a program read from G-code keeps its block numbers and auxiliary words." },
     Format { id: "apt", name: "APT", extension: "apt", note: "Cutter location text, with the tool axis where it turns." },
     Format { id: "krl", name: "KUKA KRL", extension: "src", note: "Exact stop at every point until you turn blending on. Not tried on a controller." },
     Format { id: "rapid", name: "ABB RAPID", extension: "mod", note: "Zones z0, stops fine; enter the tool's load. Not tried on a controller." },
@@ -86,7 +87,9 @@ pub fn export(report: &Report, id: &str, options: &Options) -> Result<Export, Er
         "joints-csv" => return table(csv::joints(report)),
         _ => {}
     }
-    let command = Command::new(report, options.thinning)?;
+    let inches = report.setup.listing.as_ref().is_some_and(|listing| listing.program.unit == "inch");
+    let style = Style { arcs: id == "gcode", inch: inches && ["gcode", "apt"].contains(&id) };
+    let command = Command::new(report, options.thinning, style)?;
     let text = match id {
         "gcode" => gcode::program(report, &command)?,
         "apt" => apt::program(report, &command),

@@ -67,8 +67,8 @@ pub fn program(report: &Report, command: &Command) -> String {
             lines.push(format!("    WaitTime \\InPos,{};", number(block.wait, 4)));
         }
         let speed = name(block.feed);
-        for (index, point) in block.points.iter().enumerate() {
-            let zone = if block.stops && index + 1 == block.points.len() { "fine" } else { "z0" };
+        for (index, point) in block.points().enumerate() {
+            let zone = if block.stops && index + 1 == block.steps.len() { "fine" } else { "z0" };
             lines.push(format!("    MoveL {},{speed},{zone},tMill\\WObj:=wPart;", target(command, point)));
         }
     }

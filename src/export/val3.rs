@@ -59,7 +59,7 @@ pub fn program(report: &Report, command: &Command) -> String {
             feed = Some(block.feed);
             lines.push(format!("  mPath.tvel={}", number(block.feed / MM, 4)));
         }
-        for point in &block.points {
+        for point in block.points() {
             lines.extend([format!("  pPath.trsf={}", at(point)), "  movel(pPath,tMill,mPath)".into()]);
         }
     }

@@ -107,12 +107,19 @@ impl Path {
     }
 }
 
+/// Lines from one word about progress to the next.
+const TELL_LINES: usize = 2048;
+
 /// JSON path of the text of a program.
 const TEXT: &str = "path.text";
 
 impl Job {
     /// The desired path in the workpiece frame, with the program it was read from, if it was.
-    pub(super) fn desired_path(&self) -> Result<(path::Path, Option<Listing>), Error> {
+    /// `on_read` hears which share of the program is read.
+    pub(super) fn desired_path(
+        &self,
+        on_read: impl FnMut(f64),
+    ) -> Result<(path::Path, Option<Listing>), Error> {
         fields::check_path_keys(self)?;
         let kind = self.path.kind;
         let language = match kind {
@@ -122,21 +129,29 @@ impl Job {
             _ => return self.shape().map(|path| (path, None)),
         };
         let text = self.path.text.as_ref().ok_or_else(|| need("text"))?;
-        let program = self.program(kind, text)?;
+        let program = self.program(kind, text, on_read)?;
         let path = path::Path::of_program(&program).ok_or_else(|| {
             invalid(TEXT, "a text without a move", "two positions or more that are not all the same")
         })?;
         Ok((path, Some(Listing { language, text: text.clone(), program })))
     }
 
-    fn program(&self, kind: PathKind, text: &str) -> Result<Program, Error> {
+    fn program(&self, kind: PathKind, text: &str, mut on_read: impl FnMut(f64)) -> Result<Program, Error> {
+        let lines = text.lines().count() as f64;
+        let mut next = TELL_LINES;
+        let on_line = |line: usize| {
+            if line >= next {
+                next = line + TELL_LINES;
+                on_read(line as f64 / lines);
+            }
+        };
         let given = &self.path;
         let unit = match given.unit.unwrap_or_default() {
             Unit::Mm => LengthUnit::Mm,
             Unit::Inch => LengthUnit::Inch,
         };
         match kind {
-            PathKind::Apt => apt::program(text, &apt::Options { field: TEXT, unit }),
+            PathKind::Apt => apt::program(text, &apt::Options { field: TEXT, unit }, on_line),
             PathKind::Gcode => {
                 let lengths = given.tool_length_offsets_mm.iter().flatten();
                 let mut work_offsets = [None; 9];
@@ -159,7 +174,7 @@ impl Job {
                     block_delete: given.block_delete.unwrap_or(true),
                     ..gcode::Options::default()
                 };
-                gcode::program(text, &options, |_| {})
+                gcode::program(text, &options, on_line)
             }
             _ => {
                 let feed_unit = match given.feed_unit.unwrap_or_default() {
@@ -167,7 +182,7 @@ impl Job {
                     FeedUnit::MmPerMin => unit::FeedUnit::MmPerMin,
                     FeedUnit::InchPerMin => unit::FeedUnit::InchPerMin,
                 };
-                csv::program(text, &csv::Options { field: TEXT, unit, feed_unit })
+                csv::program(text, &csv::Options { field: TEXT, unit, feed_unit }, on_line)
             }
         }
     }

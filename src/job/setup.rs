@@ -55,13 +55,21 @@ impl Job {
     /// # Errors
     /// The first thing that is not legal, with its field, value and what would be legal.
     pub fn setup(&self) -> Result<Setup, Error> {
+        self.setup_with(|_| {})
+    }
+
+    /// The same; `on_read` hears now and then which share of a program is read.
+    ///
+    /// # Errors
+    /// See [`Job::setup`].
+    pub fn setup_with(&self, on_read: impl FnMut(f64)) -> Result<Setup, Error> {
         if self.version != 1 {
             return Err(invalid("version", self.version, "this Armill reads version 1"));
         }
         fields::check_ranges(self)?;
         let robot = self.arm()?.with_tool(frame(&self.tool_frame));
         let workpiece = frame(&self.workpiece_frame);
-        let (path, listing) = self.desired_path()?;
+        let (path, listing) = self.desired_path(on_read)?;
         let path = path.placed(&workpiece);
         let (shaper, mode) = self.input_shaper()?;
         let cut = self.cut()?;

@@ -1,9 +1,12 @@
-//! What the tests of exports share: jobs, and a reader of our own G-code that knows nothing of its writer.
+//! What the tests of exports share: jobs, programs, and the readers for what is written.
 
 use armill::Report;
 use armill::export::{Export, Options, export};
+use armill::path::unit::{FeedUnit, LengthUnit};
+use armill::path::{Program, Segment, apt, csv, gcode};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
 
 /// Jobs of a size that many tests can run: name and changes of the default job.
 pub(crate) fn small_jobs() -> [(&'static str, Vec<(&'static str, Value)>); 3] {
@@ -64,34 +67,58 @@ pub(crate) fn largest_distance(points: &[Vector3<f64>], chain: &[Vector3<f64>]) 
     points.iter().map(|p| distance(p, chain)).fold(0.0, f64::max)
 }
 
-/// Points of our own G-code [m], with line, rapid and feed [m/s]: absolute, modal, comments out.
-pub(crate) fn read_gcode(text: &str) -> Vec<(usize, bool, f64, Vector3<f64>)> {
-    let (mut at, mut rapid, mut feed, mut size) = (Vector3::zeros(), false, 0.0, f64::NAN);
-    let mut points = Vec::new();
-    for (index, line) in text.lines().enumerate() {
-        let mut code = line.to_owned();
-        while let (Some(open), Some(close)) = (code.find('('), code.find(')')) {
-            code.replace_range(open..=close, "");
+/// What the crate's own reader makes of an export.
+pub(crate) fn read_back(report: &Report, id: &str, options: &Options) -> (Export, Program) {
+    let export = export(report, id, options).unwrap();
+    let program = match id {
+        "gcode" => gcode::program(&export.text, &gcode::Options::default(), |_| {}),
+        "apt" => {
+            apt::program(&export.text, &apt::Options { field: "path.text", unit: LengthUnit::Mm }, |_| {})
         }
-        let mut moved = false;
-        for word in code.split_whitespace() {
-            let value = || word[1..].parse::<f64>().unwrap();
-            match word {
-                "G20" => size = 25.4e-3,
-                "G21" => size = 1e-3,
-                "G0" => rapid = true,
-                "G1" => rapid = false,
-                "G2" | "G3" | "G91" => panic!("{word} in {line}"),
-                _ => match word.as_bytes()[0] {
-                    axis @ b'X'..=b'Z' => (at[usize::from(axis - b'X')], moved) = (value() * size, true),
-                    b'F' => feed = value() * size / 60.0,
-                    _ => {}
-                },
-            }
+        "path-csv" => {
+            let options =
+                csv::Options { field: "path.text", unit: LengthUnit::Mm, feed_unit: FeedUnit::MmPerS };
+            csv::program(&export.text, &options, |_| {})
         }
-        if moved {
-            points.push((index + 1, rapid, feed, at));
-        }
-    }
-    points
+        _ => panic!("{id} is not read"),
+    };
+    let program = program.unwrap_or_else(|error| panic!("{id}: {error}\n{}", export.text));
+    (export, program)
+}
+
+/// Points along the moves of a program [m]: the start, then ends, and between the ends of arcs so many that chords are within 0.1 um.
+pub(crate) fn chain(program: &Program) -> Vec<Vector3<f64>> {
+    let along = |segment: &Segment| {
+        let pieces = match segment {
+            Segment::Line { .. } => 1,
+            Segment::Arc { radius, sweep, .. } => (sweep * (radius / 8e-7).sqrt()).ceil() as usize,
+        };
+        let length = segment.length();
+        (1..=pieces).map(|i| segment.point(length * i as f64 / pieces as f64)).collect::<Vec<_>>()
+    };
+    let start = program.moves.first().map(|step| step.segment.point(0.0));
+    start.into_iter().chain(program.moves.iter().flat_map(|step| along(&step.segment))).collect()
+}
+
+/// File and kind of the example programs of the page.
+pub(crate) fn examples() -> Vec<(String, String)> {
+    let text = std::fs::read_to_string(folder().join("index.json")).unwrap();
+    let index: Vec<Value> = serde_json::from_str(&text).unwrap();
+    let of = |entry: &Value, key: &str| entry[key].as_str().unwrap().to_owned();
+    index.iter().map(|entry| (of(entry, "file"), of(entry, "kind"))).collect()
+}
+
+/// An example in the default job, with a cut and a mode as a milling robot has them.
+pub(crate) fn example(file: &str, kind: &str) -> Vec<(&'static str, Value)> {
+    let text = std::fs::read_to_string(folder().join(file)).unwrap();
+    vec![
+        ("path", json!({"kind": kind, "text": text})),
+        ("cutting.axial_depth_mm", json!(2)),
+        ("shaper", json!({"kind": "zvd", "frequency_hz": 10, "damping": 0.03})),
+    ]
+}
+
+/// Where the example programs are.
+pub(crate) fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("web/examples")
 }

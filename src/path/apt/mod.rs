@@ -36,10 +36,10 @@ pub struct Options<'a> {
     pub unit: LengthUnit,
 }
 
-/// Reads an APT or CLDATA text.
+/// Reads an APT or CLDATA text; `on_line` hears the number of lines done after each statement.
 ///
 /// # Errors
 /// [`Error::Text`] with line and column of the first word or number that cannot be followed, and what to do about it.
-pub fn program(text: &str, options: &Options<'_>) -> Result<Program, Error> {
-    reader::read(text, options)
+pub fn program(text: &str, options: &Options<'_>, on_line: impl FnMut(usize)) -> Result<Program, Error> {
+    reader::read(text, options, on_line)
 }

@@ -46,7 +46,11 @@ pub(super) struct Reader<'a> {
     pub(super) ended: Option<usize>,
 }
 
-pub(super) fn read(text: &str, options: &Options<'_>) -> Result<Program, Error> {
+pub(super) fn read(
+    text: &str,
+    options: &Options<'_>,
+    mut on_line: impl FnMut(usize),
+) -> Result<Program, Error> {
     let mut reader = Reader {
         field: options.field,
         draft: Draft::default(),
@@ -67,8 +71,9 @@ pub(super) fn read(text: &str, options: &Options<'_>) -> Result<Program, Error> 
         ended: None,
     };
     let mut statements = Statements::new(text, options.field);
-    for statement in statements.by_ref() {
+    while let Some(statement) = statements.next() {
         reader.follow(&statement?)?;
+        on_line(statements.count);
     }
     reader.finish(statements.count)
 }

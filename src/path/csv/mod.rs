@@ -29,14 +29,15 @@ pub struct Options<'a> {
     pub feed_unit: FeedUnit,
 }
 
-/// Reads rows of points, with or without tool axis and feed, into a program of straight moves.
+/// Reads rows of points, with or without tool axis and feed, into a program of straight moves; `on_line` hears the number of lines
+/// done after each row.
 ///
 /// A row at the place of the one before makes no move. Rows of whole numbers like `1,5,2,5`, without a header, are refused
 /// where nothing in the text says whether the commas are decimal signs.
 ///
 /// # Errors
 /// [`Error::Text`] with line and column of the first cell that is not what its column needs.
-pub fn program(text: &str, options: &Options<'_>) -> Result<Program, Error> {
+pub fn program(text: &str, options: &Options<'_>, mut on_line: impl FnMut(usize)) -> Result<Program, Error> {
     let mut draft = Draft::default();
     let mut rows = Rows::new(text, options.field, options.unit, Width::Any);
     while let Some(row) = rows.next_row()? {
@@ -63,6 +64,7 @@ pub fn program(text: &str, options: &Options<'_>) -> Result<Program, Error> {
         draft
             .line_to(Target { point: row.point, axis, pace, spindle: None, line: row.line })
             .map_err(|fault| fault.at(options.field, row.position(columns.axis.map_or(0, |axis| axis[0]))))?;
+        on_line(rows.lines());
     }
     if draft.program.moves.is_empty() {
         let expected = "a path has two rows or more that are not all the same point";

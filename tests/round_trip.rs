@@ -1,0 +1,142 @@
+//! Programs to take away, read back by the crate's own readers: they are the compensated path within the thinning tolerance, no more and no
+//! less, with its paces and spindle speeds.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+mod common;
+
+use armill::Report;
+use armill::export::Options;
+use armill::export::arc::Step;
+use armill::export::command::{Block, Command, Style};
+use armill::export::thin::LEVER;
+use armill::path::{Move, MovePace, Path, Program, Segment};
+use common::program::{example, examples, read_back, small_jobs};
+use common::run;
+use nalgebra::Vector3;
+
+/// Rounding of what is written: five decimals of a millimetre, six of an inch, nine of an axis.
+const ROUNDING: f64 = 4e-8;
+
+/// A tip [m] and the tool's axis there.
+type Pose = (Vector3<f64>, Vector3<f64>);
+
+/// Distance [m] of each of the points from the path, and where on the path it is nearest [m]. The nearest point is sought only around the
+/// last one, and the way must be followed to its end: backwards does not count.
+fn follow<'a>(name: &str, points: impl Iterator<Item = &'a Vector3<f64>>, path: &Path) -> Vec<(f64, f64)> {
+    const WINDOW: f64 = 3e-3;
+    let mut s = 0.0;
+    let nearest = points.map(|point| {
+        let closest = path.closest(point, s, WINDOW);
+        s = closest.s.clamp(0.0, path.length());
+        ((closest.point - point).norm(), s)
+    });
+    let nearest: Vec<_> = nearest.collect();
+    assert!(path.length() - s < WINDOW, "{name}: only followed to {s} of {} m", path.length());
+    nearest
+}
+
+/// Commanded poses in the workpiece frame, as many lists as the path has moves.
+fn samples(report: &Report) -> Vec<Vec<Pose>> {
+    let back = report.setup.workpiece.inverse();
+    let axes = report.compensation.axis.iter().map(|axis| back.direction(axis));
+    let mut samples = report.commanded().into_iter().map(|p| back.point(&p)).zip(axes);
+    let arc_length = &report.plan.trajectory.pace.arc_length;
+    let path = &report.plan.path;
+    let moves = path.moves().len();
+    let ends = (1..=moves).map(|i| if i == moves { f64::INFINITY } else { path.start(i) });
+    ends.scan(0, |from, end| {
+        let to = arc_length.partition_point(|s| *s < end);
+        Some(samples.by_ref().take(to - std::mem::replace(from, to)).collect())
+    })
+    .collect()
+}
+
+fn path_of(moves: &[Move]) -> Option<Path> {
+    Path::of_program(&Program { moves: moves.to_vec(), ..Program::default() })
+}
+
+fn is_the_compensated_path(name: &str, report: &Report, id: &str, thinning: f64) {
+    let (export, program) = read_back(report, id, &Options { thinning: Some(thinning) });
+    let name = format!("{name} as {id}, thinned to {thinning}");
+    assert!(export.deviation <= thinning, "{name}: {}", export.deviation);
+    let style = Style { arcs: id == "gcode", inch: program.unit == "inch" };
+    let command = Command::new(report, Some(thinning), style).unwrap();
+    assert_eq!(program.moves.len() + 1, command.points(), "{name}");
+    let mut moves = program.moves.as_slice();
+    for (block, commanded) in command.blocks.iter().zip(samples(report)) {
+        let own;
+        (own, moves) = moves.split_at(block.steps.len());
+        let name = format!("{name}, line {}", block.line);
+        for (read, step) in own.iter().zip(&block.steps) {
+            said(&format!("{name}, read in line {}", read.line), read, block, step, id);
+        }
+        // What was commanded is on what was read, tip and axis.
+        let Some(path) = path_of(own) else { continue };
+        let on = follow(&name, commanded.iter().map(|(tip, _)| tip), &path);
+        for ((distance, s), (_, axis)) in on.iter().zip(&commanded) {
+            let strayed = distance.max((path.axis(*s) - axis).norm() * LEVER);
+            assert!(
+                strayed <= export.deviation + ROUNDING,
+                "{name}: {strayed}, measured {}",
+                export.deviation
+            );
+        }
+        // What was read is on what was commanded: no move goes elsewhere. Between two samples, an arc may bulge from their chord.
+        let ends = [path.point(0.0), path.point(path.length())];
+        let tips = commanded.iter().map(|(tip, _)| *tip);
+        let points: Vec<_> = [ends[0]].into_iter().chain(tips).chain([ends[1]]).collect();
+        let lines = points.windows(2).map(|pair| Segment::Line { from: pair[0], to: pair[1] });
+        let Some(chain) = Path::new(lines.collect()) else { continue };
+        let steps = (path.length() / 1e-4).ceil();
+        let read: Vec<_> =
+            (0..=steps as usize).map(|i| path.point(path.length() * i as f64 / steps)).collect();
+        for (distance, _) in follow(&name, read.iter(), &chain) {
+            assert!(distance <= thinning + 3e-7, "{name}: a move strays by {distance}");
+        }
+    }
+}
+
+/// A move says what it should: where it ends, how fast, whether it cuts, at which speed of the spindle.
+fn said(name: &str, read: &Move, block: &Block, step: &Step, id: &str) {
+    let end = read.segment.point(read.segment.length());
+    assert!((end - step.to.position).norm() < ROUNDING, "{name}: {end}");
+    assert!((read.axis_to - step.to.axis).norm() < 1e-8, "{name}");
+    assert_eq!(matches!(read.segment, Segment::Arc { .. }), step.arc.is_some(), "{name}");
+    match read.pace {
+        MovePace::Rapid => assert!(block.rapid, "{name}"),
+        MovePace::Feed(feed) => {
+            assert!(!block.rapid || id == "path-csv", "{name}");
+            assert!((feed - block.feed).abs() < 3e-8, "{name}: {feed} for {}", block.feed);
+        }
+        MovePace::JobFeed => panic!("{name}: no feed"),
+    }
+    if let Some(spindle) = read.spindle {
+        assert!((spindle - block.spindle).abs() < 2e-4, "{name}: {spindle} for {}", block.spindle);
+    }
+}
+
+#[test]
+fn small_jobs_read_back() {
+    for (name, changes) in small_jobs() {
+        let report = run(&changes);
+        for thinning in [1e-7, 1e-6, 2e-5] {
+            for id in ["gcode", "apt", "path-csv"] {
+                is_the_compensated_path(name, &report, id, thinning);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_example_reads_back() {
+    for (file, kind) in examples() {
+        let report = run(&example(&file, &kind));
+        for thinning in [1e-6, 1e-5] {
+            for id in ["gcode", "apt", "path-csv"] {
+                if id != "gcode" || !report.plan.path.is_multi_axis() {
+                    is_the_compensated_path(&file, &report, id, thinning);
+                }
+            }
+        }
+    }
+}
