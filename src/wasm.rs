@@ -275,6 +275,13 @@ impl Run {
         }
     }
 
+    /// Contour error [mm] that comes out of a program (`gcode`, `apt` or `path-csv`), read back and sent through the model.
+    #[wasm_bindgen(unchecked_return_type = "Statistics")]
+    pub fn replay(&self, format: &str) -> Result<JsValue, JsValue> {
+        let outcome = export::replay::replay(&self.report, format, &export::Options::default());
+        object(&outcome.map_err(|error| thrown(&error))?.statistics())
+    }
+
     /// Hash over the bits of all columns.
     pub fn fingerprint(&self) -> String {
         self.report.fingerprint()

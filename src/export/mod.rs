@@ -12,6 +12,7 @@ pub mod krl;
 pub mod rapid;
 pub mod val3;
 pub mod fanuc;
+pub mod replay;
 
 use crate::error::Error;
 use crate::report::Report;

@@ -62,6 +62,9 @@ export const track = (most) => askShown("track", most);
 /** The shown result as text, "columns-csv" or "compensated-csv". */
 export const exported = (format) => askShown("export", format);
 
+/** Mean and largest contour error [mm] of the shown result's program, read back and run. */
+export const replayed = (format) => askShown("replay", format);
+
 /** The job of the shown result, as JSON text. */
 export const shownJob = () => good;
 

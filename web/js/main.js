@@ -197,6 +197,20 @@ async function save(format, name) {
   }
 }
 
+/** Reads the program just taken away back, runs it, and says what comes out: its points and timing are not the samples'. */
+async function tryProgram(id) {
+  if (id === "joints-csv") return;
+  const readable = ["gcode", "apt"].includes(id) ? id : "path-csv"; // robot programs have the same points
+  try {
+    const { max } = await core.replayed(readable);
+    const { tolerance_mm } = shown.summary;
+    const met = max <= tolerance_mm ? "within" : "beyond";
+    say(`The program, read back and run through the model: largest error ${formatNumber(max, 2)} mm, ${met} the tolerance of ${formatNumber(tolerance_mm, 2)} mm.`);
+  } catch (error) {
+    if (!error.fatal && error.code !== "cancelled") alertOn(`The program could not be tried: ${error.message}`);
+  }
+}
+
 /** Fills the panel "Thesis, recomputed" when it is first looked at: its rows stay the same. */
 async function recomputeThesis() {
   if (byId("thesis").tBodies[0].rows.length) return;
@@ -217,7 +231,7 @@ function wire() {
   byId("download-compensated").addEventListener("click", () => save("compensated-csv", "armill-compensated-path.csv"));
   byId("download-program").addEventListener("click", () => {
     const { id, extension } = formats[byId("export-format").selectedIndex];
-    save(id, `armill-${id}.${extension}`);
+    save(id, `armill-${id}.${extension}`).then(() => tryProgram(id));
   });
   byId("inputs-toggle").addEventListener("click", () => foldInputs(byId("inputs").classList.contains("open")));
   byId("form").addEventListener("submit", (event) => event.preventDefault());

@@ -35,6 +35,7 @@ const answers = {
   chart: (name, options) => run.chart(name, options),
   data: (name, units) => run.chart_data(name, units),
   export: (format) => run.export(format),
+  replay: (format) => run.replay(format),
   release,
   thesis: () => armill.thesis_recomputed(),
   trap: () => armill.trap(),

@@ -1,0 +1,172 @@
+//! What comes out of a program, not of the samples it was made from: the file is read back and sent through the whole model.
+//!
+//! The second run has its own timing: the program's moves, feeds, corners and waits, under the job's acceleration. The cut is the
+//! part's, though, not the command's: force follows the desired path's direction where the run has come to, as in the run that made the
+//! program. Each point of the program stands for the instant of that run at which the same point was commanded; thinned moves
+//! never stray further from those points than they may be thinned.
+
+use crate::deviation::{Deviation, Plan, Sources, deviate};
+use crate::error::Error;
+use crate::export::{Options, export};
+use crate::motion::joints::joint_trajectory;
+use crate::motion::{Pace, Trajectory};
+use crate::path::{self, Path, Program, Segment, unit};
+use crate::report::{Report, Statistics};
+use nalgebra::Vector3;
+
+/// The outcome of a program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Replay {
+    /// What becomes of its commands, every source acting, judged against the path first desired.
+    pub deviation: Deviation,
+    /// Desired positions that its samples stand for, base frame [m].
+    pub desired: Vec<Vector3<f64>>,
+}
+
+impl Replay {
+    /// Mean and largest contour error [mm].
+    pub fn statistics(&self) -> Statistics {
+        Statistics::of(&self.deviation.contour_error)
+    }
+}
+
+/// Writes the file of the format `id` (`gcode`, `apt` or `path-csv`), reads it back and runs it.
+///
+/// # Errors
+/// [`Error::Invalid`] for a format that has no reader; else see [`export`], the readers and [`joint_trajectory`].
+pub fn replay(report: &Report, id: &str, options: &Options) -> Result<Replay, Error> {
+    let text = |id| export(report, id, options).map(|export| export.text);
+    let program = match id {
+        "gcode" => path::gcode::program(
+            &text(id)?,
+            &path::gcode::Options { field: id.into(), ..Default::default() },
+            |_| {},
+        ),
+        "apt" => {
+            path::apt::program(&text(id)?, &path::apt::Options { field: id, unit: unit::LengthUnit::Mm })
+        }
+        "path-csv" => {
+            let (unit, feed_unit) = (unit::LengthUnit::Mm, unit::FeedUnit::MmPerS);
+            path::csv::program(&text(id)?, &path::csv::Options { field: id, unit, feed_unit })
+        }
+        _ => Err(Error::Invalid {
+            field: "format".into(),
+            value: format!("\"{id}\""),
+            expected: "gcode, apt and path-csv can be read back".into(),
+        }),
+    }?;
+    run(report, &program)
+}
+
+/// Runs a program that commands the report's compensated path.
+///
+/// # Errors
+/// [`Error::Missing`] for a program without a move; [`Error::Unreachable`] where it is out of reach.
+pub fn run(report: &Report, program: &Program) -> Result<Replay, Error> {
+    let empty = || Error::Missing { field: "program".into(), expected: "a move".into() };
+    let commanded = Path::of_program(program).ok_or_else(empty)?.placed(&report.setup.workpiece);
+    let own = Trajectory::new(&commanded, &report.setup.tempo);
+    let q = joint_trajectory(
+        &report.plan.robot,
+        &commanded,
+        &own,
+        (&own.position, &own.axis),
+        report.setup.start,
+    )?
+    .q;
+    let instants = instants(report, &own).ok_or_else(empty)?;
+    let trajectory = standing_for(report, &own, &instants);
+    let desired = trajectory.position.clone();
+    let plan = Plan { trajectory, ..report.plan.clone() };
+    let deviation = deviate(&plan, &plan.pace(Sources::ALL), &q, Sources::ALL);
+    Ok(Replay { deviation, desired })
+}
+
+/// For each sample of the program's own motion the instant of the report's, in samples.
+fn instants(report: &Report, own: &Trajectory) -> Option<Vec<f64>> {
+    let told = report.commanded();
+    let mut along = Vec::with_capacity(told.len());
+    let mut segments = Vec::with_capacity(told.len());
+    let mut length = 0.0;
+    along.push(0.0);
+    for pair in told.windows(2) {
+        let step = (pair[1] - pair[0]).norm();
+        // Path::new leaves out what has no length; so does this.
+        if step > 0.0 {
+            segments.push(Segment::Line { from: pair[0], to: pair[1] });
+            length += step;
+        }
+        along.push(length);
+    }
+    let path = Path::new(segments)?;
+    let rests = rests(own);
+    let mut near = 0.0;
+    let mut last = own.position[0];
+    let instant = |(k, position): (usize, &Vector3<f64>)| {
+        let radius = 3.0 * ((position - last).norm() + (position - path.point(near)).norm()) + 1e-6;
+        near = path.closest(position, near, radius).s.clamp(0.0, length);
+        last = *position;
+        // Where the report's command rests, many instants share one place: they pass as the program's own rest does.
+        let first = along.partition_point(|&l| l < near - 1e-9);
+        let end = along.partition_point(|&l| l <= near + 1e-9);
+        if end > first {
+            first as f64 + rests[k] * (end - 1 - first) as f64
+        } else {
+            let (before, after) = (along[first - 1], along[first]);
+            (first - 1) as f64 + (near - before) / (after - before)
+        }
+    };
+    Some(own.position.iter().enumerate().map(instant).collect())
+}
+
+/// For each sample at rest the share of the rest that is over; 0 for samples that move.
+fn rests(own: &Trajectory) -> Vec<f64> {
+    let speed = &own.pace.speed;
+    let mut rests = vec![0.0; speed.len()];
+    let mut k = 0;
+    while k < speed.len() {
+        let end = (k..speed.len()).find(|&i| speed[i] != 0.0).unwrap_or(speed.len());
+        for i in k..end {
+            rests[i] = (i - k) as f64 / (end - k) as f64;
+        }
+        k = end.max(k + 1);
+    }
+    rests
+}
+
+/// The desired motion that a run of the program stands for.
+fn standing_for(report: &Report, own: &Trajectory, instants: &[f64]) -> Trajectory {
+    let original = &report.plan.trajectory;
+    let last = original.len() - 1;
+    let between = |values: &[f64], t: f64| {
+        let i = (t.floor() as usize).min(last);
+        let next = (i + 1).min(last);
+        values[i] + (values[next] - values[i]) * (t - i as f64)
+    };
+    let arc_length: Vec<f64> = instants.iter().map(|&t| between(&original.pace.arc_length, t)).collect();
+    let turned = |t: f64| {
+        let i = (t.floor() as usize).min(last);
+        let (from, to) = (original.pace.heading[i], original.pace.heading[(i + 1).min(last)]);
+        (from.lerp(&to, t - i as f64), from.norm() + (to.norm() - from.norm()) * (t - i as f64))
+    };
+    let heading: Vec<_> = instants.iter().map(|&t| turned(t).0).collect();
+    // Where the direction jumps from one instant to the next, the force goes over evenly: the mean of the two, not one of their size in between.
+    let share = instants
+        .iter()
+        .map(|&t| turned(t))
+        .map(|(heading, size)| if size > 0.0 { heading.norm() / size } else { 1.0 });
+    let engaged = own.pace.engaged.iter().zip(share).map(|(engaged, share)| engaged * share);
+    let end = arc_length.len() - 1;
+    let speed = (0..=end).map(|k| {
+        let (from, to) = (k.saturating_sub(1), (k + 1).min(end));
+        (arc_length[to] - arc_length[from]) / ((to - from).max(1) as f64 * own.sample_time)
+    });
+    let pace =
+        Pace { speed: speed.collect(), engaged: engaged.collect(), heading, arc_length: arc_length.clone() };
+    Trajectory {
+        pace,
+        position: arc_length.iter().map(|&s| report.plan.path.point(s)).collect(),
+        axis: arc_length.iter().map(|&s| report.plan.path.axis(s)).collect(),
+        ..own.clone()
+    }
+}
