@@ -126,8 +126,8 @@ fn rests(own: &Trajectory) -> Vec<f64> {
     let mut k = 0;
     while k < speed.len() {
         let end = (k..speed.len()).find(|&i| speed[i] != 0.0).unwrap_or(speed.len());
-        for i in k..end {
-            rests[i] = (i - k) as f64 / (end - k) as f64;
+        for (i, rest) in rests[k..end].iter_mut().enumerate() {
+            *rest = i as f64 / (end - k) as f64;
         }
         k = end.max(k + 1);
     }
