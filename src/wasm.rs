@@ -206,8 +206,8 @@ impl Run {
         Float64Array::from(self.report.frames(sample).as_slice())
     }
 
-    /// The paths for a picture in space, in at most about `most` rows of 14 numbers: sample, whether it cuts, then x, y, z [mm] of desired point, closest
-    /// point of the desired path, way from there to the actual tip, correction to command.
+    /// The paths for a picture in space, in at most about `most` rows of 17 numbers: sample, whether it cuts, then x, y, z [mm] of desired point, closest
+    /// point of the desired path, ways from there to the actual tip before and after compensation, correction to command.
     pub fn track(&self, most: usize) -> Float64Array {
         Float64Array::from(self.report.track(most).as_slice())
     }

@@ -4,6 +4,8 @@
 
 #[path = "page/browser.rs"]
 pub mod browser;
+#[path = "page/scene.rs"]
+mod scene;
 mod common;
 #[path = "page/policy.rs"]
 mod policy;

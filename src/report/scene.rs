@@ -8,7 +8,7 @@ use crate::units::MM;
 /// Numbers in a frame of [`Report::frames`].
 pub const FRAME: usize = 12;
 /// Numbers in a row of [`Report::track`].
-pub const ROW: usize = 14;
+pub const ROW: usize = 17;
 
 impl Report {
     /// Where the arm stands at a sample under the shaped commands, in the base frame: the base, the six joints, the TCP and the workpiece, each
@@ -25,8 +25,9 @@ impl Report {
         all.flat_map(|pose| numbers(&pose)).collect()
     }
 
-    /// The paths in at most about `most` rows: sample, whether it cuts, desired point, closest point of the desired path to the actual tip, way from there
-    /// to the actual tip, correction to command (points and ways as x, y, z in the base frame [mm]).
+    /// The paths in at most about `most` rows: sample, whether it cuts, desired point, closest point of the desired path to the actual tip before
+    /// compensation, way from the path to that tip, the same way after compensation, correction to command (points and ways as x, y, z in the base
+    /// frame [mm]).
     ///
     /// A long run is cut into stretches; of each stay its first sample, the one farthest from its chord (a corner) and the one with the largest
     /// error.
@@ -44,10 +45,11 @@ impl Report {
         };
         let mut rows = Vec::with_capacity(kept.len() * ROW);
         for k in kept {
-            let (error, correction) = (self.before.contour_error[k], self.compensation.correction[k]);
+            let error = self.before.contour_error[k];
+            let (after, correction) = (self.after.contour_error[k], self.compensation.correction[k]);
             let position = self.plan.trajectory.position[k];
             rows.extend([k as f64, self.plan.trajectory.pace.engaged[k]]);
-            for vector in [position, self.before.actual[k] + error, -error, correction] {
+            for vector in [position, self.before.actual[k] + error, -error, -after, correction] {
                 rows.extend(vector.iter().map(|v| v / MM));
             }
         }

@@ -13,6 +13,7 @@ import { openPanels, rememberPanels, restoreGroups } from "./panels.js";
 import { followCaret, openProgram, programTools, setLines, showProgram } from "./program.js";
 import { showSummary, showThesis } from "./results.js";
 import { Session } from "./session.js";
+import { makeScene } from "./scene/view.js";
 import { onSetting } from "./settings.js";
 import { settingsPanel } from "./settings-panel.js";
 import { shareDialog } from "./share.js";
@@ -23,6 +24,7 @@ const TYPING_MS = 150; // results follow this long after the last key
 const PATIENCE_MS = 150; // a run that takes longer shows its progress
 
 const results = byId("results");
+const scene = makeScene(byId("scene"));
 let job;
 let form;
 let session;
@@ -96,6 +98,7 @@ const events = {
     showFigures();
     takeLines(summary);
     setCharts(charts);
+    scene.show(summary);
     for (const id of ["download-compensated", "download-columns", "download-program", "export-format", "share", "pin"]) byId(id).disabled = false;
     if (form.flawed) return stale();
     if (typing) return; // shown, but of an earlier edit

@@ -1,5 +1,6 @@
 // Writes a summary into the page: verdict, large numbers, warnings, tables.
 
+import { showBudget } from "./budget.js";
 import { byId, make, sentence } from "./dom.js";
 import { formatNumber, plainNumber } from "./number.js";
 import { errorText, forceText, forceUnit, lengthText, lengthUnit } from "./units.js";
@@ -26,6 +27,7 @@ export function showSummary(summary) {
   byId("length").textContent = `path length ${lengthText(summary.path_length_mm, 4)} ${lengthUnit()}`;
   showTolerance(summary);
   showErrors(before, after);
+  showBudget(summary.budget);
   byId("fact-tolerance").textContent = toleranceText(summary);
   put("samples", summary.samples);
   byId("history").textContent = summary.history_max_mm.map(lengthText).join(" → ");

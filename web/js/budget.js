@@ -1,0 +1,54 @@
+// The error budget: which joint and which source gives how much of the contour error, as bars, table and sentence.
+
+import { byId, make } from "./dom.js";
+
+const NAMES = ["Joint 1", "Joint 2", "Joint 3", "Joint 4", "Joint 5", "Joint 6", "Shaping"];
+const NAMED = 0.24; // share of a bar from which a part carries its name, and its short one
+const SHORT = 0.1;
+
+/** Shows the budget of a result. */
+export function showBudget({ worst_mm, mean_mm, time_s, sentence }) {
+  byId("budget-sentence").textContent = sentence;
+  byId("budget-worst").replaceChildren(...barOf(worst_mm));
+  byId("budget-mean").replaceChildren(...barOf(mean_mm));
+  byId("budget-time").textContent = `at ${time_s.toFixed(2)} s`;
+  const rows = [
+    ...NAMES.slice(0, 6).map((name, i) => row(name, `s${i + 1}`, worst_mm.joints[i], mean_mm.joints[i], worst_mm, mean_mm)),
+    row("Deflection", "sum", sumOf(worst_mm), sumOf(mean_mm), worst_mm, mean_mm),
+    row("Shaping", "shaping", worst_mm.shaping, mean_mm.shaping, worst_mm, mean_mm),
+    row("Contour error", "total", worst_mm.total, mean_mm.total, worst_mm, mean_mm),
+  ];
+  byId("budget-table").tBodies[0].replaceChildren(...rows);
+}
+
+const sumOf = ({ joints }) => joints.reduce((sum, joint) => sum + joint, 0);
+const percent = (part, total) => (total > 0 ? signed((100 * part) / total, 0) : "–");
+const signed = (value, digits) => value.toFixed(digits).replace(/^-(0(\.0+)?)$/, "$1").replace("-", "\u2212");
+
+function row(name, key, worst, mean, worsts, means) {
+  const swatch = ["sum", "total"].includes(key) ? [] : [make("span", { className: `part ${key}`, "aria-hidden": "true" })];
+  const number = (value) => {
+    const td = make("td", {}, signed(value, 4));
+    td.dataset.value = String(value);
+    return td;
+  };
+  return make("tr", { className: key }, make("th", { scope: "row" }, ...swatch, name),
+    number(worst), make("td", {}, percent(worst, worsts.total)), number(mean), make("td", {}, percent(mean, means.total)));
+}
+
+/** Parts that pull the tip back stand left of the line, the others right of it; all on one scale. */
+function barOf(parts) {
+  const all = [...parts.joints, parts.shaping].map((value, i) => ({ value, name: NAMES[i], key: i < 6 ? `s${i + 1}` : "shaping" }));
+  const whole = all.reduce((sum, { value }) => sum + Math.abs(value), 0);
+  if (!whole) return [];
+  const back = all.filter(({ value }) => value < 0);
+  const out = all.filter(({ value }) => value > 0);
+  const segment = ({ value, name, key }) => {
+    const share = Math.abs(value) / whole;
+    const part = make("span", { className: `part ${key}`, title: `${name}: ${percent(value, parts.total)} %` });
+    if (share > SHORT) part.append(make("span", {}, share > NAMED ? name : name.replace("Joint ", "J")));
+    part.style.setProperty("width", `${100 * share}%`);
+    return part;
+  };
+  return [...back.map(segment), make("span", { className: "zero" }), ...out.map(segment)];
+}

@@ -1,0 +1,96 @@
+// A camera that looks at a target from a direction: orbit, pan, zoom, fit. Lengths in mm, z up.
+
+const HALF = Math.tan((15 * Math.PI) / 180); // tangent of half the upright field of view
+const RIGHT_ANGLE = Math.PI / 2;
+
+/** Directions to look from: [azimuth, elevation] in degrees. */
+export const VIEWS = { iso: [-58, 26], top: [-90, 90], front: [-90, 0], side: [0, 0] };
+
+export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+export const plus = (a, b, factor = 1) => [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]];
+export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+export const length = (a) => Math.hypot(...a);
+
+export class Camera {
+  azimuth = 0; // [rad]
+  elevation = 0; // [rad]
+  distance = 1000;
+  target = [0, 0, 0];
+  width = 1;
+  height = 1;
+
+  /** The unit vectors to the right, up and out of the picture, towards the eye. */
+  axes() {
+    const [ca, sa, ce, se] = [Math.cos(this.azimuth), Math.sin(this.azimuth), Math.cos(this.elevation), Math.sin(this.elevation)];
+    return { right: [-sa, ca, 0], up: [-se * ca, -se * sa, ce], out: [ce * ca, ce * sa, se] };
+  }
+
+  orbit(azimuth, elevation) {
+    this.azimuth = (this.azimuth + azimuth) % (2 * Math.PI);
+    this.elevation = Math.min(RIGHT_ANGLE, Math.max(-RIGHT_ANGLE, this.elevation + elevation));
+  }
+
+  /** Moves what is seen by so many pixels. */
+  pan(x, y) {
+    const { right, up } = this.axes();
+    this.target = plus(plus(this.target, right, -x * this.pixel()), up, y * this.pixel());
+  }
+
+  zoom(factor) {
+    this.distance = Math.min(1e6, Math.max(0.5, this.distance / factor));
+  }
+
+  /** The size of a pixel at the target [mm]. */
+  pixel() {
+    return (2 * HALF * this.distance) / this.height;
+  }
+
+  /** Looks from one of `VIEWS`. */
+  look([azimuth, elevation]) {
+    [this.azimuth, this.elevation] = [(azimuth * Math.PI) / 180, (elevation * Math.PI) / 180];
+  }
+
+  /** Looks from a direction in space. */
+  lookFrom([x, y, z]) {
+    if (Math.hypot(x, y) > 1e-9) this.azimuth = Math.atan2(y, x);
+    this.elevation = Math.atan2(z, Math.hypot(x, y));
+  }
+
+  /** Shows the whole box [low, high]. */
+  fit([low, high]) {
+    const { right, up, out } = this.axes();
+    const aspect = this.width / this.height;
+    this.target = low.map((v, i) => (v + high[i]) / 2);
+    this.distance = 1;
+    for (let corner = 0; corner < 8; corner++) {
+      const way = minus(low.map((v, i) => ((corner >> i) & 1 ? high[i] : v)), this.target);
+      const needed = Math.max(Math.abs(dot(way, right)) / aspect, Math.abs(dot(way, up))) / HALF;
+      this.distance = Math.max(this.distance, dot(way, out) + 1.1 * needed);
+    }
+  }
+
+  /** From the base frame to the picture, column by column. */
+  matrix() {
+    const { right, up, out } = this.axes();
+    const [near, far] = [this.distance / 100, this.distance * 4 + 20000];
+    const [sx, sy] = [this.height / this.width / HALF, 1 / HALF];
+    const [a, b] = [(near + far) / (near - far), (2 * near * far) / (near - far)];
+    const [tx, ty, tz] = [dot(right, this.target), dot(up, this.target), dot(out, this.target) + this.distance];
+    return new Float32Array([
+      ...[0, 1, 2].flatMap((i) => [sx * right[i], sy * up[i], a * out[i], -out[i]]),
+      -sx * tx, -sy * ty, b - a * tz, tz,
+    ]);
+  }
+}
+
+/** Where a point stands in the picture [px], and its depth; a depth that is not positive is behind the eye. */
+export function project(m, point, width, height) {
+  const [x, y, z] = point;
+  const w = m[3] * x + m[7] * y + m[11] * z + m[15];
+  return [
+    ((m[0] * x + m[4] * y + m[8] * z + m[12]) / w + 1) * 0.5 * width,
+    (1 - (m[1] * x + m[5] * y + m[9] * z + m[13]) / w) * 0.5 * height,
+    w,
+  ];
+}

@@ -1,0 +1,79 @@
+// Moves a camera by mouse, touch and keys.
+//
+// The page must stay scrollable: a finger that starts upwards or downwards scrolls it (`touch-action: pan-y`), one that starts sideways orbits;
+// two fingers pan and pinch. The wheel zooms once the picture has the focus, or with Ctrl.
+
+const TURN = Math.PI / 450; // a pixel of dragging [rad]
+const STEP = Math.PI / 36; // an arrow key [rad]
+const STILL = 4; // a press that moves less than this points [px]
+
+/**
+ * Steers `camera` from `canvas`. `on.move()` follows a change, `on.point(x, y, pressed)` a pointer over the picture, `on.key(key)` may take
+ * a key first by returning true.
+ */
+export function steer(canvas, camera, on) {
+  const down = new Map(); // pointers on the picture: id -> { x, y, button, moved }
+  const place = ({ offsetX, offsetY }) => [offsetX, offsetY];
+
+  canvas.addEventListener("pointerdown", (event) => {
+    const [x, y] = place(event);
+    down.set(event.pointerId, { x, y, moved: 0, pans: event.button !== 0 || event.shiftKey });
+    canvas.setPointerCapture(event.pointerId);
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    const [x, y] = place(event);
+    const own = down.get(event.pointerId);
+    if (!own) return on.point(x, y, false);
+    const [dx, dy] = [x - own.x, y - own.y];
+    const others = [...down.values()].filter((other) => other !== own);
+    own.moved += Math.abs(dx) + Math.abs(dy);
+    if (own.moved < STILL) return;
+    if (others.length === 1) pinch(own, others[0], dx, dy);
+    else if (own.pans) camera.pan(dx, dy);
+    else camera.orbit(-dx * TURN, dy * TURN);
+    [own.x, own.y] = [x, y];
+    on.move();
+  });
+  const up = (event) => {
+    const own = down.get(event.pointerId);
+    down.delete(event.pointerId);
+    if (own && own.moved < STILL && event.type === "pointerup") on.point(own.x, own.y, true);
+  };
+  canvas.addEventListener("pointerup", up);
+  canvas.addEventListener("pointercancel", up);
+
+  /** One of two fingers moves by (dx, dy): the middle moves by half of that, the distance says the zoom. */
+  function pinch(own, other, dx, dy) {
+    const before = Math.hypot(own.x - other.x, own.y - other.y);
+    const after = Math.hypot(own.x + dx - other.x, own.y + dy - other.y);
+    camera.pan(dx / 2, dy / 2);
+    if (before > 10 && after > 10) camera.zoom(after / before);
+  }
+
+  // Two fingers are for the picture, whatever way they start.
+  canvas.addEventListener("touchstart", (event) => event.touches.length > 1 && event.preventDefault(), { passive: false });
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+  canvas.addEventListener("wheel", (event) => {
+    if (document.activeElement !== canvas && !event.ctrlKey) return;
+    event.preventDefault();
+    camera.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015) * (event.ctrlKey ? 4 : 1)));
+    on.move();
+  }, { passive: false });
+
+  canvas.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (!on.key(event.key) && !step(event)) return;
+    event.preventDefault();
+  });
+
+  /** What a key does to the camera; false if nothing. */
+  function step({ key, shiftKey }) {
+    const [x, y] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[key] ?? [0, 0];
+    if (x || y) shiftKey ? camera.pan(-x * 30, y * 30) : camera.orbit(x * STEP, y * STEP);
+    else if (key === "+" || key === "=") camera.zoom(1.2);
+    else if (key === "-") camera.zoom(1 / 1.2);
+    else return false;
+    on.move();
+    return true;
+  }
+}
