@@ -99,6 +99,20 @@ class Painter {
 
   /** A line to draw later: each point joined to the next, or (`pairs`) every second one to its next. */
   line(points, pairs = false) {
+    const line = { points, pairs, levels: new Map() };
+    this.#lines.push(line);
+    return line;
+  }
+
+  /** The line with every so many of its points, rounded down to a power of two; made when first asked for. */
+  #level(line, every) {
+    const step = line.pairs ? 1 : 2 ** Math.floor(Math.log2(every));
+    let level = line.levels.get(step);
+    if (!level) line.levels.set(step, (level = this.#made(thinned(line.points, step), line.pairs)));
+    return level;
+  }
+
+  #made(points, pairs) {
     const gl = this.#gl;
     const [array, buffer] = [gl.createVertexArray(), gl.createBuffer()];
     gl.bindVertexArray(array);
@@ -109,16 +123,13 @@ class Painter {
       gl.vertexAttribPointer(slot, 3, gl.FLOAT, false, VERTEX * 4 * (pairs ? 2 : 1), slot * 12);
       gl.vertexAttribDivisor(slot, 1);
     }
-    gl.bindVertexArray(null);
     const count = points.length / VERTEX;
-    const line = { array, buffer, count: Math.max(0, pairs ? count / 2 : count - 1) };
-    this.#lines.push(line);
-    return line;
+    return { array, buffer, pieces: Math.max(0, pairs ? count / 2 : count - 1) };
   }
 
   /** Forgets every line. */
   clearLines() {
-    for (const { array, buffer } of this.#lines) {
+    for (const { array, buffer } of this.#lines.flatMap(({ levels }) => [...levels.values()])) {
       this.#gl.deleteVertexArray(array);
       this.#gl.deleteBuffer(buffer);
     }
@@ -142,20 +153,23 @@ class Painter {
     this.#solid.set({ camera, light });
   }
 
-  /** Draws a line; lengths in pixels but for `radius` and `dash` [mm]. */
-  draw(line, { factor = 0, width = 2, radius = 0, colour = [0, 0, 0], largest = 0, dash = 0, fade = 0, bias = 0 }) {
+  /**
+   * Draws a line; lengths in pixels but for `radius` and `dash` [mm]. Of points that crowd in a pixel only `every` so many
+   * need to be joined. */
+  draw(line, { factor = 0, width = 2, radius = 0, colour = [0, 0, 0], largest = 0, dash = 0, fade = 0, bias = 0, every = 1 }) {
     const gl = this.#gl;
     gl.useProgram(this.#line.program);
     this.#line.set({ factor, halfWidth: width / 2, radius, colour, largest, dash, fade, bias });
-    gl.bindVertexArray(line.array);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, line.count);
+    const { array, pieces } = this.#level(line, every);
+    gl.bindVertexArray(array);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, pieces);
   }
 
   /** Draws one piece of a line that is not kept, from its two points; a piece without length is a dot. */
   dot(points, style) {
     const gl = this.#gl;
     this.#piece ??= this.line(points, true);
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.#piece.buffer);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.#level(this.#piece, 1).buffer);
     gl.bufferData(gl.ARRAY_BUFFER, points, gl.DYNAMIC_DRAW);
     this.draw(this.#piece, style);
   }
@@ -195,6 +209,18 @@ class Painter {
       gl.drawArrays(gl.TRIANGLES, 0, this.#tube.count);
     }
   }
+}
+
+/** Every so many points of a line, and its last. */
+function thinned(points, step) {
+  if (step === 1) return points;
+  const count = points.length / VERTEX;
+  const kept = new Float32Array((Math.ceil((count - 1) / step) + 1) * VERTEX);
+  for (let to = 0; to < kept.length; to += VERTEX) {
+    const from = Math.min(to * step, (count - 1) * VERTEX);
+    kept.set(points.subarray(from, from + VERTEX), to);
+  }
+  return kept;
 }
 
 function program(gl, ...sources) {

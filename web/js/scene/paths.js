@@ -10,16 +10,18 @@ export class Paths {
   #track;
   count;
   largest = 0; // largest deviation before compensation [mm]
-  #middle;
+  stride = 0; // largest distance from one row to the next [mm]
   #size = 0;
 
   /** `track` is the core's answer. */
   constructor(track) {
     this.#track = track;
     this.count = track.length / ROW;
-    for (let row = 0; row < this.count; row++) this.largest = Math.max(this.largest, length(this.before(row)));
+    for (let row = 0; row < this.count; row++) {
+      this.largest = Math.max(this.largest, length(this.before(row)));
+      if (row) this.stride = Math.max(this.stride, length(plus(this.desired(row), this.desired(row - 1), -1)));
+    }
     const [low, high] = this.box(0);
-    this.#middle = low.map((v, i) => (v + high[i]) / 2);
     this.#size = Math.max(...high.map((v, i) => v - low[i]));
   }
 

@@ -17,6 +17,7 @@ import { steer } from "./steer.js";
 
 const MOST = 50_000; // points of a path that are drawn
 const REACH = 14; // how near a path a pointer must be [px]
+const CROWDED = 1.5; // points nearer than this need not all be joined [px]
 const INCH = 25.4;
 const VIEW_KEYS = { 1: "top", 2: "front", 3: "side", 4: "iso", 5: "tool", f: "fit", a: "all", 0: "fit" };
 
@@ -237,6 +238,7 @@ class Scene {
 
     const dash = 10 * camera.pixel();
     const largest = this.#paths.largest || 1e-9;
+    const every = Math.max(1, Math.floor((CROWDED * camera.pixel()) / (this.#paths.stride || 1)));
     const drawn = [];
     if (shown.desired) {
       drawn.push([lines.desired, { radius: this.#summary.tolerance_mm * factor, width: 0, colour: tones.band }]);
@@ -246,7 +248,7 @@ class Scene {
     if (shown.compensated) drawn.push([lines.compensated, { factor, width: 2 * sharp, colour: tones.command, dash, bias: 2e-6 }]);
     if (shown.after) drawn.push([lines.after, { factor, largest, width: 2 * sharp, bias: 3e-6 }]);
     if (shown.actual) drawn.push([lines.actual, { factor, largest, width: 3.25 * sharp, bias: 3e-6 }]);
-    for (const [line, style] of drawn) painter.draw(line, style);
+    for (const [line, style] of drawn) painter.draw(line, { ...style, every });
     painter.solids(parts.map((part) => ({ ...part, colour: tones[part.tone] })));
     this.#mark(factor, sharp);
     this.#tell(matrix, factor);
