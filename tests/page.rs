@@ -4,11 +4,11 @@
 
 #[path = "page/browser.rs"]
 pub mod browser;
-#[path = "page/scene.rs"]
-mod scene;
 mod common;
 #[path = "page/policy.rs"]
 mod policy;
+#[path = "page/scene.rs"]
+mod scene;
 #[path = "page/standalone.rs"]
 mod standalone;
 #[path = "page/state.rs"]

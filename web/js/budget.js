@@ -1,6 +1,7 @@
 // The error budget: which joint and which source gives how much of the contour error, as bars, table and sentence.
 
 import { byId, make } from "./dom.js";
+import { inLength, lengthUnit } from "./units.js";
 
 const NAMES = ["Joint 1", "Joint 2", "Joint 3", "Joint 4", "Joint 5", "Joint 6", "Shaping"];
 const NAMED = 0.24; // share of a bar from which a part carries its name, and its short one
@@ -28,7 +29,7 @@ const signed = (value, digits) => value.toFixed(digits).replace(/^-(0(\.0+)?)$/,
 function row(name, key, worst, mean, worsts, means) {
   const swatch = ["sum", "total"].includes(key) ? [] : [make("span", { className: `part ${key}`, "aria-hidden": "true" })];
   const number = (value) => {
-    const td = make("td", {}, signed(value, 4));
+    const td = make("td", {}, signed(inLength(value), lengthUnit() === "mm" ? 4 : 6));
     td.dataset.value = String(value);
     return td;
   };

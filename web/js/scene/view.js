@@ -2,9 +2,9 @@
 
 import * as core from "../core.js";
 import { cursor, onCursor, setCursor } from "../cursor.js";
-import { formatLength, formatNumber } from "../number.js";
 import { lineAt } from "../program.js";
-import { onSetting, setting } from "../settings.js";
+import { onSetting } from "../settings.js";
+import { inLength, lengthText, lengthUnit } from "../units.js";
 import { armParts, framesOf, shadow } from "./arm.js";
 import { Camera, VIEWS, length, plus, project } from "./camera.js";
 import { axesOf, grid, vertex } from "./floor.js";
@@ -18,7 +18,6 @@ import { steer } from "./steer.js";
 const MOST = 50_000; // points of a path that are drawn
 const REACH = 14; // how near a path a pointer must be [px]
 const CROWDED = 1.5; // points nearer than this need not all be joined [px]
-const INCH = 25.4;
 const VIEW_KEYS = { 1: "top", 2: "front", 3: "side", 4: "iso", 5: "tool", f: "fit", a: "all", 0: "fit" };
 
 /** The picture in `node`; `show(summary)` takes over a new result. */
@@ -69,7 +68,7 @@ class Scene {
     });
     canvas.addEventListener("webglcontextrestored", () => this.#begin());
     onCursor(() => this.#follow());
-    onSetting(() => this.#recolour());
+    onSetting(() => requestAnimationFrame(() => this.#recolour())); // a theme that has just been chosen is applied by then
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#recolour());
   }
 
@@ -108,11 +107,11 @@ class Scene {
     try {
       const [track, frames] = [await core.track(MOST), await core.frames(this.#sample())];
       if (summary !== this.#summary) return;
-      const first = !this.#paths;
+      const before = this.#paths?.box(0);
       this.#paths = new Paths(track);
       this.#frames = framesOf(frames);
       if (this.#painter) this.#upload();
-      if (first) this.#look("iso");
+      if (!before || isElsewhere(before, this.#paths.box(0))) this.#look(before ? this.#fitted : "iso");
       this.#describe();
     } catch {
       if (this.#loaded === summary) this.#loaded = null; // taken away by a newer result, or a recovery: the next one loads again
@@ -136,11 +135,10 @@ class Scene {
 
   /** The grid and the axes of base and workpiece. */
   #floor() {
-    const inch = setting("length") === "inch";
     const box = around(this.#paths.box(0), [this.#frames.base.origin, ...this.#frames.joints.map((joint) => joint.origin)]);
-    const { spacing, points } = grid(box, inch ? INCH : 1);
+    const { spacing, points } = grid(box, 1 / inLength(1));
     const size = Math.max(...box[1].map((v, i) => v - box[0][i])) / 7;
-    this.#panel.floor.textContent = `Grid ${spacing} ${inch ? "in" : "mm"}`;
+    this.#panel.floor.textContent = `Grid ${spacing} ${lengthUnit()}`;
     const axes = [["base", this.#frames.base, size * 1.25], ["workpiece", this.#frames.workpiece, size]].map(([name, frame, long]) => ({
       name, frame, long, lines: axesOf(frame, long).map((line) => this.#painter.line(line, true)),
     }));
@@ -276,9 +274,9 @@ class Scene {
     const [row, sample] = [this.#paths.rowOf(this.#sample()), this.#sample()];
     const time = (sample / (this.#summary.samples - 1)) * this.#summary.duration_s;
     const line = lineAt(time);
-    const [before, after] = [this.#paths.before(row), this.#paths.after(row)].map((way) => `${this.#long(length(way))} ${this.#unit()}`);
-    const where = [...this.#paths.desired(row)].map((v, i) => `${"xyz"[i]} ${this.#place(v)}`).join(", ");
-    readout.textContent = `At ${time.toFixed(2)} s${line ? `, line ${line} of the program` : ""}: ${where} ${this.#unit()}; contour error ${before} before, ${after} after`;
+    const [before, after] = [this.#paths.before(row), this.#paths.after(row)].map((way) => `${lengthText(length(way))} ${lengthUnit()}`);
+    const where = [...this.#paths.desired(row)].map((v, i) => `${"xyz"[i]} ${inLength(v).toFixed(lengthUnit() === "mm" ? 1 : 3).replace("-", "\u2212")}`).join(", ");
+    readout.textContent = `At ${time.toFixed(2)} s${line ? `, line ${line} of the program` : ""}: ${where} ${lengthUnit()}; contour error ${before} before, ${after} after`;
     Object.assign(node.dataset, {
       azimuth: ((camera.azimuth * 180) / Math.PI).toFixed(2), elevation: ((camera.elevation * 180) / Math.PI).toFixed(2),
       distance: camera.distance.toFixed(2), target: camera.target.map((v) => v.toFixed(2)).join(" "),
@@ -289,24 +287,26 @@ class Scene {
   /** What a new result, or another unit, changes around the picture. */
   #describe() {
     const { largest } = this.#paths;
-    const inch = setting("length") === "inch" ? INCH : 1;
+    const unit = lengthUnit();
     this.#panel.factors(this.#paths.factor(), this.#chosen);
-    this.#panel.scale(largest / inch, this.#summary.tolerance_mm / inch, this.#unit(), this.#tones.dark);
+    this.#panel.scale(inLength(largest), inLength(this.#summary.tolerance_mm), unit, this.#tones.dark);
     const { path_length_mm, after_mm } = this.#summary;
     this.#panel.text.textContent =
-      `The desired path is ${formatNumber(path_length_mm / inch, 4)} ${this.#unit()} long. The actual one leaves it by at most ${this.#long(largest)} ${this.#unit()} before compensation ` +
-      `and ${this.#long(after_mm.max)} ${this.#unit()} after; the deviation is drawn ${this.#factor()} times as large as it is. The charts below show the same paths.`;
+      `The desired path is ${lengthText(path_length_mm, 4)} ${unit} long. The actual one leaves it by at most ${lengthText(largest)} ${unit} before compensation ` +
+      `and ${lengthText(after_mm.max)} ${unit} after; the deviation is drawn ${this.#factor()} times as large as it is. The charts below show the same paths.`;
   }
-
-  #unit = () => (setting("length") === "inch" ? "in" : "mm");
-  #long = (mm) => (setting("length") === "inch" ? formatNumber(mm / INCH) : formatLength(mm));
-  #place = (mm) => (setting("length") === "inch" ? (mm / INCH).toFixed(3) : mm.toFixed(1)).replace("-", "\u2212");
 }
 
 /** A box that also holds `points`. */
 function around([low, high], points) {
   const every = (pick, ends) => ends.map((end, i) => pick(end, ...points.map((point) => point[i])));
   return [every(Math.min, low), every(Math.max, high)];
+}
+
+/** Whether a box is so different from another that a picture of one does not show the other well. */
+function isElsewhere([low, high], [newLow, newHigh]) {
+  const size = Math.max(...high.map((v, i) => v - low[i]), ...newHigh.map((v, i) => v - newLow[i]));
+  return [...low, ...high].some((v, i) => Math.abs(v - [...newLow, ...newHigh][i]) > 0.1 * size);
 }
 
 /** Writes the axes' names at their tips; frames that coincide share one. */
@@ -345,7 +345,7 @@ function tonesOf(node) {
   const tones = {
     paper, ink, axes, dark, band, grid: line, desired: dark ? ink : read("ink-2"), command: read("after"),
     shadow: mixed(paper, dark ? [0, 0, 0] : ink, dark ? 0.35 : 0.07),
-    link: dark ? mixed(paper, ink, 0.42) : mixed(paper, faint, 0.38), joint: mixed(mixed(paper, ink, 0.45), accent, 0.22), tool: mixed(ink, faint, 0.35),
+    link: dark ? mixed(paper, ink, 0.55) : mixed(paper, faint, 0.38), joint: mixed(mixed(paper, ink, dark ? 0.55 : 0.45), accent, 0.22), tool: mixed(ink, faint, 0.35),
   };
   probe.remove();
   return tones;
