@@ -6,7 +6,8 @@ mod common;
 use armill::Report;
 use armill::export::replay::{self, replay};
 use armill::export::{Options, export};
-use armill::path::{Segment, gcode};
+use armill::math::Pose;
+use armill::path::gcode;
 use common::program::small_jobs;
 use common::run;
 use nalgebra::Vector3;
@@ -60,12 +61,9 @@ fn a_program_that_is_wrong_is_seen_to_be() {
     let read = gcode::program(&text, &gcode::Options::default(), |_| {}).unwrap();
     let outcome = |shift: f64| {
         let mut program = read.clone();
-        let by = Vector3::new(0.0, 0.0, shift);
+        let higher = Pose::from_xyz_rpy(Vector3::new(0.0, 0.0, shift), [0.0; 3]);
         for step in &mut program.moves {
-            step.segment = match step.segment {
-                Segment::Line { from, to } => Segment::Line { from: from + by, to: to + by },
-                Segment::Arc { .. } => panic!("the small arc bends: lines are expected"),
-            };
+            step.segment = step.segment.placed(&higher);
         }
         replay::run(&report, &program).unwrap().statistics().max
     };

@@ -42,12 +42,14 @@ pub fn replay(report: &Report, id: &str, options: &Options) -> Result<Replay, Er
             &path::gcode::Options { field: id.into(), ..Default::default() },
             |_| {},
         ),
-        "apt" => {
-            path::apt::program(&text(id)?, &path::apt::Options { field: id, unit: unit::LengthUnit::Mm })
-        }
+        "apt" => path::apt::program(
+            &text(id)?,
+            &path::apt::Options { field: id, unit: unit::LengthUnit::Mm },
+            |_| {},
+        ),
         "path-csv" => {
             let (unit, feed_unit) = (unit::LengthUnit::Mm, unit::FeedUnit::MmPerS);
-            path::csv::program(&text(id)?, &path::csv::Options { field: id, unit, feed_unit })
+            path::csv::program(&text(id)?, &path::csv::Options { field: id, unit, feed_unit }, |_| {})
         }
         _ => Err(Error::Invalid {
             field: "format".into(),
