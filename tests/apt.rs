@@ -132,6 +132,7 @@ fn mistakes_are_placed_and_say_what_to_do() {
         ("FEDRAT/0", (1, 8), "larger than 0"),
         ("FEDRAT/-5,IPM", (1, 8), "larger than 0"),
         ("FEDRAT", (1, 7), "FEDRAT/f,MMPM"),
+        ("SPINDL/0.5,RPM", (1, 8), "from 1 to 1000000 rpm"),
         ("FEDRAT/1e9", (1, 8), "a feed is"),
         ("GOTO/0,0,0\nFEDRAT/0.1,MMPR\nGOTO/1,0,0", (3, 1), "SPINDL"),
         ("SPINDL/RPM,1000,CCLW", (1, 17), "clockwise"),

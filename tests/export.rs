@@ -8,9 +8,11 @@ use armill::export::orientation::{about_moving_xyz, quaternion, roll_pitch_yaw};
 use armill::export::thin::{LEVER, Point, deviation, thin};
 use armill::export::{FORMATS, Options, export};
 use armill::math::{Pose, rotation_about, sin_cos};
+use armill::path::gcode;
 use common::program::{small_jobs, written};
 use common::{any_vector, between, run};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use serde_json::json;
 use std::f64::consts::FRAC_PI_2;
 
 #[test]
@@ -178,5 +180,26 @@ fn every_program_says_where_it_comes_from_and_what_it_does_not_promise() {
     for thinning in [0.0, FINEST / 2.0, COARSEST * 2.0, f64::NAN] {
         let error = export(&report, "krl", &Options { thinning: Some(thinning) }).unwrap_err();
         assert_eq!((error.code(), error.field()), ("out-of-range", Some("thinning_mm")), "{thinning}");
+    }
+}
+
+/// Programs that were read and then could not be written, or were written so that they could not be read (found by `cargo xtask fuzz`).
+#[test]
+fn odd_programs_are_written_so_that_they_are_read_again() {
+    let moves = "G21 F6000 G0 X600 Y0 Z100\nG1 Y20\nX620\n";
+    for (name, text) in [
+        ("a byte order mark", format!("\u{feff}{moves}")),
+        ("letters of any kind after the end", format!("{moves}M30\n\u{e4}1 \u{feff}\n")),
+        ("lines before the program's number", format!("\n(PART)\nO1002\n{moves}")),
+    ] {
+        let report = run(&[("path", json!({ "kind": "gcode", "text": text }))]);
+        for format in FORMATS {
+            let written = written(&report, format.id).text;
+            if format.id == "gcode" {
+                let read = gcode::program(&written, &gcode::Options::default(), |_| {});
+                let read = read.unwrap_or_else(|error| panic!("{name}: {error}\n{written}"));
+                assert!(read.moves.len() >= 2, "{name}");
+            }
+        }
     }
 }

@@ -187,10 +187,11 @@ impl Writer {
         let mut blocks = command.blocks.iter().peekable();
         let mut preamble = false;
         let mut started = false;
-        for (index, line) in listing.text.lines().enumerate() {
+        for (index, line) in listing.text.trim_start_matches('\u{feff}').lines().enumerate() {
             let source = Source::of(line);
             // The header follows what must be first: the tape mark and the program's number.
-            if !(preamble || source.code.starts_with(['%', 'O'])) {
+            let opens = source.code.is_empty() || source.before.contains(['%', 'O']);
+            if !(preamble || opens) {
                 // A control that knows one of these needs to be told; others would refuse it.
                 let knows = |line| {
                     words(&uncommented(line).0).iter().any(|word| ["G90.1", "G91.1"].contains(&word.as_str()))
@@ -308,7 +309,7 @@ impl Source {
 
 /// A word without leading zeros in its number: `M05` is `M5`.
 fn unpadded(word: &str) -> String {
-    let (letter, digits) = word.split_at(word.len().min(1));
+    let (letter, digits) = word.split_at(word.chars().next().map_or(0, char::len_utf8));
     match digits.trim_start_matches('0') {
         "" => format!("{letter}0"),
         rest => format!("{letter}{rest}"),

@@ -172,11 +172,13 @@ impl<'a> Node<'a> {
         self.raw.as_ptr().addr() - self.text.as_ptr().addr()
     }
 
-    /// Line and column, both from 1, of the last of the first `offset` bytes.
+    /// Line and column (in characters), both from 1, of the last of the first `offset` bytes.
     fn place(&self, offset: usize) -> (usize, usize) {
         let before = self.text.as_bytes().get(..offset).unwrap_or(self.text.as_bytes());
         let mut lines = before.rsplit(|byte| *byte == b'\n');
-        let column = lines.next().map_or(0, <[u8]>::len);
+        // Every character begins with one byte that continues none.
+        let begins = |line: &[u8]| line.iter().filter(|byte| **byte & 0xc0 != 0x80).count();
+        let column = lines.next().map_or(0, begins).max(1);
         (1 + lines.count(), column)
     }
 }

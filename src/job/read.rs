@@ -86,6 +86,9 @@ mod tests {
         assert_eq!(at("{\n\"motion\": {\"feed_mm_s\": }}"), ("json", None, (2, 25)));
         assert_eq!(at("{\"tool\": {\"flutes\": 2.5}}").1, Some("tool.flutes".into()));
         assert_eq!(at("{} x"), ("json", None, (1, 4)));
+        assert_eq!(at(""), ("json", None, (1, 1)));
+        assert_eq!(at("{\n"), ("json", None, (2, 1)));
+        assert_eq!(at("{\"robot\": {\"name\": \"äöü\"}, \"ü\": 1}").2, (1, 28));
         assert_eq!(at("{\"path\": {\"kind\": \"spiral\"}}").1, Some("path.kind".into()));
         assert_eq!(at("{\"shaper\": {\"kind\": \"zvd\", \"damp\": 1}}").1, Some("shaper.damp".into()));
         assert_eq!(

@@ -13,8 +13,12 @@ const SAME: f64 = 1e-9;
 const SAME_DIRECTION: f64 = 1e-9;
 /// Largest coordinate that is believed [m].
 const FARTHEST: f64 = 1e3;
-/// Feeds that are believed [m/s].
-const FEEDS: [f64; 2] = [1e-7, 1e2];
+/// Feeds that are believed [mm/s].
+const FEEDS: [f64; 2] = [1e-3, 1e5];
+/// Spindle speeds that are believed [rev/min].
+pub(super) const SPINDLE: std::ops::RangeInclusive<f64> = 1.0..=1e6;
+/// Longest wait that is believed [s].
+pub(super) const LONGEST_WAIT: f64 = 3600.0;
 /// How far the two ends of an arc may lie off its circle [m].
 const ARC_TOLERANCE: f64 = 0.01 * MM;
 
@@ -245,12 +249,14 @@ pub(super) fn coordinate(value: f64) -> Result<f64, Fault> {
 
 /// A feed [m/s] that a robot may be asked for.
 pub(super) fn feed(value: f64) -> Result<f64, Fault> {
-    if (FEEDS[0]..=FEEDS[1]).contains(&value) {
+    let [slowest, fastest] = FEEDS;
+    // At the ends it must not matter in which unit the feed was said.
+    if (slowest * (1.0 - 1e-9)..=fastest * (1.0 + 1e-9)).contains(&(value / MM)) {
         return Ok(value);
     }
     Err(Fault::new(
         format!("a feed of {} mm/s", value / MM),
-        format!("a feed is {} to {} mm/s", FEEDS[0] / MM, FEEDS[1] / MM),
+        format!("a feed is {slowest} to {fastest} mm/s"),
     ))
 }
 

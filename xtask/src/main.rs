@@ -8,11 +8,12 @@ mod site;
 mod server;
 mod browser;
 mod checks;
+mod fuzz;
 
 use std::env;
 use std::process::ExitCode;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 
 const USAGE: &str = "\
 usage: cargo xtask <command>
@@ -21,6 +22,7 @@ usage: cargo xtask <command>
   serve            build it and serve it on this machine, from port 8080 on
   test             check formatting and lints, run all tests: native, in the browser, through the page
   test --native    only what needs no browser
+  fuzz [target [seconds]]  search for texts that break a reader, the job or an export: each for a minute
 ";
 
 fn main() -> ExitCode {
@@ -41,6 +43,12 @@ fn run(arguments: &[String]) -> Result<()> {
         ["serve"] => server::serve(&site::build()?),
         ["test"] => checks::all(),
         ["test", "--native"] => checks::native(),
+        ["fuzz"] => fuzz::fuzz(None, 60),
+        ["fuzz", target] => fuzz::fuzz(Some(target), 60),
+        ["fuzz", target, seconds] => {
+            let seconds = seconds.parse().with_context(|| format!("`{seconds}` is no number of seconds"))?;
+            fuzz::fuzz(Some(target), seconds)
+        }
         // Called by cargo for `cargo test --target wasm32-unknown-unknown`, see .cargo/config.toml.
         ["wasm-test-runner", rest @ ..] => checks::run_wasm(rest),
         ["help" | "--help" | "-h"] => {

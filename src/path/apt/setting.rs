@@ -3,7 +3,7 @@
 use super::reader::{Feed, Reader};
 use super::statement::Statement;
 use crate::error::Error;
-use crate::path::draft;
+use crate::path::draft::{self, LONGEST_WAIT, SPINDLE};
 use crate::path::program::Dwell;
 use crate::path::unit::LengthUnit;
 use crate::units::{INCH, MINUTE, MM, RPM};
@@ -65,9 +65,9 @@ impl<'a> Reader<'a> {
         let mut speed = None;
         for token in &tokens {
             match token.number() {
-                Some(rpm) if speed.is_none() && rpm > 0.0 && rpm <= 1e6 => speed = Some(rpm * RPM),
+                Some(rpm) if speed.is_none() && SPINDLE.contains(&rpm) => speed = Some(rpm * RPM),
                 Some(rpm) => {
-                    let expected = "one speed above 0, 1000000 rpm at most; SPINDL/OFF stops the spindle";
+                    let expected = "one speed, from 1 to 1000000 rpm; SPINDL/OFF stops the spindle";
                     return Err(self.error(&token.place, format!("the spindle speed {rpm}"), expected));
                 }
                 None if token.is("RPM") || token.is("CLW") || token.is("ON") => {}
@@ -124,8 +124,12 @@ impl<'a> Reader<'a> {
             }
         };
         let time = self.number(token)?;
-        if !(0.0..=3600.0).contains(&time) {
-            return Err(self.error(&token.place, format!("a wait of {time} s"), "a wait is 0 to 3600 s"));
+        if !(0.0..=LONGEST_WAIT).contains(&time) {
+            return Err(self.error(
+                &token.place,
+                format!("a wait of {time} s"),
+                format!("a wait is 0 to {LONGEST_WAIT} s"),
+            ));
         }
         let after = self.draft.program.moves.len();
         self.draft.program.dwells.push(Dwell { after, time, line: statement.place.line });

@@ -5,6 +5,7 @@ use super::block::Block;
 use super::code::Group;
 use super::modal::Modal;
 use super::word::{self, Fault};
+use crate::path::draft::LONGEST_WAIT;
 use crate::path::program::{Dwell, Ignored, Program, Remark};
 use nalgebra::Vector3;
 
@@ -140,8 +141,8 @@ impl<'o> Interpreter<'o> {
             return Err(word.fault(block.text, expected));
         }
         let Some(word) = block.take('P') else { return Err(code.word.fault(block.text, expected)) };
-        if word.value < 0.0 {
-            return Err(word.fault(block.text, "a dwell is 0 or more seconds"));
+        if !(0.0..=LONGEST_WAIT).contains(&word.value) {
+            return Err(word.fault(block.text, format!("a dwell is 0 to {LONGEST_WAIT} seconds")));
         }
         if word.value > LONG_WAIT {
             self.remark("long-dwell", || {

@@ -5,6 +5,7 @@ use super::block::Block;
 use super::code::Group;
 use super::cycle::Cycle;
 use super::word::Fault;
+use crate::path::draft::{self, SPINDLE};
 use crate::units::{INCH, MM, RPM};
 
 /// The motion that a line with axis words makes.
@@ -168,7 +169,8 @@ impl Modal {
         }
         self.feed = Some(match self.feed_mode {
             FeedMode::InverseTime => word.value / 60.0,
-            FeedMode::PerMinute => word.value * self.unit / 60.0,
+            FeedMode::PerMinute => draft::feed(word.value * self.unit / 60.0)
+                .map_err(|fault| word.fault(block.text, fault.expected))?,
             FeedMode::PerRevolution => word.value * self.unit,
         });
         Ok(())
@@ -176,8 +178,9 @@ impl Modal {
 
     fn set_speed(&mut self, block: &mut Block) -> Result<(), Fault> {
         let Some(word) = block.take('S') else { return Ok(()) };
-        if word.value < 0.0 {
-            return Err(word.fault(block.text, "a spindle speed is 0 or more, in revolutions a minute"));
+        if !(word.value == 0.0 || SPINDLE.contains(&word.value)) {
+            let expected = "a spindle speed is 0, or 1 to 1000000 revolutions a minute";
+            return Err(word.fault(block.text, expected));
         }
         self.speed = Some(word.value * RPM);
         Ok(())

@@ -8,6 +8,7 @@ use super::interpreter::{AXES, Interpreter};
 use super::modal::{FeedMode, Motion};
 use super::word::{Fault, Word};
 use crate::path::Segment;
+use crate::path::draft;
 use crate::path::program::{Move, MovePace};
 use crate::units::{INCH, MM};
 use nalgebra::Vector3;
@@ -183,7 +184,9 @@ impl Interpreter<'_> {
             self.remark("spindle-stopped", || "a feed move while the spindle stands still".into());
         }
         match (self.modal.feed_mode, self.modal.feed) {
-            (FeedMode::InverseTime, Some(rate)) => Ok(MovePace::Feed(length * rate)),
+            // No move comes of it.
+            (FeedMode::InverseTime, Some(_)) if length <= SAME => Ok(MovePace::JobFeed),
+            (FeedMode::InverseTime, Some(rate)) => believed(length * rate, at),
             (FeedMode::InverseTime, None) => Err(Fault {
                 at,
                 found: "a feed move without F under G93".into(),
@@ -197,7 +200,7 @@ impl Interpreter<'_> {
             }
             (FeedMode::PerMinute, Some(feed)) => Ok(MovePace::Feed(feed)),
             (FeedMode::PerRevolution, Some(feed)) => match self.modal.spindle() {
-                Some(speed) => Ok(MovePace::Feed(feed * speed)),
+                Some(speed) => believed(feed * speed, at),
                 None => Err(Fault {
                     at,
                     found: "a feed a revolution (G95) without spindle speed".into(),
@@ -313,4 +316,10 @@ impl Interpreter<'_> {
         };
         Fault { at: word.start, found: format!("\"{}\": {found}", word.text(block.text)), expected }
     }
+}
+
+/// A feed [m/s] that comes out of other numbers.
+fn believed(feed: f64, at: usize) -> Result<MovePace, Fault> {
+    let fault = |fault: draft::Fault| Fault { at, found: fault.found, expected: fault.expected };
+    draft::feed(feed).map(MovePace::Feed).map_err(fault)
 }

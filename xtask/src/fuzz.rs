@@ -1,0 +1,66 @@
+//! The search for texts that break Armill: libFuzzer, guided by coverage, on the targets of `tests/fuzz/`.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::Command;
+
+use anyhow::{Context, Result, bail};
+
+use crate::workspace::{cargo, output, root, run};
+
+/// As in `tests/fuzz/target.rs`, with a folder each in `tests/fuzz/corpus/`.
+const TARGETS: [&str; 5] = ["gcode", "apt", "csv", "job", "export"];
+
+/// What stable Rust needs to tell libFuzzer which code has run.
+const INSTRUMENTED: &str = "-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=3 \
+    -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table \
+    -Cllvm-args=-sanitizer-coverage-trace-compares -Ccodegen-units=16";
+
+/// Searches for some seconds on one target, or on each. Texts that reach code which no kept one reaches are added to
+/// the corpus; a text that breaks a law ends the search and stays in `target/fuzz/`, as the output says.
+///
+/// # Errors
+/// If a law is broken, or the engine cannot be built: it takes a C++ compiler.
+pub(crate) fn fuzz(target: Option<&str>, seconds: u32) -> Result<()> {
+    let folder = root()?.join("tests/fuzz");
+    let targets = match target {
+        Some(target) => vec![
+            *TARGETS
+                .iter()
+                .find(|known| **known == target)
+                .with_context(|| format!("there is no target {target}, but {}", TARGETS.join(", ")))?,
+        ],
+        None => TARGETS.to_vec(),
+    };
+    let engine = build()?;
+    let found = root()?.join("target/fuzz");
+    for target in targets {
+        println!("\n=== {target}");
+        let (kept, fresh) = (folder.join("corpus").join(target), found.join(target));
+        fs::create_dir_all(&fresh)?;
+        let engine = || {
+            let mut command = Command::new(&engine);
+            command.env("ARMILL_FUZZ_TARGET", target);
+            command.args(["-timeout=10", "-max_len=4096"]);
+            command
+        };
+        let bad = format!("-artifact_prefix={}/{target}-", found.display());
+        let limit = format!("-max_total_time={seconds}");
+        run(engine().args([bad.as_str(), limit.as_str(), "-print_final_stats=1"]).args([&fresh, &kept]))?;
+        // Counts of how often code runs would keep thousands of texts that differ in nothing else.
+        run(engine().args(["-merge=1", "-use_counters=0"]).args([&kept, &fresh]))?;
+    }
+    Ok(())
+}
+
+/// The engine, which is no member of the workspace, with all of Armill instrumented.
+fn build() -> Result<PathBuf> {
+    let rustc = output("rustc", &["-vV"]).context("rustc does not say what it is")?;
+    let Some(host) = rustc.lines().find_map(|line| line.strip_prefix("host: ")) else {
+        bail!("rustc does not say what it runs on");
+    };
+    let manifest = ["--manifest-path", "tests/fuzz/engine/Cargo.toml", "--target-dir", "target/fuzz/build"];
+    // With a target, the flags reach no build script.
+    run(cargo(&["build", "--release", "--target", host])?.args(manifest).env("RUSTFLAGS", INSTRUMENTED))?;
+    Ok(root()?.join("target/fuzz/build").join(host).join("release/fuzz-engine"))
+}
