@@ -190,7 +190,7 @@ fn odd_programs_are_written_so_that_they_are_read_again() {
     for (name, text) in [
         ("a byte order mark", format!("\u{feff}{moves}")),
         ("letters of any kind after the end", format!("{moves}M30\n\u{e4}1 \u{feff}\n")),
-        ("lines before the program's number", format!("\n(PART)\nO1002\n{moves}")),
+        ("lines before the program's number", format!("\n(PART)\n/M8\nO1002\n{moves}")),
     ] {
         let report = run(&[("path", json!({ "kind": "gcode", "text": text }))]);
         for format in FORMATS {

@@ -189,19 +189,20 @@ impl Writer {
         let mut started = false;
         for (index, line) in listing.text.trim_start_matches('\u{feff}').lines().enumerate() {
             let source = Source::of(line);
-            // The header follows what must be first: the tape mark and the program's number.
-            let opens = source.code.is_empty() || source.before.contains(['%', 'O']);
-            if !(preamble || opens) {
+            let mut own = Vec::new();
+            while let Some(block) = blocks.next_if(|block| block.line == index + 1) {
+                own.push(block);
+            }
+            // The header follows what must be first, the tape mark and the program's number, and what does not count before them.
+            let opens =
+                source.code.is_empty() || source.code.starts_with('/') || source.before.contains(['%', 'O']);
+            if !preamble && !(opens && own.is_empty()) {
                 // A control that knows one of these needs to be told; others would refuse it.
                 let knows = |line| {
                     words(&uncommented(line).0).iter().any(|word| ["G90.1", "G91.1"].contains(&word.as_str()))
                 };
                 self.preamble(header, if listing.text.lines().any(knows) { " G91.1" } else { "" });
                 preamble = true;
-            }
-            let mut own = Vec::new();
-            while let Some(block) = blocks.next_if(|block| block.line == index + 1) {
-                own.push(block);
             }
             if !own.is_empty() && !started {
                 started = true;

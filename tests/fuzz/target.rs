@@ -249,7 +249,7 @@ fn check_report(report: &Report) {
     let summary = json!(report.summary()).to_string();
     assert!(!summary.contains("null") && !summary.contains("NaN"), "{summary}");
     for entry in CATALOG {
-        let options = chart::Options { width: 640.0, height: 300.0, x_range: None, y_range: None };
+        let options = chart::Options::sized(640.0, 300.0);
         let chart = chart::chart(report, entry.name, &options)
             .unwrap_or_else(|error| panic!("{}: {error}", entry.name));
         assert!(!chart.svg.contains("NaN") && !chart.svg.contains("inf\""), "{}", entry.name);
