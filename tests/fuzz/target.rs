@@ -58,25 +58,21 @@ fn check_gcode(text: &str) {
         ..gcode::Options::default()
     };
     for options in [gcode::Options::default(), tables] {
-        check_reader(text, || {
-            let mut heard = 0;
-            let outcome = gcode::program(text, &options, |line| heard = line);
-            let last = outcome.as_ref().map_or_else(|error| place(error).0 - 1, |program| program.lines);
-            assert_eq!(heard, last, "progress is told line by line");
-            outcome
-        });
+        check_reader(text, |on_line| gcode::program(text, &options, on_line));
     }
 }
 
 fn check_apt(text: &str) {
     for unit in [LengthUnit::Mm, LengthUnit::Inch] {
-        check_reader(text, || apt::program(text, &apt::Options { field: TEXT, unit }));
+        check_reader(text, |on_line| apt::program(text, &apt::Options { field: TEXT, unit }, on_line));
     }
 }
 
 fn check_csv(text: &str) {
     for (unit, feed_unit) in [(LengthUnit::Mm, FeedUnit::MmPerS), (LengthUnit::Inch, FeedUnit::InchPerMin)] {
-        check_reader(text, || csv::program(text, &csv::Options { field: TEXT, unit, feed_unit }));
+        check_reader(text, |on_line| {
+            csv::program(text, &csv::Options { field: TEXT, unit, feed_unit }, on_line)
+        });
     }
     if let Err(error) = csv::points(text, TEXT) {
         check_error(&error, text, text);
@@ -150,9 +146,13 @@ fn check_run(job: &Job) {
 }
 
 /// A reader gives the same twice, a sound program or an error that stands in the text.
-fn check_reader(text: &str, read: impl Fn() -> Result<Program, Error>) {
-    let outcome = read();
-    assert_eq!(outcome, read(), "the same text is read the same");
+fn check_reader(text: &str, read: impl Fn(&mut dyn FnMut(usize)) -> Result<Program, Error>) {
+    let mut done = 0;
+    let outcome = read(&mut |lines| {
+        assert!(lines >= done && lines <= text.lines().count(), "{lines} lines done after {done}");
+        done = lines;
+    });
+    assert_eq!(outcome, read(&mut |_| {}), "the same text is read the same");
     match outcome {
         Ok(program) => check_program(&program),
         Err(error) => {
@@ -269,10 +269,11 @@ fn check_report(report: &Report) {
 fn check_written(report: &Report, id: &str, text: &str, deviation: f64) {
     let read = match id {
         "gcode" => gcode::program(text, &gcode::Options::default(), |_| {}),
-        "apt" => apt::program(text, &apt::Options { field: TEXT, unit: LengthUnit::Mm }),
+        "apt" => apt::program(text, &apt::Options { field: TEXT, unit: LengthUnit::Mm }, |_| {}),
         "path-csv" => csv::program(
             text,
             &csv::Options { field: TEXT, unit: LengthUnit::Mm, feed_unit: FeedUnit::MmPerS },
+            |_| {},
         ),
         _ => return,
     };
