@@ -5,6 +5,8 @@
 #[path = "page/browser.rs"]
 pub mod browser;
 mod common;
+#[path = "page/charts.rs"]
+mod charts;
 #[path = "page/policy.rs"]
 mod policy;
 #[path = "page/scene.rs"]

@@ -240,6 +240,14 @@ impl Page {
     /// # Errors
     /// If no file of this name arrives in time, or it is no text.
     pub async fn downloaded(&self, file: &str) -> Result<String> {
+        Ok(String::from_utf8(self.downloaded_bytes(file).await?)?)
+    }
+
+    /// Waits for a download to be complete and tells its bytes.
+    ///
+    /// # Errors
+    /// If no file of this name arrives in time.
+    pub async fn downloaded_bytes(&self, file: &str) -> Result<Vec<u8>> {
         let path = self.downloads.join(file);
         let start = Instant::now();
         // The browser writes under another name; the file's own may stand there empty until it is complete.
@@ -251,7 +259,7 @@ impl Page {
             }
             sleep(Duration::from_millis(50)).await;
         }
-        Ok(fs::read_to_string(path)?)
+        Ok(fs::read(path)?)
     }
 
     /// Everything the console has shown since the page was opened, each line after its level.

@@ -55,11 +55,8 @@ function figureOf(entry) {
 }
 
 const redraw = debounced(() => draw(), 120);
-let width = 0;
-const resized = new ResizeObserver(([entry]) => {
-  const now = Math.round(entry.contentRect.width);
-  if (now > 0 && now !== width) redraw();
-  width = now;
+const resized = new ResizeObserver(() => {
+  if ([...figures.values()].some((figure) => !figure.fits)) redraw();
 });
 
 async function draw() {

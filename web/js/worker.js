@@ -46,6 +46,9 @@ function release() {
   run = null;
 }
 
+/** What is handed over instead of copied: a column, or those of a chart. */
+const buffers = (value) => [value].flat().flatMap((each) => (each instanceof Float64Array ? each : each?.values)?.buffer ?? []);
+
 /** An error as data: Errors lose their extra properties on the way through postMessage. */
 function plain(error) {
   const { code, message, field, line, column } = error;
@@ -61,7 +64,7 @@ addEventListener("message", async ({ data: { module, id, kind, args } }) => {
   }
   try {
     const value = answers[kind](...args);
-    postMessage({ id, value }, value instanceof Float64Array ? [value.buffer] : []);
+    postMessage({ id, value }, buffers(value));
   } catch (error) {
     postMessage({ id, error: plain(error) });
   }

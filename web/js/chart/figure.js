@@ -36,6 +36,8 @@ export class Figure {
   #before = undefined; // where the cursor was when the pointer came
   #waiting = false;
   #drawing = null;
+  #width = 0; // that was drawn at
+
 
   /** `link(figure, range)` is called when the range of time changes, to take the other charts along. */
   constructor({ name, title, figure, kind }, link) {
@@ -75,6 +77,7 @@ export class Figure {
       this.#waiting = false;
       const size = this.#size();
       if (size.width < 1) return;
+      this.#width = size.width;
       this.#plot.style.setProperty("min-height", `${size.height}px`);
       const { x, y } = this.#view;
       const options = { ...size, ...units(), hidden: this.#legend.hidden, ...(x && { x_range: x }), ...(y && { y_range: y }) };
@@ -86,6 +89,11 @@ export class Figure {
   forget() {
     this.#data = this.#fetching = null;
     this.#index = null;
+  }
+
+  /** Whether it is drawn as wide as it is, or not to be seen. */
+  get fits() {
+    return !this.node.checkVisibility() || this.#width === this.#size().width;
   }
 
   /** The room to draw in [px]. */
@@ -226,6 +234,10 @@ export class Figure {
     return inside ? [across, up] : anyway ? [across, up].map((value) => Math.min(1, Math.max(0, value))) : null;
   }
 
+  enter() {
+    this.#before = undefined;
+  }
+
   async point(place) {
     if (this.#before === undefined) this.#before = this.overRun ? cursor() : this.#local;
     if (!this.#data && !(await this.#fetch())) return;
@@ -245,8 +257,13 @@ export class Figure {
     else this.#set(before);
   }
 
-  /** The cursor stays where it is. */
-  pin() {
+  /** The cursor comes to a place and stays. */
+  async pin(place) {
+    await this.point(place);
+    this.#stay();
+  }
+
+  #stay() {
     this.#before = this.overRun ? cursor() : this.#local;
   }
 
@@ -278,7 +295,7 @@ export class Figure {
   /** Sets the cursor to stay, and brings it into view. */
   #keep(index) {
     this.#set(index);
-    this.pin();
+    this.#stay();
     const { x } = this.#axes;
     const at = this.plane ? 0.5 : fractionOf(x, this.#data[0].values[index]);
     if (at < 0 || at > 1) this.shift(at < 0 ? at - 0.1 : at - 0.9, 0);

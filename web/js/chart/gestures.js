@@ -1,6 +1,6 @@
 // What mouse, fingers, wheel and keys do to a chart.
 //
-// `chart` has: `place(event)` -> fractions [across, up] of the plot, `point(place)`, `leave()`, `pin()`, `scale([fx, fy], place)`,
+// `chart` has: `place(event)` -> fractions [across, up] of the plot, `enter()`, `point(place)`, `leave()`, `pin(place)`, `scale([fx, fy], place)`,
 // `shift(dx, dy)` (fractions), `zoomBox(a, b)`, `box(corners)`, `reset()`, `step(samples, share)`, `ends(last)`, `clear()`, `go()`,
 // `grab()` -> token and `drag(token, dx, dy, scale, place)`: the view as it was when grabbed, moved; `zoomed`.
 
@@ -16,6 +16,7 @@ export function listen(plot, chart) {
   const size = () => plot.getBoundingClientRect();
   const local = ({ clientX, clientY }) => [clientX - size().left, clientY - size().top];
 
+  plot.addEventListener("pointerenter", () => chart.enter());
   plot.addEventListener("pointerdown", (event) => {
     if (event.button > 1 || (event.button === 1 && event.pointerType !== "mouse")) return;
     if (!chart.place(event)) return;
@@ -51,8 +52,7 @@ export function listen(plot, chart) {
   plot.addEventListener("pointerup", (event) => {
     const before = held;
     release(event);
-    if (before?.kind === "scrub") chart.pin();
-    else if (before && !before.moved && before.kind === "box") chart.pin();
+    if (before?.kind === "scrub" || (before?.kind === "box" && !before.moved)) chart.pin(chart.place(event, true));
     else if (before?.corners) chart.zoomBox(...before.corners);
   });
   plot.addEventListener("pointercancel", (event) => release(event));
