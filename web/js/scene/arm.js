@@ -34,19 +34,19 @@ export function armParts({ base, joints, tcp }) {
   const parts = [
     tubeBetween(base.origin, plus(base.origin, base.z, 0.02 * size), 1.55 * radius(0), 1, "joint"),
   ];
-  joints.forEach(({ origin, z }, i) => {
+  const bare = length(minus(joints[5].origin, tcp.origin)) < 1; // the tip is at the flange: the tool takes the last link's place
+  joints.slice(0, bare ? JOINTS - 1 : JOINTS).forEach(({ origin, z }, i) => {
     if (lengths[i] > 1) parts.push(tubeBetween(stations[i].origin, origin, radius(i), radius(i + 1) / radius(i), "link"));
     parts.push(housing(origin, z, i));
   });
-  return [...parts, ...toolParts(joints, tcp, size)];
+  return [...parts, ...toolParts(joints, tcp, size, bare)];
 }
 
 /** Cutter and spindle on the tool's axis; where the tip is off the flange's axis, a bracket between the two. */
-function toolParts(joints, tcp, size) {
+function toolParts(joints, tcp, size, bare) {
   const [wrist, flange] = [joints[4].origin, joints[5].origin];
   const axis = tcp.z.map((v) => -v);
   const height = (point) => dot(minus(point, tcp.origin), axis);
-  const bare = length(minus(flange, tcp.origin)) < 1; // the tip is at the flange: the tool is part of the last link
   const top = Math.max(height(bare ? wrist : flange), 0.06 * size);
   const at = (share) => plus(tcp.origin, axis, share * top);
   const parts = [

@@ -1,6 +1,7 @@
 // What stands around the paths: the floor's grid and the axes of frames, as lines for the painter.
 
 import { plus } from "./camera.js";
+import { vertex } from "./gl.js";
 
 const ABOUT = 14; // spaces of the grid along the longer side
 
@@ -23,9 +24,6 @@ export function grid([low, high], unit) {
   }
   return { spacing, points: new Float32Array(numbers) };
 }
-
-/** A point that a line starts or ends in. */
-export const vertex = (point) => [...point, 0, 0, 0, 0, 0, 1];
 
 /** The three axes of a frame, each as a pair of points. */
 export const axesOf = (frame, length) =>

@@ -1,17 +1,28 @@
 // Draws thick lines and plain solids with WebGL2.
 //
-// A line is an instanced quad around each of its pieces. Its points are VERTEX numbers each: place, way (added `factor` times), value that
-// gives the colour, length so far, and whether it is drawn in full strength.
+// A line's points lie in a texture, and a quad is spanned around each of its pieces: so one buffer serves any thinning, and machines without
+// graphics hardware draw it tens of times as fast as with instances. A point is VERTEX numbers: its place, the value that gives its colour, a way that is
+// added `factor` times, and the length so far (minus that and one where it is drawn faintly).
 
-export const VERTEX = 9;
+export const VERTEX = 8;
+const WIDTH = 1024; // of a texture of points: 512 points
+
+/** The numbers of a point. */
+export const vertex = (place, { way = [0, 0, 0], value = 0, along = 0, faint = false } = {}) => [...place, value, ...way, faint ? -1 - along : along];
 
 const LINE_VERTEX = `#version 300 es
-layout(location = 0) in vec3 placeA; layout(location = 1) in vec3 wayA; layout(location = 2) in vec3 factsA;
-layout(location = 3) in vec3 placeB; layout(location = 4) in vec3 wayB; layout(location = 5) in vec3 factsB;
-uniform mat4 camera; uniform vec2 size; uniform float factor, halfWidth, radius, pixelsPerMm, bias;
-out vec3 facts; out vec2 at; out float far; out float reach;
+uniform highp sampler2D points;
+uniform mat4 camera; uniform vec2 size; uniform float factor, halfWidth, radius, pixelsPerMm, bias, stride, ahead, last;
+out vec2 facts; out vec2 at; out float far; out float reach;
+vec4 texel(int i) {
+  int width = textureSize(points, 0).x;
+  return texelFetch(points, ivec2(i % width, i / width), 0);
+}
 void main() {
-  vec4 a = camera * vec4(placeA + wayA * factor, 1.0), b = camera * vec4(placeB + wayB * factor, 1.0);
+  int piece = gl_VertexID / 6, corner = gl_VertexID % 6;
+  int first = piece * int(stride), next = min(first + int(ahead), int(last));
+  vec4 placeA = texel(2 * first), wayA = texel(2 * first + 1), placeB = texel(2 * next), wayB = texel(2 * next + 1);
+  vec4 a = camera * vec4(placeA.xyz + wayA.xyz * factor, 1.0), b = camera * vec4(placeB.xyz + wayB.xyz * factor, 1.0);
   float near = 0.1;
   if (a.w < near && b.w < near) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
   if (a.w < near) a = mix(a, b, (near - a.w) / (b.w - a.w));
@@ -19,28 +30,28 @@ void main() {
   vec2 from = a.xy / a.w * size * 0.5, to = b.xy / b.w * size * 0.5;
   float whole = distance(from, to);
   vec2 along = whole > 1e-4 ? (to - from) / whole : vec2(1.0, 0.0);
-  bool second = gl_VertexID > 1;
-  float side = (gl_VertexID & 1) == 0 ? -1.0 : 1.0, end = second ? 1.0 : -1.0;
+  bool second = corner == 2 || corner == 3 || corner == 5;
+  float side = corner == 0 || corner == 2 || corner == 3 ? -1.0 : 1.0, end = second ? 1.0 : -1.0;
   vec4 here = second ? b : a;
   reach = max(halfWidth, radius * pixelsPerMm / here.w);
   vec2 off = (along * end + vec2(-along.y, along.x) * side) * (reach + 1.0);
   at = vec2((second ? whole : 0.0) + end * (reach + 1.0), side * (reach + 1.0));
   far = whole;
-  facts = second ? factsB : factsA;
+  facts = second ? vec2(placeB.w, wayB.w) : vec2(placeA.w, wayA.w);
   gl_Position = vec4(((second ? to : from) + off) / size * 2.0, here.z / here.w - bias, 1.0);
 }`;
 
 const LINE_FRAGMENT = `#version 300 es
 precision highp float;
-in vec3 facts; in vec2 at; in float far; in float reach;
+in vec2 facts; in vec2 at; in float far; in float reach;
 uniform sampler2D ramp; uniform vec3 colour, paper; uniform float largest, dash, fade;
 out vec4 pixel;
 void main() {
   float distance = length(vec2(at.x < 0.0 ? at.x : max(at.x - far, 0.0), at.y));
   float cover = clamp(reach - distance + 0.5, 0.0, 1.0);
-  if (cover <= 0.0 || (dash > 0.0 && fract(facts.y / dash) > 0.6)) discard;
+  if (cover <= 0.0 || (dash > 0.0 && fract(abs(facts.y) / dash) > 0.6)) discard;
   vec3 own = largest > 0.0 ? texture(ramp, vec2(clamp(facts.x / largest, 0.0, 1.0) * 0.996 + 0.002, 0.5)).rgb : colour;
-  pixel = vec4(mix(own, paper, max(fade, facts.z < 0.5 ? 0.6 : 0.0)), cover);
+  pixel = vec4(mix(own, paper, max(fade, facts.y < 0.0 ? 0.6 : 0.0)), cover);
 }`;
 
 // A tube from z = 0 to 1 of radius 1, narrowed towards its top; lit from over the reader's shoulder.
@@ -64,7 +75,7 @@ void main() {
   pixel = vec4(plain ? colour : colour * (0.55 + 0.5 * lit * lit), strength);
 }`;
 
-const SIDES = 40;
+const SIDES = 32;
 
 /** Draws on a canvas; `null` where the browser has no WebGL2. */
 export function painterOn(canvas) {
@@ -79,60 +90,55 @@ class Painter {
   #tube;
   #lines = [];
   #piece;
+  #nothing; // lines take their points from textures
 
   constructor(gl) {
     this.#gl = gl;
     this.#line = program(gl, LINE_VERTEX, LINE_FRAGMENT);
     this.#solid = program(gl, SOLID_VERTEX, SOLID_FRAGMENT);
     this.#tube = tube(gl);
+    this.#nothing = gl.createVertexArray();
+    gl.useProgram(this.#line.program);
+    gl.uniform1i(gl.getUniformLocation(this.#line.program, "ramp"), 0);
+    gl.uniform1i(gl.getUniformLocation(this.#line.program, "points"), 1);
     gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
-    for (const [key, value] of [["MIN_FILTER", "LINEAR"], ["MAG_FILTER", "LINEAR"], ["WRAP_S", "CLAMP_TO_EDGE"], ["WRAP_T", "CLAMP_TO_EDGE"]]) {
-      gl.texParameteri(gl.TEXTURE_2D, gl[`TEXTURE_${key}`], gl[value]);
-    }
+    parameters(gl, gl.LINEAR);
+    gl.activeTexture(gl.TEXTURE1);
   }
 
   /** The colours that values are drawn in, as a row of RGBA pixels. */
   ramp(texels) {
     const gl = this.#gl;
+    gl.activeTexture(gl.TEXTURE0);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, texels.length / 4, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, texels);
+    gl.activeTexture(gl.TEXTURE1);
   }
 
   /** A line to draw later: each point joined to the next, or (`pairs`) every second one to its next. */
   line(points, pairs = false) {
-    const line = { points, pairs, levels: new Map() };
+    const gl = this.#gl;
+    const line = { texture: gl.createTexture(), pairs };
+    gl.bindTexture(gl.TEXTURE_2D, line.texture);
+    parameters(gl, gl.NEAREST);
+    this.#fill(line, points);
     this.#lines.push(line);
     return line;
   }
 
-  /** The line with every so many of its points, rounded down to a power of two; made when first asked for. */
-  #level(line, every) {
-    const step = line.pairs ? 1 : 2 ** Math.floor(Math.log2(every));
-    let level = line.levels.get(step);
-    if (!level) line.levels.set(step, (level = this.#made(thinned(line.points, step), line.pairs)));
-    return level;
-  }
-
-  #made(points, pairs) {
+  #fill(line, points) {
     const gl = this.#gl;
-    const [array, buffer] = [gl.createVertexArray(), gl.createBuffer()];
-    gl.bindVertexArray(array);
-    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, points, gl.STATIC_DRAW);
-    for (let slot = 0; slot < 6; slot++) {
-      gl.enableVertexAttribArray(slot);
-      gl.vertexAttribPointer(slot, 3, gl.FLOAT, false, VERTEX * 4 * (pairs ? 2 : 1), slot * 12);
-      gl.vertexAttribDivisor(slot, 1);
-    }
-    const count = points.length / VERTEX;
-    return { array, buffer, pieces: Math.max(0, pairs ? count / 2 : count - 1) };
+    const [texels, rows] = [points.length / 4, Math.ceil(points.length / 4 / WIDTH)];
+    const width = Math.min(WIDTH, texels);
+    const whole = new Float32Array(width * rows * 4);
+    whole.set(points);
+    line.count = points.length / VERTEX;
+    gl.bindTexture(gl.TEXTURE_2D, line.texture);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, width, rows, 0, gl.RGBA, gl.FLOAT, whole);
   }
 
   /** Forgets every line. */
   clearLines() {
-    for (const { array, buffer } of this.#lines.flatMap(({ levels }) => [...levels.values()])) {
-      this.#gl.deleteVertexArray(array);
-      this.#gl.deleteBuffer(buffer);
-    }
+    for (const { texture } of this.#lines) this.#gl.deleteTexture(texture);
     this.#lines = [];
     this.#piece = undefined;
   }
@@ -159,19 +165,23 @@ class Painter {
   draw(line, { factor = 0, width = 2, radius = 0, colour = [0, 0, 0], largest = 0, dash = 0, fade = 0, bias = 0, every = 1 }) {
     const gl = this.#gl;
     gl.useProgram(this.#line.program);
-    this.#line.set({ factor, halfWidth: width / 2, radius, colour, largest, dash, fade, bias });
-    const { array, pieces } = this.#level(line, every);
-    gl.bindVertexArray(array);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, pieces);
+    const { texture, pairs, count } = line;
+    const [stride, ahead] = pairs ? [2, 1] : [every, every];
+    const pieces = pairs ? count / 2 : Math.ceil((count - 1) / every);
+    this.#line.set({ factor, halfWidth: width / 2, radius, colour, largest, dash, fade, bias, stride, ahead, last: count - 1 });
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.bindVertexArray(this.#nothing);
+    gl.drawArrays(gl.TRIANGLES, 0, 6 * pieces);
   }
 
-  /** Draws one piece of a line that is not kept, from its two points; a piece without length is a dot. */
+  /** Draws one piece of a line that is not kept, from its two points; a piece without length is a dot. Nothing hides it. */
   dot(points, style) {
     const gl = this.#gl;
-    this.#piece ??= this.line(points, true);
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.#level(this.#piece, 1).buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, points, gl.DYNAMIC_DRAW);
+    if (this.#piece) this.#fill(this.#piece, points);
+    else this.#piece = this.line(points, true);
+    gl.depthFunc(gl.ALWAYS);
     this.draw(this.#piece, style);
+    gl.depthFunc(gl.LEQUAL);
   }
 
   /** Draws tubes { model, top, colour } as one body that what is behind it shines through. */
@@ -211,16 +221,10 @@ class Painter {
   }
 }
 
-/** Every so many points of a line, and its last. */
-function thinned(points, step) {
-  if (step === 1) return points;
-  const count = points.length / VERTEX;
-  const kept = new Float32Array((Math.ceil((count - 1) / step) + 1) * VERTEX);
-  for (let to = 0; to < kept.length; to += VERTEX) {
-    const from = Math.min(to * step, (count - 1) * VERTEX);
-    kept.set(points.subarray(from, from + VERTEX), to);
+function parameters(gl, filter) {
+  for (const [key, value] of [["MIN_FILTER", filter], ["MAG_FILTER", filter], ["WRAP_S", gl.CLAMP_TO_EDGE], ["WRAP_T", gl.CLAMP_TO_EDGE]]) {
+    gl.texParameteri(gl.TEXTURE_2D, gl[`TEXTURE_${key}`], value);
   }
-  return kept;
 }
 
 function program(gl, ...sources) {

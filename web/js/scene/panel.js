@@ -60,7 +60,7 @@ export function furnish(node, on) {
     },
     /** The scale from 0 to `largest`, with a mark at the tolerance. */
     scale(largest, tolerance, unit, dark) {
-      bar.style.setProperty("background-image", gradient(dark));
+      node.style.setProperty("--ramp", gradient(dark));
       scale.querySelector(".unit").textContent = unit;
       const step = niceStep(largest / TICKS);
       const decimals = Math.max(0, -Math.floor(Math.log10(step)));
@@ -70,7 +70,7 @@ export function furnish(node, on) {
         return tick;
       };
       const marks = [];
-      for (let k = 0; k * step < largest * 0.8; k++) marks.push(at(k * step, (k * step).toFixed(decimals), "tick"));
+      for (let k = 0; k * step < largest * 0.75; k++) marks.push(at(k * step, (k * step).toFixed(decimals), "tick"));
       marks.push(at(largest, largest.toPrecision(3), "tick last"));
       if (tolerance <= largest) marks.push(at(tolerance, "", "tolerance"));
       ticks.replaceChildren(...marks);

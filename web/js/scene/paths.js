@@ -1,9 +1,10 @@
 // The paths of a run, as the core hands them out for a picture: made into lines, measured, picked from.
 
-import { length, plus, project } from "./camera.js";
-import { VERTEX } from "./gl.js";
+import { length, plus } from "./camera.js";
+import { VERTEX, vertex } from "./gl.js";
 
-const ROW = 17; // numbers in a row of the core's `track`
+const ROW = 17; // numbers in a row of the core's `track`, and where its vectors start
+const [DESIRED, CLOSEST, BEFORE, AFTER, CORRECTION] = [2, 5, 8, 11, 14];
 const WHISKERS = 120;
 
 export class Paths {
@@ -34,11 +35,11 @@ export class Paths {
   }
 
   /** The point where the tool should be, the closest point of the path to where it is, and the ways from there to the tip. */
-  desired = (row) => this.#vector(row, 2);
-  closest = (row) => this.#vector(row, 5);
-  before = (row) => this.#vector(row, 8);
-  after = (row) => this.#vector(row, 11);
-  correction = (row) => this.#vector(row, 14);
+  desired = (row) => this.#vector(row, DESIRED);
+  closest = (row) => this.#vector(row, CLOSEST);
+  before = (row) => this.#vector(row, BEFORE);
+  after = (row) => this.#vector(row, AFTER);
+  correction = (row) => this.#vector(row, CORRECTION);
 
   /** The row nearest to a sample. */
   rowOf(sample) {
@@ -82,9 +83,11 @@ export class Paths {
       const here = place(row);
       if (row) along += length(plus(here, place(row - 1), -1));
       const off = way(row);
+      // As `vertex` would, without a list for each.
       points.set(here, row * VERTEX);
-      points.set(off, row * VERTEX + 3);
-      points.set([length(off), along, this.#track[row * ROW + 1] > 0 ? 1 : 0], row * VERTEX + 6);
+      points[row * VERTEX + 3] = length(off);
+      points.set(off, row * VERTEX + 4);
+      points[row * VERTEX + 7] = this.#track[row * ROW + 1] ? along : -1 - along;
     }
     return points;
   }
@@ -99,8 +102,7 @@ export class Paths {
       if (along < next) continue;
       next += step;
       const [place, way] = [this.closest(row), this.before(row)];
-      const facts = [length(way), 0, 1];
-      points.push(...place, 0, 0, 0, ...facts, ...place, ...way, ...facts);
+      points.push(...vertex(place, { value: length(way) }), ...vertex(place, { way, value: length(way) }));
     }
     return new Float32Array(points);
   }
@@ -111,17 +113,22 @@ export class Paths {
     return sum;
   }
 
-  /** The row whose drawn point is nearest to a place in the picture, or -1 if none is within `reach` pixels. */
-  pick(camera, [x, y], { width, height, factor, shown, reach }) {
+  /** The row whose drawn point is nearest to a place in the picture, or -1 if none is within `reach` pixels; `m` is the camera's matrix. */
+  pick(m, [x, y], { width, height, factor, shown, reach }) {
     const drawn = [];
-    if (shown.desired) drawn.push([this.desired, this.correction, 0]);
-    if (shown.compensated) drawn.push([this.desired, this.correction, factor]);
-    if (shown.actual) drawn.push([this.closest, this.before, factor]);
+    if (shown.desired) drawn.push([DESIRED, BEFORE, 0]);
+    if (shown.compensated) drawn.push([DESIRED, CORRECTION, factor]);
+    if (shown.actual) drawn.push([CLOSEST, BEFORE, factor]);
+    const track = this.#track;
     let [best, least] = [-1, reach * reach];
     for (const [place, way, times] of drawn) {
       for (let row = 0; row < this.count; row++) {
-        const [px, py, depth] = project(camera, plus(place(row), way(row), times), width, height);
-        const away = (px - x) ** 2 + (py - y) ** 2;
+        const p = row * ROW + place, w = row * ROW + way;
+        const px = track[p] + times * track[w], py = track[p + 1] + times * track[w + 1], pz = track[p + 2] + times * track[w + 2];
+        const depth = m[3] * px + m[7] * py + m[11] * pz + m[15];
+        const right = (((m[0] * px + m[4] * py + m[8] * pz + m[12]) / depth + 1) * width) / 2 - x;
+        const down = ((1 - (m[1] * px + m[5] * py + m[9] * pz + m[13]) / depth) * height) / 2 - y;
+        const away = right * right + down * down;
         if (depth > 0 && away < least) [best, least] = [row, away];
       }
     }

@@ -6,6 +6,7 @@
 const TURN = Math.PI / 450; // a pixel of dragging [rad]
 const STEP = Math.PI / 36; // an arrow key [rad]
 const STILL = 4; // a press that moves less than this points [px]
+const SIDEWAYS = 10; // a finger turns the picture once it has gone this far to a side [px]; before, it may still scroll the page
 
 /**
  * Steers `camera` from `canvas`. `on.move()` follows a change, `on.point(x, y, pressed)` a pointer over the picture, `on.key(key)` may take
@@ -17,7 +18,7 @@ export function steer(canvas, camera, on) {
 
   canvas.addEventListener("pointerdown", (event) => {
     const [x, y] = place(event);
-    down.set(event.pointerId, { x, y, moved: 0, pans: event.button !== 0 || event.shiftKey });
+    down.set(event.pointerId, { x, y, start: [x, y], moved: 0, free: event.pointerType !== "touch", pans: event.button !== 0 || event.shiftKey });
     canvas.setPointerCapture(event.pointerId);
   });
   canvas.addEventListener("pointermove", (event) => {
@@ -27,11 +28,13 @@ export function steer(canvas, camera, on) {
     const [dx, dy] = [x - own.x, y - own.y];
     const others = [...down.values()].filter((other) => other !== own);
     own.moved += Math.abs(dx) + Math.abs(dy);
-    if (own.moved < STILL) return;
-    if (others.length === 1) pinch(own, others[0], dx, dy);
+    const [aside, upright] = [Math.abs(x - own.start[0]), Math.abs(y - own.start[1])];
+    own.free ||= others.length > 0 || (aside > SIDEWAYS && aside >= upright);
+    [own.x, own.y] = [x, y];
+    if (own.moved < STILL || !own.free) return;
+    if (others.length === 1) pinch({ x: x - dx, y: y - dy }, others[0], dx, dy);
     else if (own.pans) camera.pan(dx, dy);
     else camera.orbit(-dx * TURN, dy * TURN);
-    [own.x, own.y] = [x, y];
     on.move();
   });
   const up = (event) => {

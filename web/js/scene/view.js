@@ -7,8 +7,8 @@ import { onSetting } from "../settings.js";
 import { inLength, lengthText, lengthUnit } from "../units.js";
 import { armParts, framesOf, shadow } from "./arm.js";
 import { Camera, VIEWS, length, plus, project } from "./camera.js";
-import { axesOf, grid, vertex } from "./floor.js";
-import { painterOn } from "./gl.js";
+import { axesOf, grid } from "./floor.js";
+import { painterOn, vertex } from "./gl.js";
 import { furnish } from "./panel.js";
 import { Paths } from "./paths.js";
 import { Player } from "./play.js";
@@ -44,6 +44,7 @@ class Scene {
   #fitted = "fit";
   #tones;
   #due = false;
+  #pointed = null; // where the pointer is, until it has been looked up
 
   constructor(node) {
     this.#node = node;
@@ -56,7 +57,7 @@ class Scene {
     const { canvas, stage } = this.#panel;
     steer(canvas, this.#camera, {
       move: () => this.#redraw(),
-      point: (x, y, pressed) => this.#point(x, y, pressed),
+      point: (x, y, pressed) => this.#pointSoon(x, y, pressed),
       key: (key) => this.#key(key),
     });
     this.#camera.look(VIEWS.iso);
@@ -168,6 +169,12 @@ class Scene {
     this.#asking = false;
   }
 
+  /** Once a picture is often enough, however often the pointer tells where it is. */
+  #pointSoon(...where) {
+    if (!this.#pointed) requestAnimationFrame(() => (this.#point(...this.#pointed), (this.#pointed = null)));
+    this.#pointed = where;
+  }
+
   #point(x, y, pressed) {
     if (!this.#paths || this.#player.playing) return;
     const { width, height } = this.#camera;
@@ -258,8 +265,8 @@ class Scene {
     const [from, way] = [this.#paths.closest(row), this.#paths.before(row)];
     const to = plus(from, way, factor);
     const [painter, { ink, paper }] = [this.#painter, this.#tones];
-    const dot = (point, width, colour) => painter.dot(new Float32Array([...vertex(point), ...vertex(point)]), { width: width * sharp, colour, bias: 1e-3 });
-    painter.dot(new Float32Array([...vertex([...from]), ...vertex(to)]), { width: 1.5 * sharp, colour: ink, bias: 1e-3 });
+    const dot = (point, width, colour) => painter.dot(new Float32Array([...vertex(point), ...vertex(point)]), { width: width * sharp, colour });
+    painter.dot(new Float32Array([...vertex([...from]), ...vertex(to)]), { width: 1.5 * sharp, colour: ink });
     dot([...from], 8, ink);
     dot([...from], 4.5, paper);
     dot(to, 11, paper);
