@@ -5,7 +5,7 @@ mod common;
 
 use armill::math;
 use armill::path::apt::{Options, program};
-use armill::path::program::Program;
+use armill::path::program::{Program, Tool};
 use armill::path::unit::LengthUnit;
 use common::moves::{assert_sound, described};
 
@@ -248,6 +248,7 @@ fn harmless_words_are_listed_as_written() {
     ];
     assert_eq!(words, expected);
     assert_eq!((program.unit, program.lines), ("mm", 19));
+    assert_eq!(program.tools, [Tool { diameter: 10e-3, line: 5 }]);
     assert_eq!(program.moves[0].line, 17);
 }
 

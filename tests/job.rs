@@ -216,6 +216,33 @@ fn programs_are_paths_and_their_mistakes_are_placed() {
     for (force, cuts) in report.before.force.iter().zip(&cuts) {
         assert_eq!(force.norm() > 0.0, *cuts == 1.0);
     }
+    // With a shaper, the force fades where a rapid ends, and the column with it.
+    let shaped = run(&[program("gcode", "G21 G90 S4000 M3\nG0 X600 Y0 Z120\nG0 Z100\nG1 X650")]);
+    let cuts = common::column(&shaped, "cuts");
+    let whole = shaped.before.force.iter().map(|force| force.norm()).fold(0.0, f64::max);
+    for (force, cuts) in shaped.before.force.iter().zip(&cuts) {
+        assert!((force.norm() - cuts * whole).abs() < 1e-9 * whole, "{} at {cuts}", force.norm());
+    }
+    assert!(cuts.iter().any(|cuts| (0.1..0.9).contains(cuts)));
+    // A tool of another diameter is remarked on; the same one in inches is not.
+    for (tool, unit, warned) in
+        [("CUTTER/12,0", "MM", true), ("TLDATA/MILL,10.0,2", "MM", false), ("CUTTER/.3937", "INCHES", false)]
+    {
+        let size = if unit == "MM" { 1.0 } else { 25.4 };
+        let text = format!(
+            "{tool}\nUNITS/{unit}\nGOTO/{},0,{}\nGOTO/{},0,{}\nFINI",
+            600.0 / size,
+            100.0 / size,
+            640.0 / size,
+            100.0 / size
+        );
+        let warnings = run(&[program("apt", &text)]).warnings;
+        let told = warnings.iter().find(|warning| warning.code == "tool-differs");
+        assert_eq!(told.is_some(), warned, "{text}");
+        assert!(told.is_none_or(|told| {
+            told.message.starts_with("line 1: the program's tool has a diameter of 12.000 mm")
+        }));
+    }
     let lines = common::column(&report, "program_line");
     assert_eq!((lines[0], *lines.last().unwrap()), (3.0, 4.0));
     // An inch program is read as inches.

@@ -9,6 +9,8 @@ mod common;
 mod charts;
 #[path = "page/policy.rs"]
 mod policy;
+#[path = "page/programs.rs"]
+mod programs;
 #[path = "page/scene.rs"]
 mod scene;
 #[path = "page/standalone.rs"]

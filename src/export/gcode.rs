@@ -194,9 +194,11 @@ impl Writer {
                 own.push(block);
             }
             // The header follows what must be first, the tape mark and the program's number, and what does not count before them.
-            let opens =
-                source.code.is_empty() || source.code.starts_with('/') || source.before.contains(['%', 'O']);
-            if !preamble && !(opens && own.is_empty()) {
+            let opens = own.is_empty()
+                && (source.code.is_empty()
+                    || source.code.starts_with('/')
+                    || source.before.contains(['%', 'O']));
+            if !(preamble || opens) {
                 // A control that knows one of these needs to be told; others would refuse it.
                 let knows = |line| {
                     words(&uncommented(line).0).iter().any(|word| ["G90.1", "G91.1"].contains(&word.as_str()))

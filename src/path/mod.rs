@@ -12,7 +12,7 @@ pub mod gcode;
 pub mod apt;
 pub mod csv;
 
-pub use program::{Listing, Move, MovePace, Program};
+pub use program::{Listing, Move, MovePace, Program, Tool};
 pub use segment::Segment;
 
 use crate::math::{self, Pose};

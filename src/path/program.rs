@@ -16,6 +16,8 @@ pub struct Program {
     pub ignored: Vec<Ignored>,
     /// What is odd but workable, e.g. a move without a feed.
     pub remarks: Vec<Remark>,
+    /// Tools that the program describes.
+    pub tools: Vec<Tool>,
     /// Unit of length of the text, as read: `mm` or `inch`.
     pub unit: &'static str,
     /// Number of lines of the text.
@@ -68,6 +70,15 @@ pub struct Dwell {
     pub after: usize,
     /// Time [s].
     pub time: f64,
+    /// Line of the text, from 1.
+    pub line: usize,
+}
+
+/// A tool that a program describes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tool {
+    /// Diameter [m].
+    pub diameter: f64,
     /// Line of the text, from 1.
     pub line: usize,
 }

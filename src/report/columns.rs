@@ -1,6 +1,7 @@
 //! The columns of a report: one row a sample, units in the names.
 
 use crate::column::Column;
+use crate::deviation::Sources;
 use crate::report::{Report, norms_mm};
 use crate::robot::Joints;
 use crate::units::{DEG, MM};
@@ -59,7 +60,12 @@ impl Report {
         let tilt = |key, label, errors: &[f64]| Column::new(key, label, "deg", scaled(errors, DEG));
         columns.push(tilt("axis_error_deg", "Tool axis error before", &self.before.axis_error));
         columns.push(tilt("after_axis_error_deg", "Tool axis error after", &self.after.axis_error));
-        columns.push(Column::new("cuts", "Cuts", "", trajectory.pace.engaged.clone()));
+        // As the force has it: a shaped tool arrives later, and between cutting and not it is partly both.
+        let mut cuts = self.plan.pace(Sources::ALL).engaged;
+        for share in cuts.iter_mut().filter(|share| (**share - share.round()).abs() < 1e-12) {
+            *share = share.round();
+        }
+        columns.push(Column::new("cuts", "Cuts", "", cuts));
         let path = &self.plan.path;
         let lines =
             trajectory.pace.arc_length.iter().map(|&s| path.moves()[path.locate(s).0].line as f64).collect();

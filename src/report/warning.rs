@@ -6,7 +6,7 @@ use crate::deviation::{Deviation, Plan, Sources};
 use crate::job::Setup;
 use crate::math;
 use crate::motion::joints::JointTrajectory;
-use crate::path::{Move, MovePace};
+use crate::path::{Move, MovePace, Tool};
 use crate::robot::Joints;
 use crate::robot::inverse::Margin;
 use crate::units::{DEG, MM};
@@ -58,6 +58,9 @@ const JUMP: f64 = 5.0 * DEG;
 /// A feed further off the plane across the tool axis is remarked [rad].
 const RAMP: f64 = 30.0 * DEG;
 
+/// Tools of diameters nearer than this are the same [m]: CAM systems round inches.
+const SAME_TOOL: f64 = 0.01 * MM;
+
 /// First and last sample at which something holds.
 fn range(count: usize, holds: impl Fn(usize) -> bool) -> Option<(usize, usize)> {
     let first = (0..count).find(|&k| holds(k))?;
@@ -107,6 +110,17 @@ pub(crate) fn warnings(
 fn program(setup: &Setup, warnings: &mut Vec<Warning>) {
     for remark in setup.listing.iter().flat_map(|listing| &listing.program.remarks) {
         warnings.push(Warning::new(remark.code, format!("line {}: {}", remark.line, remark.message)));
+    }
+    let other = |tool: &&Tool| (tool.diameter - setup.cut.diameter).abs() > SAME_TOOL;
+    let mut tools = setup.listing.iter().flat_map(|listing| &listing.program.tools);
+    if let Some(tool) = tools.find(other) {
+        let message = format!(
+            "line {}: the program's tool has a diameter of {:.3} mm, the job's {:.3} mm; the force is that of the job's",
+            tool.line,
+            tool.diameter / MM,
+            setup.cut.diameter / MM
+        );
+        warnings.push(Warning::new("tool-differs", message));
     }
 }
 

@@ -1,8 +1,9 @@
 // One editor per kind of field. An editor is
-//   { node, inputs, read(), write(value), at(rest) }
-// read() gives the value or throws a Mistake; at(rest) gives the input that an error path such as "[1].a_mm" means.
+//   { node, inputs, read(), write(value), at(rest), mark(line) }
+// of which the last is for texts alone. read() gives the value or throws a Mistake; at(rest) gives the input that an error path such as "[1].a_mm" means.
 
 import { make } from "./dom.js";
+import { listing } from "./listing.js";
 import { parseNumber, plainNumber, stepped } from "./number.js";
 
 /** What is wrong with what was typed, and in which input. */
@@ -26,6 +27,7 @@ export function editorFor(field) {
   if (field.kind === "set") return checkboxes(field);
   if (field.kind === "vector") return vector(field);
   if (field.kind === "table") return table(field);
+  if (field.path === "path.text") return program();
   if (field.kind === "text") return text(field);
   return number(field);
 }
@@ -153,10 +155,13 @@ function table(field) {
 }
 
 function text(field) {
-  const long = field.path.endsWith("text");
-  const props = { id: idOf(field.path), spellcheck: false };
-  const input = long ? make("textarea", { ...props, rows: 8 }) : make("input", { ...props, type: "text" });
+  const input = make("input", { id: idOf(field.path), spellcheck: false, type: "text" });
   return single(field, input, () => input.value, (value) => (input.value = value));
+}
+
+/** The text of a program, of which there is one. */
+function program() {
+  return { node: listing.node, inputs: listing.inputs, read: () => listing.text, write: (text) => (listing.text = text), at: () => listing.input, mark: (line) => listing.mark(line) };
 }
 
 /** Rows of as many numbers as `names`, a line each. */

@@ -94,6 +94,7 @@ export class Form {
     const where = line && !/\bline\b/i.test(message) ? `Line ${line}${column ? `, column ${column}` : ""}: ` : "";
     const text = message.startsWith(path) ? row.field.label + message.slice(path.length) : sentence(message);
     this.#setError(row, where + text, row.editor.at(path.slice(row.field.path.length)));
+    if (line) row.editor.mark?.(line);
     this.#digest();
     return true;
   }
@@ -190,7 +191,8 @@ export class Form {
 
   #says(row) {
     try {
-      return JSON.stringify(row.editor.read()) === JSON.stringify(this.#job.get(row.field));
+      const [said, held] = [row.editor.read(), this.#job.get(row.field)];
+      return said === held || JSON.stringify(said) === JSON.stringify(held);
     } catch {
       return false;
     }

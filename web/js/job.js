@@ -73,7 +73,8 @@ export class Job {
   /** Whether the field differs from its default. */
   changed(field) {
     if (this.#read(parentOf(field.path))?.preset && !decides(field)) return this.#overrules(field);
-    return JSON.stringify(this.get(field)) !== JSON.stringify(field.default);
+    const value = this.get(field);
+    return typeof value === "string" ? value !== field.default : JSON.stringify(value) !== JSON.stringify(field.default);
   }
 
   /** Another job of the same kind, from its plain object. */

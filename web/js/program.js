@@ -2,11 +2,14 @@
 
 import { byId, make } from "./dom.js";
 import { readText } from "./files.js";
+import { listing } from "./listing.js";
 import { formatNumber } from "./number.js";
 import { inLength, lengthUnit } from "./units.js";
 
 const LANGUAGES = { gcode: "G-code", apt: "APT / CLDATA", csv: "Points" };
 const ENDINGS = { apt: ["apt", "aptsource", "cls", "cl", "ncl"], csv: ["csv", "txt", "tsv", "xyz"], gcode: ["nc", "ngc", "gcode", "g", "tap", "cnc", "mpf", "eia", "iso"] };
+
+const MOST_IGNORED = 40; // words listed
 
 /** The language of a program by what stands in it; where that does not tell, by the ending of its name. */
 export function languageOf(name, text) {
@@ -47,6 +50,7 @@ export function programTools(use, fail) {
 export async function openProgram(file, use) {
   const text = await file.text();
   use(languageOf(file.name, text), text);
+  listing.name = file.name;
 }
 
 /** What the core understood, above the path's charts; nothing for a path that was drawn. */
@@ -66,7 +70,13 @@ export function showProgram(program, duration) {
     ["Without effect", program.ignored.length ? "" : "nothing"],
   ];
   byId("understood").replaceChildren(...facts.map(([name, text]) => make("div", {}, make("dt", {}, name), make("dd", {}, text))));
-  if (program.ignored.length) byId("understood").lastChild.lastChild.append(make("ul", {}, ...program.ignored.map(ignoredItem)));
+  if (program.ignored.length) byId("understood").lastChild.lastChild.append(ignoredList(program.ignored));
+}
+
+function ignoredList(ignored) {
+  const rest = ignored.length - MOST_IGNORED;
+  const more = rest > 0 ? [make("li", {}, `and ${rest} more`)] : [];
+  return make("ul", {}, ...ignored.slice(0, MOST_IGNORED).map(ignoredItem), ...more);
 }
 
 function ignoredItem({ word, lines }) {
@@ -96,26 +106,17 @@ export function timeOf(line) {
   return sample < 0 ? undefined : sample * sampleTime;
 }
 
-/** Selects a line of the program where it was typed. */
+/** Points at a line of the program where it was typed. */
 export function showLine(line) {
-  const text = byId("path-text");
-  if (!text || text.closest("[hidden]")) return;
-  text.closest("details").open = true;
-  const before = text.value.split("\n", line - 1).reduce((length, each) => length + each.length + 1, 0);
-  const end = text.value.indexOf("\n", before);
-  text.focus({ preventScroll: true });
-  text.setSelectionRange(before, end < 0 ? text.value.length : end);
-  text.scrollTop = (line - 3) * (text.scrollHeight / text.value.split("\n").length);
-  text.scrollIntoView({ block: "nearest" });
+  if (listing.node.closest("[hidden]")) return;
+  listing.node.closest("details").open = true;
+  listing.show(line);
 }
 
 /** Calls `point(time)` whenever the caret comes to a line that runs. */
 export function followCaret(point) {
-  const text = byId("path-text");
-  const follow = () => {
-    const time = timeOf(text.value.slice(0, text.selectionStart).split("\n").length);
+  listing.onpoint = (line) => {
+    const time = timeOf(line);
     if (time !== undefined) point(time);
   };
-  text.addEventListener("click", follow);
-  text.addEventListener("keyup", ({ key }) => key.startsWith("Arrow") && follow());
 }

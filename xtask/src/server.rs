@@ -181,7 +181,7 @@ fn media_type(path: &Path) -> &'static str {
         "json" => "application/json",
         "webmanifest" => "application/manifest+json",
         "csv" => "text/csv; charset=utf-8",
-        "md" | "nc" | "ts" | "txt" => TEXT,
+        "apt" | "md" | "nc" | "ts" | "txt" => TEXT,
         "svg" => "image/svg+xml",
         "png" => "image/png",
         "ico" => "image/x-icon",

@@ -10,6 +10,7 @@
 //! - `INDIRV/i,j,k`, then `TLON,GOFWD/(CIRCLE/xc,yc,zc,r),ON,(LINE/xc,yc,zc,x,y,z)`: CATIA's arc, parallel to the XY plane, that
 //!   starts in the direction of the vector and ends at the line's second point (also `ON,2,INTOF`).
 //! - `RAPID` holds for the next `GOTO` (ISO 4343, 5.42), `FEDRAT` until the next one; a feed without a unit is per minute.
+//! - `CUTTER/d` and `TLDATA/MILL,d` say the tool's diameter, which is compared with the job's; the path is the tip's in any case.
 //! - `SPINDL` clockwise, `DELAY/t` and `DWELL/t` in seconds, `UNITS/MM` and `UNITS/INCHES` before the first length.
 //!
 //! `$` goes on in the next line, `$$` starts a comment. Words without effect on the path are listed, those that would change it

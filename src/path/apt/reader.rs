@@ -93,6 +93,9 @@ impl<'a> Reader<'a> {
                 format!("the text has no UNITS statement: lengths are read in {unit}")
             });
         }
+        for tool in &mut self.draft.program.tools {
+            tool.diameter *= self.unit.in_m();
+        }
         Ok(self.draft.finish(unit, lines))
     }
 
@@ -157,6 +160,9 @@ impl<'a> Reader<'a> {
                     self.draft.remark("tool-change", place.line, || {
                         "the tool changes here; the job's one tool is used for all moves".into()
                     });
+                }
+                if matches!(word, "CUTTER" | "TLDATA") {
+                    self.tool(statement);
                 }
                 self.ignore(statement);
             }

@@ -4,7 +4,7 @@ use super::reader::{Feed, Reader};
 use super::statement::Statement;
 use crate::error::Error;
 use crate::path::draft::{self, LONGEST_WAIT, SPINDLE};
-use crate::path::program::Dwell;
+use crate::path::program::{Dwell, Tool};
 use crate::path::unit::LengthUnit;
 use crate::units::{INCH, MINUTE, MM, RPM};
 
@@ -90,6 +90,19 @@ impl<'a> Reader<'a> {
         self.speed = speed.or(self.speed);
         self.spinning = true;
         Ok(())
+    }
+
+    /// Notes the diameter of `CUTTER/d,...` and of a mill's `TLDATA/MILL,d,...`, in the text's unit: the path is the tip's, whatever the tool.
+    pub(super) fn tool(&mut self, statement: &Statement<'a>) {
+        let Ok(tokens) = statement.tokens() else { return };
+        let diameter = match tokens.as_slice() {
+            [kind, diameter, ..] if kind.is("MILL") => diameter.number(),
+            [diameter, ..] => diameter.number(),
+            [] => None,
+        };
+        if let Some(diameter) = diameter.filter(|diameter| *diameter > 0.0) {
+            self.draft.program.tools.push(Tool { diameter, line: statement.place.line });
+        }
     }
 
     pub(super) fn units(&mut self, statement: &Statement<'a>) -> Result<(), Error> {

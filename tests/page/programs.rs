@@ -1,0 +1,167 @@
+//! Programs on the page: dropped, followed from chart to line and back, kept when they are rejected, long ones.
+
+use crate::browser::{DESKTOP, Page, Result, visit};
+use crate::common::run;
+use crate::{current, shows, stale, text};
+use serde_json::{Value, json};
+
+const SLOT: &str =
+    "G21 G90\nS4000 M3\nG0 X600 Y-40 Z120\nG1 Z100 F1200\nY40 F900\nG2 X640 I20\nG1 Y-40\nG0 Z120\nM30";
+
+/// Drops a file on the page.
+async fn drop(page: &Page, name: &str, content: &str) -> Result {
+    let script = format!(
+        "const data = new DataTransfer(); data.items.add(new File([{}], {}, {{ type: 'text/plain' }})); \
+         document.body.dispatchEvent(new DragEvent('drop', {{ dataTransfer: data, bubbles: true, cancelable: true }}))",
+        json!(content),
+        json!(name)
+    );
+    page.js(&script).await?;
+    Ok(())
+}
+
+fn job(kind: &str, text: &str) -> [(&'static str, Value); 1] {
+    [("path", json!({ "kind": kind, "text": text }))]
+}
+
+/// The line of the program that is selected, from 1, and what stands in it.
+async fn selected(page: &Page) -> Result<(u64, String)> {
+    let found = page
+        .js("const t = document.getElementById('path-text'); const upTo = t.value.slice(0, t.selectionStart); \
+             return [upTo.split('\\n').length, t.value.slice(t.selectionStart, t.selectionEnd)]")
+        .await?;
+    Ok(serde_json::from_value(found)?)
+}
+
+#[test]
+fn a_dropped_program_is_the_path() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        page.type_into("#motion-feed_mm_s", "50").await?;
+        drop(page, "slot.nc", SLOT).await?;
+        page.wait_for("document.querySelector('#path-kind').value === 'gcode'", 20.0).await?;
+        let slot = [job("gcode", SLOT).as_slice(), &[("motion.feed_mm_s", json!(50))]].concat();
+        shows(page, &run(&slot)).await?;
+        assert_eq!(page.value("#path-text").await?, SLOT, "as dropped");
+        // What it is tells the language, whatever its name says; undo brings back what was before.
+        drop(page, "dome.txt", "UNITS/MM\nFEDRAT/1200,MMPM\nGOTO/600,0,100\nGOTO/640,0,100\nFINI").await?;
+        page.wait_for("document.querySelector('#path-kind').value === 'apt'", 20.0).await?;
+        current(page).await?;
+        drop(page, "points.csv", "x,y,z\n600,0,100\n640,0,100").await?;
+        page.wait_for("document.querySelector('#path-kind').value === 'csv'", 20.0).await?;
+        current(page).await?;
+        page.click("#undo").await?;
+        page.click("#undo").await?;
+        shows(page, &run(&slot)).await
+    })
+}
+
+#[test]
+fn a_chart_leads_to_its_line_and_back() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        drop(page, "slot.nc", SLOT).await?;
+        page.wait_for("document.querySelector('#path-kind').value === 'gcode'", 20.0).await?;
+        current(page).await?;
+        page.click("#tab-overview").await?;
+        page.wait_for("document.querySelector('#chart-before-after svg')", 20.0).await?;
+        // From the line to the chart: the caret in line 7 moves the cursor to where it starts to run.
+        let lines = crate::common::column(&run(&job("gcode", SLOT)), "program_line");
+        let seventh = lines.iter().position(|line| *line == 7.0).ok_or("line 7 does not run")?;
+        page.js("const t = document.getElementById('path-text'); const at = t.value.indexOf('G1 Y-40'); t.focus(); t.setSelectionRange(at, at); t.click()").await?;
+        let cursor = page.js("return import('./js/cursor.js').then(cursor => cursor.cursor())").await?;
+        assert!((cursor.as_f64().unwrap_or(-1.0) - seventh as f64 * 1e-3).abs() < 1e-9, "{cursor}");
+        page.wait_for("document.querySelector('#chart-before-after .readout').textContent.includes('line 7 of the program')", 10.0).await?;
+        // From the chart to the line: the readout of the place that was clicked leads there.
+        page.click("#chart-before-after .drawing").await?;
+        let named = page.text("#chart-before-after .readout").await?;
+        page.click("#chart-before-after .readout button").await?;
+        let (line, chosen) = selected(page).await?;
+        assert!(named.contains(&format!("line {line} of the program")), "{named}, not line {line}");
+        assert_eq!(SLOT.lines().nth(line as usize - 1), Some(chosen.as_str()));
+        assert_ne!(line, 7, "the middle of the run is elsewhere");
+        Ok(())
+    })
+}
+
+#[test]
+fn a_rejected_program_stays_and_is_told_where() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        for (name, content, place) in [
+            ("rotary.nc", SLOT.replace("G1 Y-40", "G1 Y-40 A30"), "line 7, column 9"),
+            (
+                "cycle.apt",
+                "UNITS/MM\nGOTO/600,0,100\nCYCLE/DRILL,DEPTH,5\nGOTO/640,0,100".into(),
+                "line 3, column 1",
+            ),
+            ("hole.csv", "x,y,z\n600,0,100\n640,,100".into(), "line 3, column 5"),
+        ] {
+            drop(page, name, &content).await?;
+            page.wait_for(
+                &format!("document.getElementById('path-text').value === {}", json!(content)),
+                20.0,
+            )
+            .await?;
+            stale(page).await?;
+            let error = text(page, "path-text-error").await?.to_lowercase();
+            assert!(error.contains(place), "{name}: {error}");
+            assert_eq!(page.value("#path-text").await?, content, "nothing is lost");
+            let shown = crate::number(page, "before-max").await?;
+            assert_eq!(shown, run(&[]).summary().before_mm.both.max, "the last result stays");
+        }
+        Ok(())
+    })
+}
+
+#[test]
+fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        let moves: String = (0..25_000).map(|i| format!("X{:.3}\n", 600.0 + f64::from(i) * 2e-3)).collect();
+        let long = format!("G21 G90\nS4000 M3\nG0 X600 Y0 Z100\nG1 F6000\n{moves}M30");
+        drop(page, "long.nc", &long).await?;
+        page.wait_for("document.querySelector('#path-kind').value === 'gcode'", 20.0).await?;
+        shows(page, &run(&job("gcode", &long))).await?;
+        let listing = text(page, "path-text-window").await?;
+        assert!(listing.contains("1 G21 G90") && listing.len() < 1000, "{listing}");
+        let note = page.text(".listing .note").await?;
+        assert!(note.contains("long.nc: 25\u{202f}005 lines, 0.2 MB"), "{note}");
+        // An edit elsewhere keeps the text; so does the saved job.
+        page.type_into("#motion-feed_mm_s", "90").await?;
+        shows(page, &run(&[job("gcode", &long).as_slice(), &[("motion.feed_mm_s", json!(90))]].concat()))
+            .await?;
+        page.click("#download-job").await?;
+        let saved: Value = serde_json::from_str(&page.downloaded("armill-job.json").await?)?;
+        assert_eq!(saved["path"]["text"], json!(long));
+        // From a line to the cursor and from a chart to the line, as with a short one.
+        page.js("document.getElementById('path-text-window').scrollTop = 1e9").await?;
+        page.wait_for("document.getElementById('path-text-window').textContent.includes('M30')", 5.0).await?;
+        page.js("const rows = [...document.querySelectorAll('#path-text-window [data-line]')]; rows.find(row => row.dataset.line === '25000').click()").await?;
+        let cursor = page.js("return import('./js/cursor.js').then(cursor => cursor.cursor())").await?;
+        assert!(cursor.as_f64().is_some_and(|time| time > 0.1), "{cursor}");
+        page.click("#tab-overview").await?;
+        page.wait_for("document.querySelector('#chart-before-after svg')", 20.0).await?;
+        page.click("#chart-before-after .drawing").await?;
+        page.click("#chart-before-after .readout button").await?;
+        let line = "document.querySelector('#path-text-window [aria-selected=true]')";
+        page.wait_for(&format!("{line} && {line}.dataset.line !== '25000'"), 5.0).await?;
+        let line = page.js(&format!("return {line}.dataset.line")).await?;
+        let named = page.text("#chart-before-after .readout").await?;
+        assert!(
+            named.contains(&format!("line {} of the program", line.as_str().unwrap_or_default())),
+            "{named}, {line}"
+        );
+        // A mistake far down is brought into view.
+        drop(page, "long.nc", &long.replace("X630.000", "X630.000 A5")).await?;
+        stale(page).await?;
+        let error = text(page, "path-text-error").await?.to_lowercase();
+        assert!(error.contains("line 15005, column 10"), "{error}");
+        assert!(text(page, "path-text-window").await?.contains("15005 X630.000 A5"));
+        // A short one is typed again.
+        page.choose("#examples", "contour.nc").await?;
+        current(page).await?;
+        assert!(page.value("#path-text").await?.starts_with('%'));
+        Ok(())
+    })
+}
