@@ -92,12 +92,21 @@ fn the_arm_follows_the_cursor_and_play_stops_at_the_end() -> Result {
         assert_eq!(data(page, "sample").await?, last.to_string());
         assert!(page.text(".player .time").await?.starts_with("19.70"));
 
-        // Pointing at the middle of the drawn circle's edge moves the cursor there.
+        // A pointer that comes from the left meets the circle's edge, and the cursor moves there.
         page.js("document.querySelector('#scene [data-view=top]').click()").await?;
         page.wait_for("document.querySelector('#scene').dataset.elevation === '90.00'", 5.0).await?;
-        page.js("const canvas = document.querySelector('#scene canvas'), box = canvas.getBoundingClientRect();
-                 for (let x = 1; x < box.width / 2; x += 5)
-                   canvas.dispatchEvent(new PointerEvent('pointermove', { clientX: box.left + x, clientY: box.top + box.height / 2, bubbles: true }))").await?;
+        page.js(
+            "const canvas = document.querySelector('#scene canvas'), box = canvas.getBoundingClientRect();
+             return new Promise(done => {
+               let x = 0;
+               const step = () => {
+                 canvas.dispatchEvent(new PointerEvent('pointermove', { clientX: box.left + (x += 10), clientY: box.top + box.height / 2 }));
+                 if (x < box.width / 2) requestAnimationFrame(step); else done();
+               };
+               step();
+             })",
+        )
+        .await?;
         page.wait_for(&format!("document.querySelector('#scene').dataset.sample !== '{last}'"), 5.0).await?;
         let sample: usize = data(page, "sample").await?.parse()?;
         page.wait_for(&format!("document.querySelector('#scene').dataset.tip === '{}'", tip(sample)), 5.0)
