@@ -86,7 +86,12 @@ fn first_solution(robot: &Robot, tcp: &Pose, start: StartBranch) -> Result<Solut
 }
 
 fn next_solution(robot: &Robot, tcp: &Pose, last: &Solution) -> Result<Solution, Error> {
-    let candidates = inverse::candidates(robot, tcp, &last.q)?;
+    if let Some(solution) = inverse::continued(robot, tcp, last)
+        && inverse::closes(robot, tcp, &solution.q)
+    {
+        return Ok(solution);
+    }
+    let candidates = inverse::candidates(robot, tcp, &last.q, None)?;
     match candidates.nearest(&last.q) {
         Some(solution) if inverse::closes(robot, tcp, &solution.q) => Ok(*solution),
         // The closed form lost digits for this one; take the nearest that closes.

@@ -130,6 +130,10 @@ impl Segment {
                     // The turn of the bearing that lies in the window, or the nearer end.
                     let middle = (from + to) / 2.0;
                     let s = math::nearest_turn(bearing, middle / per_angle) * per_angle;
+                    // Nothing on a circle is closer than where the bearing points.
+                    if (from..=to).contains(&s) {
+                        return s;
+                    }
                     self.nearer_of(p, [s.clamp(from, to), from, to])
                 } else {
                     self.closest_on_helix(p, bearing, (from, to))

@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::math::{self, Pose};
 use crate::robot::{Joints, Robot, forward};
 use nalgebra::{Matrix3, Vector3};
+use std::f64::consts::FRAC_PI_4;
 
 /// Which of the eight arms: each field picks one sign in the closed form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,7 +73,7 @@ const WRIST_SINGULAR: f64 = 1e-10;
 /// # Errors
 /// [`Error::Unreachable`] with the distance and the reach if no branch gets there; [`Error::Invalid`] if some do and none closes.
 pub fn inverse(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solutions, Error> {
-    let mut solutions = candidates(robot, tcp, near)?;
+    let mut solutions = candidates(robot, tcp, near, None)?;
     for slot in &mut solutions.all {
         if slot.is_some_and(|solution| !closes(robot, tcp, &solution.q)) {
             *slot = None;
@@ -90,8 +91,24 @@ pub(crate) fn closes(robot: &Robot, tcp: &Pose, q: &Joints) -> bool {
     (reached.position - tcp.position).norm() <= CLOSURE && (reached.rotation - tcp.rotation).norm() <= CLOSURE
 }
 
-/// The closed form itself, not yet put back into the forward model.
-pub(crate) fn candidates(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solutions, Error> {
+/// The solution on the branch `last` is on, if it is certain that no other branch comes nearer to it; not yet put back into the forward model.
+///
+/// Another wrist turns q4 by half a turn; another elbow turns q3 by twice the elbow angle; another shoulder turns q1 by more than a
+/// quarter turn where the wrist centre is further ahead than beside. What is less than half as far from `last` is the nearest.
+pub(crate) fn continued(robot: &Robot, tcp: &Pose, last: &Solution) -> Option<Solution> {
+    let solution = *candidates(robot, tcp, &last.q, Some(last.branch)).ok()?.iter().next()?;
+    let certain = solution.margin.shoulder >= robot.geometry.lateral.abs()
+        && (solution.q - last.q).norm() < solution.margin.elbow.min(FRAC_PI_4);
+    certain.then_some(solution)
+}
+
+/// The closed form itself, not yet put back into the forward model: every branch, or one.
+pub(crate) fn candidates(
+    robot: &Robot,
+    tcp: &Pose,
+    near: &Joints,
+    only: Option<Branch>,
+) -> Result<Solutions, Error> {
     let g = &robot.geometry;
     let links = robot.links();
     let flange = tcp.compose(&robot.tool().inverse());
@@ -116,6 +133,9 @@ pub(crate) fn candidates(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Sol
     let mut all = [None; 8];
     let mut nearest_miss: Option<f64> = None;
     for (shoulder, sign) in [(true, 1.0), (false, -1.0)] {
+        if only.is_some_and(|branch| branch.front != shoulder) {
+            continue;
+        }
         let ahead = sign * forward_reach;
         let theta_1 = bearing - math::atan2(beside, ahead);
         // The wrist centre in the plane of the arm, from axis 2.
@@ -133,6 +153,9 @@ pub(crate) fn candidates(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Sol
         }
         let sin_elbow = (1.0 - cos_elbow * cos_elbow).max(0.0).sqrt();
         for (elbow, sin_elbow) in [(true, sin_elbow), (false, -sin_elbow)] {
+            if only.is_some_and(|branch| branch.elbow_positive != elbow) {
+                continue;
+            }
             let elbow_angle = math::atan2(sin_elbow, cos_elbow);
             let theta_3 = elbow_angle - g.fore_angle;
             // Theta_2 (eq. 3.14): the direction to the wrist centre less the arm's own.
@@ -141,6 +164,9 @@ pub(crate) fn candidates(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Sol
             let arm = arm_rotation(robot, [theta_1, theta_2, theta_3]);
             let wrist = wrist_angles(robot, &(arm.transpose() * flange.rotation), near);
             for (positive, [theta_4, theta_5, theta_6], sin_wrist) in wrist {
+                if only.is_some_and(|branch| branch.wrist_positive != positive) {
+                    continue;
+                }
                 let theta = [theta_1, theta_2, theta_3, theta_4, theta_5, theta_6];
                 let q = Joints::from_fn(|i, _| math::nearest_turn(theta[i] - links[i].theta_offset, near[i]));
                 let branch = Branch { front: shoulder, elbow_positive: elbow, wrist_positive: positive };
