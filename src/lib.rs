@@ -18,6 +18,13 @@
 //! assert!(report.summary().after_mm.max < 0.01);
 //! # Ok::<(), armill::Error>(())
 //! ```
+//!
+//! The same, to try:
+//!
+//! <script type="module" src="../../calculator/js/armill-calculator.js"></script>
+//! <armill-calculator inputs="motion shaper" charts="before-after">
+//! The calculator shows here in pages made by `cargo xtask docs`, once they are served: a browser loads no module from disk.
+//! </armill-calculator>
 
 #[doc = include_str!("../README.md")]
 #[cfg(doctest)]

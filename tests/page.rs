@@ -7,6 +7,8 @@ pub mod browser;
 mod common;
 #[path = "page/charts.rs"]
 mod charts;
+#[path = "page/embed.rs"]
+mod embed;
 #[path = "page/policy.rs"]
 mod policy;
 #[path = "page/programs.rs"]

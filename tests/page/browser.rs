@@ -35,7 +35,7 @@ const CAPABILITIES: &str = include_str!("../../.cargo/webdriver.json");
 /// How long a download may take.
 const DOWNLOAD: Duration = Duration::from_secs(10);
 
-/// Opens a page of the site, or a file by its whole address, runs a test on it and closes it again. A test that fails leaves a picture
+/// Opens a page of the site, or any page by its whole address, runs a test on it and closes it again. A test that fails leaves a picture
 /// `failed-<test>.png` among the screenshots, and what the console said in its output.
 ///
 /// # Errors
@@ -60,7 +60,7 @@ pub fn visit(path: &str, size: Size, test: impl AsyncFnOnce(&Page) -> Result) ->
 /// An open page, in a browser of its own.
 pub struct Page {
     client: Client,
-    /// Scheme, host and port of the site, with a slash at the end; for a file its whole address.
+    /// Scheme, host and port of the site, with a slash at the end; for a file its folder.
     origin: String,
     downloads: PathBuf,
     /// What it has shown so far: the driver hands out every line once only.
@@ -75,7 +75,14 @@ impl Page {
     /// # Errors
     /// If `cargo xtask test` has not started the site and the driver, or the browser does not start.
     pub async fn open(path: &str, size: Size) -> Result<Page> {
-        let origin = if path.starts_with("file:") { path.to_owned() } else { setting("ARMILL_SITE_URL")? };
+        let site = setting("ARMILL_SITE_URL")?;
+        let (origin, path) = match path.split_once("://") {
+            Some(("file", _)) => path.split_at(path.rfind('/').map_or(0, |end| end + 1)),
+            Some((scheme, rest)) => {
+                path.split_at(scheme.len() + 3 + rest.find('/').map_or(rest.len(), |end| end + 1))
+            }
+            None => (site.as_str(), path),
+        };
         let mut capabilities: serde_json::Map<String, Value> = serde_json::from_str(CAPABILITIES)?;
         capabilities.insert("goog:loggingPrefs".into(), json!({ "browser": "ALL", "performance": "ALL" }));
         let client = ClientBuilder::new(HttpConnector::new())
@@ -85,12 +92,17 @@ impl Page {
         let session = client.session_id().await?.unwrap_or_default();
         let downloads = scratch().join(format!("downloads-{session}"));
         fs::create_dir_all(&downloads)?;
-        let page =
-            Page { client, origin, downloads, console: RefCell::default(), expected: RefCell::default() };
+        let page = Page {
+            client,
+            origin: origin.to_owned(),
+            downloads,
+            console: RefCell::default(),
+            expected: RefCell::default(),
+        };
         page.resize(size).await?;
         let allow = json!({ "behavior": "allow", "downloadPath": page.downloads });
         page.devtools("Browser.setDownloadBehavior", allow).await?;
-        page.goto(if path.starts_with("file:") { "" } else { path }).await?;
+        page.goto(path).await?;
         Ok(page)
     }
 
@@ -373,7 +385,11 @@ fn scratch() -> &'static Path {
     Path::new(env!("CARGO_TARGET_TMPDIR"))
 }
 
-fn setting(name: &str) -> Result<String> {
+/// What `cargo xtask test` says in the environment.
+///
+/// # Errors
+/// If it says nothing.
+pub fn setting(name: &str) -> Result<String> {
     env::var(name)
         .map_err(|_| format!("{name} is not set: these tests are started by `cargo xtask test`").into())
 }

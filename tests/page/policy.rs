@@ -24,7 +24,7 @@ fn values<'a>(html: &'a str, attribute: &str) -> Vec<&'a str> {
 #[test]
 fn every_page_says_what_may_run() -> Result {
     let pages = pages()?;
-    assert!(pages.len() >= 2, "{pages:?}");
+    assert!(pages.len() >= 3, "{pages:?}");
     for page in pages {
         let html = fs::read_to_string(&page)?;
         let name = page.display();
@@ -108,5 +108,6 @@ async fn holds(page: &Page) -> Result {
 #[test]
 fn the_policies_hold() -> Result {
     visit("/", DESKTOP, holds)?;
+    visit("/embed.html", DESKTOP, holds)?;
     visit(&standalone::address(), DESKTOP, holds)
 }

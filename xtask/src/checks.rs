@@ -5,6 +5,7 @@ use std::time::Instant;
 use anyhow::{Context, Result};
 
 use crate::browser::{self, Driver};
+use crate::docs;
 use crate::server::Server;
 use crate::site;
 use crate::workspace::{self, WASM, cargo, run};
@@ -20,10 +21,12 @@ pub(crate) fn all() -> Result<()> {
         run(&mut cargo(&["test", "--locked", "--target", WASM, "--test", "web"])?)
     })?;
     step("tests of the page", || {
+        let docs = Server::start_plain(&docs::build()?)?;
         let server = Server::start_anywhere(&site::build()?)?;
         let driver = Driver::start()?;
         run(cargo(&["test", "--locked", "--features", "page", "--test", "page"])?
             .env("ARMILL_SITE_URL", &server.url)
+            .env("ARMILL_DOCS_URL", &docs.url)
             .env("ARMILL_WEBDRIVER_URL", driver.url()))
     })
 }

@@ -16,14 +16,17 @@ const PORTS: std::ops::Range<u16> = 8080..8180;
 /// Enough for a browser, which opens up to six connections.
 const THREADS: usize = 6;
 
-/// Sent with every answer. The policy is the page's own, repeated because a worker only obeys its own answer's.
-const HEADERS: [&str; 4] = [
+/// Sent with every answer of the site. The policy is the page's own, repeated because a worker only obeys its own answer's.
+const STRICT: &[&str] = &[
     "Cache-Control: no-store",
     "X-Content-Type-Options: nosniff",
     "Referrer-Policy: no-referrer",
     "Content-Security-Policy: default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; \
      connect-src 'self'; style-src 'self'; img-src 'self' data: blob:; base-uri 'none'; form-action 'none'",
 ];
+
+/// What a host of documentation sends: the pages of rustdoc and mdBook have scripts in them.
+const PLAIN: &[&str] = &["Cache-Control: no-store"];
 
 /// A running server; it lives as long as the process.
 pub(crate) struct Server {
@@ -37,7 +40,7 @@ pub(crate) struct Server {
 /// # Errors
 /// If no port is free.
 pub(crate) fn serve(site: &Path) -> Result<()> {
-    let server = Server::start(site, first_free(PORTS)?)?;
+    let server = Server::start(site, first_free(PORTS)?, STRICT)?;
     println!("Armill is at {}  (Ctrl+C stops it)", server.url);
     for thread in server.threads {
         thread.join().map_err(|_| anyhow!("a thread of the server panicked"))?;
@@ -51,10 +54,18 @@ impl Server {
     /// # Errors
     /// If this machine lets nobody listen.
     pub(crate) fn start_anywhere(site: &Path) -> Result<Server> {
-        Server::start(site, TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?)
+        Server::start(site, TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?, STRICT)
     }
 
-    fn start(site: &Path, listener: TcpListener) -> Result<Server> {
+    /// Serves `docs` on any free port, without a policy of its own.
+    ///
+    /// # Errors
+    /// If this machine lets nobody listen.
+    pub(crate) fn start_plain(docs: &Path) -> Result<Server> {
+        Server::start(docs, TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?, PLAIN)
+    }
+
+    fn start(site: &Path, listener: TcpListener, headers: &'static [&'static str]) -> Result<Server> {
         let url = format!("http://{}/", listener.local_addr()?);
         let listener = tiny_http::Server::from_listener(listener, None).map_err(|error| anyhow!(error))?;
         let (listener, site) = (Arc::new(listener), Arc::<Path>::from(site));
@@ -62,7 +73,7 @@ impl Server {
             let (listener, site) = (Arc::clone(&listener), Arc::clone(&site));
             thread::spawn(move || {
                 for request in listener.incoming_requests() {
-                    answer(&site, request);
+                    answer(&site, request, headers);
                 }
             })
         });
@@ -81,7 +92,7 @@ fn first_free(ports: std::ops::Range<u16>) -> Result<TcpListener> {
     Err(anyhow!("the ports {} to {} are all taken", ports.start, ports.end - 1))
 }
 
-fn answer(site: &Path, request: Request) {
+fn answer(site: &Path, request: Request, headers: &[&str]) {
     let mut response = match request.method() {
         Method::Get | Method::Head => match find(site, request.url()) {
             Found::File(path) => match fs::read(&path) {
@@ -93,7 +104,7 @@ fn answer(site: &Path, request: Request) {
         },
         _ => with(reply(405, TEXT, b"Only GET and HEAD\n".to_vec()), "Allow: GET, HEAD"),
     };
-    for header in HEADERS {
+    for header in headers {
         response = with(response, header);
     }
     // Nothing to do about a browser that has left.
@@ -224,7 +235,7 @@ mod tests {
         let (head, body) = ask(&server, "GET", "/?x=/../y");
         assert!(head.starts_with("HTTP/1.1 200"), "{head}");
         assert!(head.contains("Content-Type: text/html; charset=utf-8"), "{head}");
-        assert!(HEADERS.iter().all(|header| head.contains(header)), "{head}");
+        assert!(STRICT.iter().all(|header| head.contains(header)), "{head}");
         assert_eq!(body, b"<p>page");
 
         let (head, body) = ask(&server, "GET", "/pkg/armill_bg.wasm");

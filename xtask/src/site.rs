@@ -75,7 +75,10 @@ fn is_newer(outputs: &[PathBuf], inputs: &[PathBuf]) -> Result<bool> {
 }
 
 /// Makes `copy` hold the same files as `original`, but for the entries `besides`, which are left alone.
-fn mirror(original: &Path, copy: &Path, besides: &[&str]) -> Result<()> {
+///
+/// # Errors
+/// If a file cannot be read or written.
+pub(crate) fn mirror(original: &Path, copy: &Path, besides: &[&str]) -> Result<()> {
     fs::create_dir_all(copy).with_context(|| format!("cannot create {}", copy.display()))?;
     for entry in entries(copy)? {
         let twin = original.join(entry.file_name().unwrap_or_default());

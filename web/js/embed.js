@@ -1,0 +1,110 @@
+// The calculator as a guest of another page. What to compute and to show stands in the fragment, as armill-calculator.js writes it;
+// nothing is stored, and no message is listened to.
+
+import * as core from "./core.js";
+import { setCharts, showPanel } from "./charts.js";
+import { byId, debounced, make, sentence } from "./dom.js";
+import { Form } from "./form.js";
+import { chartsIn, fieldsIn, jobOf, optionsIn } from "./guest.js";
+import { Job } from "./job.js";
+import { fragmentOf } from "./link.js";
+import { formatError, formatNumber } from "./number.js";
+
+const TYPING_MS = 150; // results follow this long after the last key
+
+const results = byId("results");
+let options; // what the host page asks for
+let job;
+let form;
+
+const state = (name) => (results.dataset.state = name);
+const say = (text) => (byId("status").textContent = text);
+const alertOff = () => byId("alert").replaceChildren();
+
+function alertOn(message) {
+  byId("alert").replaceChildren(make("p", {}, sentence(message)));
+  state("stale");
+  say(byId("fingerprint").textContent ? "Showing the last valid result." : "No result yet.");
+}
+
+const compute = debounced(() => form.flawed || core.run(job.json), TYPING_MS);
+
+/** After every edit: compute, or say what is wrong and keep the last result. */
+function edited() {
+  alertOff();
+  link();
+  if (form.flawed) {
+    core.cancel();
+    return alertOn(form.problem.message);
+  }
+  form.clearErrors();
+  state("computing");
+  compute();
+}
+
+const events = {
+  onstart: () => say("Computing…"),
+  onprogress: ({ stage }) => say(`Computing: ${stage}`),
+  onresult({ summary, charts }, took) {
+    show(summary);
+    try {
+      setCharts(chartsIn(charts, options.charts).map((chart) => ({ ...chart, view: "embed" })));
+    } catch ({ message }) {
+      return alertOn(message);
+    }
+    if (form.flawed) return;
+    state("current");
+    say(`${formatNumber(summary.samples, 1)} samples in ${formatNumber(took / 1000, 2)} s`);
+  },
+  onerror(error) {
+    if (form.showError(error)) return alertOn(form.problem.message);
+    alertOn(`${error.message}${error.line ? ` (line ${error.line}, column ${error.column})` : ""}`);
+  },
+  oncancel: () => {},
+  ontrap: (error) => alertOn(`The core stopped unexpectedly and was started again; your inputs are kept. (${error.message})`),
+};
+
+function show({ verdict, before_mm, after_mm, fingerprint }) {
+  byId("verdict").textContent = verdict;
+  for (const [row, { mean, max }] of [[".before", before_mm.both], [".after", after_mm]]) {
+    const cells = byId("figures").querySelectorAll(`${row} td`);
+    [mean, max].forEach((value, i) => {
+      cells[i].textContent = formatError(value);
+      cells[i].dataset.value = String(value);
+    });
+  }
+  byId("fingerprint").textContent = fingerprint;
+}
+
+/** The way to the whole page takes the inputs along. */
+async function link() {
+  const { json } = job;
+  const fragment = await fragmentOf(json);
+  if (json === job.json) byId("open").href = `index.html#${fragment}`;
+}
+
+/** Tells the page around how high this one is. That is no secret, so it may be any page. */
+function tellHeight() {
+  const tell = () => parent.postMessage({ type: "armill-height", height: document.body.getBoundingClientRect().height }, "*");
+  new ResizeObserver(tell).observe(document.body);
+}
+
+try {
+  if (parent !== window) tellHeight();
+  addEventListener("hashchange", () => location.reload());
+  options = optionsIn(location.hash);
+  byId("form").addEventListener("submit", (event) => event.preventDefault());
+  if (options.theme !== "auto") document.documentElement.dataset.theme = options.theme;
+  results.dataset.charts = options.charts.join(" ");
+  const hello = await core.start(events);
+  const fields = fieldsIn(hello.fields, options.inputs);
+  job = new Job(await jobOf(options, hello), hello.fields, hello.presets);
+  form = new Form(byId("form"), job, fields, hello.presets, edited);
+  for (const group of document.querySelectorAll(".group")) group.open = !options.inputs.includes("all");
+  showPanel(byId("panel-embed"));
+  link();
+  core.run(job.json);
+} catch (error) {
+  byId("verdict").textContent = "The calculator could not start.";
+  alertOn(error.message ?? String(error));
+}

@@ -1,0 +1,66 @@
+// What a host page asks the embedded calculator for: read from the fragment, and refused where it makes no sense.
+
+import { readText } from "./files.js";
+import { jobIn } from "./link.js";
+
+const THEMES = ["auto", "light", "dark"];
+const words = (text) => text.split(/[\s,]+/).filter(Boolean);
+
+/** The options in a fragment, with what holds for those that are not given. */
+export function optionsIn(fragment) {
+  const given = new URLSearchParams(fragment.slice(1));
+  const theme = given.get("theme") || "auto";
+  if (!THEMES.includes(theme)) throw unknown("theme", theme, THEMES);
+  return {
+    theme,
+    job: given.get("job"),
+    preset: words(given.get("preset") ?? ""),
+    inputs: words(given.get("inputs") ?? "all"),
+    charts: words(given.get("charts") ?? "before-after"),
+  };
+}
+
+/** The job to start from: the one given, or the default job with presets put in. */
+export async function jobOf({ job, preset }, { job: standard, presets }) {
+  const data = job ? JSON.parse(job.startsWith("{") ? job : await jobIn(`#job=${job}`)) : structuredClone(standard);
+  for (const name of preset) await put(name, data, presets);
+  return data;
+}
+
+/** Puts a robot, a material or an example program of this name into a job. */
+async function put(name, job, { robots, materials }) {
+  const has = (list) => list.some(({ id }) => id === name);
+  if (has(robots)) job.robot = { preset: name };
+  else if (has(materials)) job.material = { preset: name };
+  else {
+    const examples = JSON.parse(await readText("examples/index.json"));
+    const nameOf = ({ file }) => file.replace(/\.\w+$/, "");
+    const example = examples.find((each) => nameOf(each) === name);
+    if (!example) throw unknown("preset", name, [...robots, ...materials].map(({ id }) => id).concat(examples.map(nameOf)));
+    job.path = { kind: example.kind, text: await readText(`examples/${example.file}`) };
+  }
+}
+
+/** The fields to show: those named, and those of groups named. */
+export function fieldsIn(fields, inputs) {
+  const names = new Set(fields.flatMap(({ group, path }) => [group, path]));
+  return chosen("inputs", fields, inputs, [...names], ({ group, path }, name) => name === "all" || name === group || path === name || path.startsWith(`${name}.`));
+}
+
+/** The charts to show: those named, and those of views named. */
+export function chartsIn(charts, wanted) {
+  const names = new Set(charts.flatMap(({ name, view }) => [view, name]));
+  return chosen("charts", charts, wanted, [...names], ({ name, view }, word) => word === name || word === view);
+}
+
+/** The items that any of the words picks, in the order of the words; "none" picks nothing. */
+function chosen(option, items, asked, legal, picks) {
+  const found = asked.flatMap((word) => {
+    const picked = items.filter((item) => picks(item, word));
+    if (!picked.length && word !== "none") throw unknown(option, word, ["none", ...legal]);
+    return picked;
+  });
+  return [...new Set(found)];
+}
+
+const unknown = (option, value, legal) => new Error(`This calculator is asked for ${option} "${value}", which is none of ${legal.join(", ")}.`);
