@@ -13,7 +13,7 @@ use crate::robot::library::ROBOTS;
 use crate::units::MM;
 use crate::{Job, Stage, export};
 use js_sys::{Array, Float64Array, Function, Object, Reflect};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
 
@@ -225,19 +225,21 @@ impl Run {
         name: &str,
         #[wasm_bindgen(unchecked_param_type = "ChartOptions")] options: JsValue,
     ) -> Result<JsValue, JsValue> {
-        #[derive(Deserialize)]
-        struct Asked {
-            width: f64,
-            height: f64,
-            x_range: Option<(f64, f64)>,
-            y_range: Option<(f64, f64)>,
-            #[serde(default)]
-            hidden: Vec<String>,
-        }
-        let units = units(&options)?;
-        let Asked { width, height, x_range, y_range, hidden } =
-            serde_wasm_bindgen::from_value(options).map_err(JsValue::from)?;
-        let options = Options { width, height, x_range, y_range, hidden, units };
+        let number = |value: JsValue| value.as_f64().unwrap_or(f64::NAN);
+        let range = |key: &str| {
+            let pair = get(&options, key);
+            pair.is_object().then(|| (number(get(&pair, "0")), number(get(&pair, "1"))))
+        };
+        let hidden = get(&options, "hidden");
+        let keys = if hidden.is_object() { Array::from(&hidden) } else { Array::new() };
+        let options = Options {
+            width: number(get(&options, "width")),
+            height: number(get(&options, "height")),
+            x_range: range("x_range"),
+            y_range: range("y_range"),
+            hidden: keys.iter().filter_map(|key| key.as_string()).collect(),
+            units: units(&options)?,
+        };
         object(&chart::chart(&self.report, name, &options).map_err(|error| thrown(&error))?)
     }
 
@@ -288,15 +290,30 @@ impl Run {
     }
 }
 
+/// A property; undefined where there is none.
+fn get(object: &JsValue, key: &str) -> JsValue {
+    Reflect::get(object, &key.into()).unwrap_or(JsValue::UNDEFINED)
+}
+
 /// The units asked for; mm and N where none are.
 fn units(options: &JsValue) -> Result<Units, JsValue> {
-    #[derive(Deserialize)]
-    struct Asked {
-        length: Option<LengthUnit>,
-        force: Option<ForceUnit>,
+    let inch = second(options, "length", [LengthUnit::Mm.name(), LengthUnit::Inch.name()])?;
+    let pound = second(options, "force", [ForceUnit::Newton.name(), ForceUnit::PoundForce.name()])?;
+    Ok(Units {
+        length: if inch { LengthUnit::Inch } else { LengthUnit::Mm },
+        force: if pound { ForceUnit::PoundForce } else { ForceUnit::Newton },
+    })
+}
+
+/// Whether the second of two choices is made; the first holds where none is.
+fn second(options: &JsValue, key: &str, choices: [&str; 2]) -> Result<bool, JsValue> {
+    let value = get(options, key);
+    let text = value.as_string().unwrap_or_default();
+    if value.is_undefined() || choices.contains(&text.as_str()) {
+        return Ok(text == choices[1]);
     }
-    let Asked { length, force } = serde_wasm_bindgen::from_value(options.clone()).map_err(JsValue::from)?;
-    Ok(Units { length: length.unwrap_or_default(), force: force.unwrap_or_default() })
+    let expected = format!("legal are {} and {}", choices[0], choices[1]);
+    Err(thrown(&Error::Invalid { field: key.into(), value: format!("\"{text}\""), expected }))
 }
 
 /// Plain data as a JavaScript object; maps become objects, not `Map`s.

@@ -65,10 +65,17 @@ pub(super) fn lines(samples: impl IntoIterator<Item = Point>, window: Window) ->
         .filter(|run| !run.is_empty())
         .flat_map(|run| {
             let grows = run.windows(2).all(|pair| pair[0].0 <= pair[1].0);
-            let kept = if grows { column_extremes(run) } else { spaced(run) };
+            let kept = if grows { column_extremes(seen(run, window)) } else { spaced(run) };
             clipped(&straightened(&kept), window)
         })
         .collect()
+}
+
+/// The samples of a growing x that stand in the window, and the next on either side.
+fn seen(run: &[Point], window: Window) -> &[Point] {
+    let from = run.partition_point(|p| p.0 < window.left).saturating_sub(1);
+    let to = run.partition_point(|p| p.0 <= window.right) + 1;
+    &run[from..to.clamp(from + 1, run.len())]
 }
 
 /// The first, lowest, highest and last sample of every column, in their order.
@@ -191,6 +198,14 @@ mod tests {
         assert_eq!(points.first(), Some(&(10.0, 10.0)));
         assert_eq!(points.last(), Some(&(10.0, 10.1)));
         assert!(points.contains(&(50.0, 90.0)));
+    }
+
+    #[test]
+    fn what_is_zoomed_in_on_is_drawn_from_its_own_samples() {
+        let steps = (0..9).map(|i| (f64::from(i) * 500.0 - 2000.0, f64::from(i) * 50.0));
+        assert_eq!(lines(steps, WINDOW).concat(), [(0.0, 200.0), (800.0, 280.0)]);
+        assert!(lines([(-9.0, 1.0), (-5.0, 1.0)], WINDOW).is_empty());
+        assert!(lines([(801.0, 1.0), (900.0, 1.0)], WINDOW).is_empty());
     }
 
     #[test]

@@ -2,17 +2,14 @@
 
 use crate::path::unit::LengthUnit;
 use crate::units::POUND_FORCE;
-use serde::Deserialize;
 
 /// Unit of force of a chart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ForceUnit {
     /// Newton.
     #[default]
-    #[serde(rename = "N")]
     Newton,
     /// Pound-force.
-    #[serde(rename = "lbf")]
     PoundForce,
 }
 

@@ -1,11 +1,9 @@
 //! Units in which a text gives its lengths and feeds.
 
 use crate::units::{INCH, MINUTE, MM};
-use serde::Deserialize;
 
 /// Unit of length of a text.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LengthUnit {
     /// Millimetre.
     #[default]

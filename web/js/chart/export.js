@@ -17,7 +17,7 @@ export function svgText(chart, plot, legend) {
   let [x, row] = [MARGIN, 0];
   const entries = legend.map(({ label, sample }) => {
     const width = 36 + pen.measureText(label).width + 18;
-    if (x > MARGIN && x + width > chart.width) [x, row] = [MARGIN, row + 1];
+    if (x > MARGIN && x + width > chart.width + MARGIN) [x, row] = [MARGIN, row + 1];
     const line = dressed(sample);
     line.setAttribute("transform", `translate(0 -8)`);
     const entry = makeSvg("g", { transform: `translate(${x} ${TITLE + MARGIN + row * LINE + 4})` }, line, makeSvg("text", { x: 36, fill: ink }, label));
@@ -25,13 +25,13 @@ export function svgText(chart, plot, legend) {
     return entry;
   });
   const top = TITLE + MARGIN + (legend.length ? (row + 1) * LINE : 0);
-  const [width, height] = [chart.width + 2, chart.height + top + MARGIN / 2];
+  const [width, height] = [chart.width + 2 * MARGIN, chart.height + top + MARGIN];
   const root = makeSvg("svg", { xmlns: "http://www.w3.org/2000/svg", viewBox: `0 0 ${width} ${height}`, width, height, role: "img", "font-family": family, "font-size": 12 },
     makeSvg("title", {}, chart.title), makeSvg("desc", {}, chart.description),
     makeSvg("rect", { width, height, fill: getComputedStyle(plot.closest("figure")).backgroundColor }),
     makeSvg("text", { x: MARGIN, y: TITLE - 4, "font-size": 15, "font-weight": 600, fill: ink }, chart.title), ...entries);
   const drawing = dressed(plot);
-  root.append(makeSvg("g", { transform: `translate(0 ${top})` }, ...drawing.childNodes));
+  root.append(makeSvg("g", { transform: `translate(${MARGIN} ${top})` }, ...drawing.childNodes));
   return `<?xml version="1.0" encoding="UTF-8"?>\n${new XMLSerializer().serializeToString(root)}\n`;
 }
 

@@ -2,10 +2,11 @@
 
 import * as core from "../core.js";
 import { cursor, setCursor } from "../cursor.js";
-import { make, makeSvg } from "../dom.js";
+import { make } from "../dom.js";
 import { download } from "../download.js";
 import { lineAt, showLine } from "../program.js";
 import { setting } from "../settings.js";
+import { drawingOf, moveDrawing } from "./drawing.js";
 import { csvText, pngOf, svgText } from "./export.js";
 import { listen } from "./gestures.js";
 import { Legend, sample } from "./legend.js";
@@ -15,7 +16,6 @@ import { toolbar } from "./toolbar.js";
 import { between, fractionOf, nearest, ranged, scaled, shifted, valueAt } from "./view.js";
 
 const REACH_PX = 60; // a path in space is read off from no further away
-const SPILL = 4; // what a line at the edge needs beside the plot [px]
 
 export class Figure {
   #plot = make("div", { className: "drawing", tabIndex: 0, role: "slider", "aria-describedby": "chart-keys" });
@@ -105,15 +105,13 @@ export class Figure {
 
   #show(chart) {
     this.#chart = chart;
-    this.#svg = drawn(chart);
+    this.#svg = drawingOf(chart);
     this.#plot.replaceChildren(this.#svg, this.#marks.node);
     const { width, height } = chart;
     for (const [name, value] of Object.entries({ width, height, viewBox: `0 0 ${width} ${height}` })) this.#marks.node.setAttribute(name, value);
     this.#title.textContent = chart.title;
     this.#caption.textContent = chart.description;
     this.#legend.show(chart.series);
-    this.#plot.setAttribute("aria-valuemin", String(this.plane ? 0 : chart.x.min));
-    this.#plot.setAttribute("aria-valuemax", String(this.plane ? 1 : chart.x.max));
     this.#move();
     this.#fill();
     this.follow(cursor());
@@ -132,18 +130,7 @@ export class Figure {
 
   /** Moves the drawing to where the exact one will be. */
   #move() {
-    const { plot, x, y } = this.#chart;
-    const to = this.#axes;
-    const [left, right] = [fractionOf(x, to.x.min), fractionOf(x, to.x.max)];
-    const [low, high] = [fractionOf(y, to.y.min), fractionOf(y, to.y.max)];
-    const [sx, sy] = [1 / (right - left), 1 / (high - low)];
-    const same = Math.abs(sx - 1) + Math.abs(sy - 1) + Math.abs(left) + Math.abs(low) < 1e-9 || ![sx, sy].every(Number.isFinite);
-    const tx = plot.left - (plot.left + left * plot.width) * sx;
-    const ty = plot.top - (plot.top + (1 - high) * plot.height) * sy;
-    for (const layer of this.#svg.querySelectorAll(".moving")) {
-      if (same) layer.removeAttribute("transform");
-      else layer.setAttribute("transform", `matrix(${sx} 0 0 ${sy} ${tx} ${ty})`);
-    }
+    moveDrawing(this.#svg, this.#chart, this.#axes);
     this.node.classList.toggle("zoomed", this.zoomed);
   }
 
@@ -326,8 +313,19 @@ export class Figure {
     this.#mark();
     const line = this.#line;
     this.#readout.show(this.#content, this.#index, line, () => showLine(line));
-    this.#plot.setAttribute("aria-valuenow", String(this.#index === null ? 0 : this.#data[0].values[this.#index]));
-    this.#plot.setAttribute("aria-valuetext", this.#readout.text || "no sample chosen");
+    this.#tell();
+  }
+
+  /** Tells the cursor to those who do not see it. */
+  #tell() {
+    const along = this.#data?.[0].values ?? [0, 1];
+    const { x } = this.#axes;
+    const [min, max] = this.plane ? [along[0], along.at(-1)] : [x.min, x.max];
+    const now = this.#index === null ? min : Math.min(max, Math.max(min, along[this.#index]));
+    const text = this.#readout.text || "no sample chosen";
+    for (const [name, value] of Object.entries({ valuemin: min, valuemax: max, valuenow: now, valuetext: text })) {
+      this.#plot.setAttribute(`aria-${name}`, String(value));
+    }
   }
 
   get #line() {
@@ -385,21 +383,3 @@ export class Figure {
 }
 
 const units = () => ({ length: setting("length"), force: setting("force") });
-
-/** The core's drawing as elements; what is data can be moved within the plot. */
-function drawn(chart) {
-  const parsed = new DOMParser().parseFromString(chart.svg, "image/svg+xml");
-  const svg = document.importNode(parsed.documentElement, true);
-  svg.setAttribute("aria-hidden", "true"); // heading and caption say it; a <title> would pop up under the pointer
-  svg.querySelectorAll(":scope > :is(title, desc)").forEach((element) => element.remove());
-  const { left, top, width, height } = chart.plot;
-  const id = `clip-${chart.name}`;
-  const room = makeSvg("rect", { x: left - SPILL, y: top - SPILL, width: width + 2 * SPILL, height: height + 2 * SPILL });
-  for (const layer of svg.querySelectorAll(":scope > g:not(.axis)")) {
-    const clip = makeSvg("g", { "clip-path": `url(#${id})` });
-    layer.replaceWith(clip);
-    clip.append(makeSvg("g", { class: "moving" }, layer));
-  }
-  svg.prepend(makeSvg("defs", {}, makeSvg("clipPath", { id }, room)));
-  return svg;
-}
