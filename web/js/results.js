@@ -30,7 +30,7 @@ export function showSummary(summary) {
   showBudget(summary.budget);
   byId("fact-tolerance").textContent = toleranceText(summary);
   put("samples", summary.samples);
-  byId("history").textContent = summary.history_max_mm.map(lengthText).join(" → ");
+  byId("history").textContent = summary.history_max_mm.map((mm) => lengthText(mm)).join(" → ");
   byId("branch").textContent = summary.branch;
   byId("fingerprint").textContent = summary.fingerprint;
   showWarnings(summary.warnings);
