@@ -17,6 +17,8 @@ mod programs;
 mod scene;
 #[path = "page/standalone.rs"]
 mod standalone;
+#[path = "page/reading.rs"]
+mod reading;
 #[path = "page/state.rs"]
 mod state;
 

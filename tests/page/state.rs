@@ -2,7 +2,7 @@
 
 use crate::browser::{DESKTOP, Key, Page, Result, visit};
 use crate::common::run;
-use crate::{current, number, shows, stale, text};
+use crate::{current, shows, stale, text};
 use serde_json::json;
 
 /// The fragment that stands for the JSON text of a job, as the page makes it.
@@ -328,55 +328,6 @@ fn a_pinned_result_stands_beside_the_next() -> Result {
         assert_eq!(difference("before-max").await?, 0.0);
         page.click("#unpin").await?;
         assert_eq!(page.js("return document.querySelector('.versus') === null && document.querySelector('#compare').hidden").await?, true);
-        Ok(())
-    })
-}
-
-#[test]
-fn units_colours_and_open_panels_are_remembered() -> Result {
-    visit("/", DESKTOP, async |page| {
-        current(page).await?;
-        let background = "return getComputedStyle(document.body).backgroundColor";
-        let light = page.js(background).await?;
-        page.click("#tab-joints").await?;
-        page.js("document.querySelector('#group-motion > summary').click(); document.querySelector('#group-tool > summary').click()").await?;
-        page.click("#open-settings").await?;
-        for choice in ["length-inch", "force-lbf", "theme-dark"] {
-            page.click(&format!("#setting-{choice}")).await?;
-        }
-        let check = async || -> Result {
-            let summary = run(&[]).summary();
-            let read = async |id: &str| Ok::<f64, Box<dyn std::error::Error>>(text(page, id).await?.parse()?);
-            let max = summary.before_mm.both.max / 25.4;
-            assert!((read("before-max").await? - max).abs() < 5e-5, "three digits");
-            assert!((read("both-max").await? - max).abs() < 5e-7, "to a millionth");
-            let force = run(&[]).mean_force().norm() / 4.4482216152605;
-            assert!((read("force").await? - force).abs() < 0.5);
-            assert_eq!(
-                number(page, "before-max").await?,
-                summary.before_mm.both.max,
-                "in full it stays in mm"
-            );
-            let units = page.js("return [...new Set([...document.querySelectorAll('[data-unit]')].map(unit => unit.textContent))].sort()").await?;
-            assert_eq!(units, json!(["in", "lbf"]));
-            assert_eq!(text(page, "verdict").await?, summary.verdict);
-            assert_ne!(page.js(background).await?, light);
-            Ok(())
-        };
-        check().await?;
-        page.reload().await?;
-        shows(page, &run(&[])).await?;
-        check().await?;
-        let open = page.js("return ['motion', 'tool', 'path'].map(name => document.getElementById(`group-${name}`).open)").await?;
-        assert_eq!(open, json!([false, true, true]));
-        assert_eq!(page.js("return document.querySelector('#panel-joints').hidden").await?, false);
-        // Light was chosen: the system does not count.
-        page.click("#open-settings").await?;
-        page.click("#setting-theme-light").await?;
-        page.prefer_dark(true).await?;
-        assert_eq!(page.js(background).await?, light);
-        page.click("#setting-theme-auto").await?;
-        assert_ne!(page.js(background).await?, light);
         Ok(())
     })
 }

@@ -11,7 +11,7 @@ import { Job } from "./job.js";
 import { formatNumber } from "./number.js";
 import { openPanels, rememberPanels, restoreGroups } from "./panels.js";
 import { followCaret, openProgram, programTools, setLines, showProgram } from "./program.js";
-import { showSummary, showThesis } from "./results.js";
+import { showSummary, showThesis, showUnits } from "./results.js";
 import { Session } from "./session.js";
 import { makeScene } from "./scene/view.js";
 import { onSetting } from "./settings.js";
@@ -225,6 +225,7 @@ async function recomputeThesis() {
 }
 
 function wire() {
+  showUnits(); // before anything is drawn, so that nothing moves later
   byId("cancel").addEventListener("click", () => core.cancel());
   byId("reset").addEventListener("click", () => session.load(standard));
   byId("open-job").addEventListener("click", () => byId("job-file").click());

@@ -12,9 +12,14 @@ function put(id, value, format = formatNumber) {
   element.dataset.value = String(value);
 }
 
+/** Writes the chosen units wherever a figure has one. */
+export function showUnits() {
+  for (const unit of document.querySelectorAll("[data-unit]")) unit.textContent = unit.dataset.unit === "force" ? forceUnit() : lengthUnit();
+}
+
 export function showSummary(summary) {
   const { before_mm: before, after_mm: after } = summary;
-  for (const unit of document.querySelectorAll("[data-unit]")) unit.textContent = unit.dataset.unit === "force" ? forceUnit() : lengthUnit();
+  showUnits();
   byId("verdict").textContent = summary.verdict;
   put("before-mean", before.both.mean, lengthText);
   put("before-max", before.both.max, lengthText);
@@ -43,7 +48,9 @@ function showTolerance(summary) {
   const { converged, tolerance_mm, after_mm } = summary;
   const met = after_mm.max <= tolerance_mm;
   const line = byId("tolerance-met");
-  line.textContent = `${met ? "✓ within" : "✗ above"} ${toleranceText(summary)} ${lengthUnit()}`;
+  const short = lengthUnit() !== "mm"; // more digits in the same room
+  const [within, above] = short ? ["≤", ">"] : ["within", "above"];
+  line.textContent = `${met ? `✓ ${within}` : `✗ ${above}`} ${toleranceText(summary)} ${lengthUnit()}`;
   line.classList.toggle("bad", !met);
   line.dataset.converged = String(converged);
 }

@@ -37,7 +37,7 @@ export function helpText(field) {
   const boundless = min <= -1e6 && max >= 1e6; // only there to keep arithmetic finite
   const range =
     boundless ? "" : min != null && max != null ? `${plainNumber(min)} to ${plainNumber(max)}` : min != null ? `At least ${plainNumber(min)}` : max != null ? `At most ${plainNumber(max)}` : "";
-  const standard = typeof field.default === "number" || kind === "vector" ? `default ${Array.isArray(field.default) ? field.default.join(", ") : plainNumber(field.default)}` : "";
+  const standard = ["table", "text"].includes(kind) ? "" : `default ${inWords(field, field.default)}`;
   const hint = [range, standard].filter(Boolean).join(", ");
   return [field.help, hint && `${hint[0].toUpperCase()}${hint.slice(1)}.`].filter(Boolean).join(" ");
 }

@@ -1,0 +1,158 @@
+//! The page as it is read: units, colours, what is remembered of it; still while it opens; explained; on paper; without JavaScript.
+
+use crate::browser::{DESKTOP, PHONE, Result, visit};
+use crate::common::run;
+use crate::{current, number, shows, text};
+use serde_json::json;
+
+#[test]
+fn units_colours_and_open_panels_are_remembered() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        let background = "return getComputedStyle(document.body).backgroundColor";
+        let light = page.js(background).await?;
+        page.click("#tab-joints").await?;
+        page.js("document.querySelector('#group-motion > summary').click(); document.querySelector('#group-tool > summary').click()").await?;
+        page.click("#open-settings").await?;
+        for choice in ["length-inch", "force-lbf", "theme-dark"] {
+            page.click(&format!("#setting-{choice}")).await?;
+        }
+        let check = async || -> Result {
+            let summary = run(&[]).summary();
+            let read = async |id: &str| Ok::<f64, Box<dyn std::error::Error>>(text(page, id).await?.parse()?);
+            let max = summary.before_mm.both.max / 25.4;
+            assert!((read("before-max").await? - max).abs() < 5e-5, "three digits");
+            assert!((read("both-max").await? - max).abs() < 5e-7, "to a millionth");
+            let force = run(&[]).mean_force().norm() / 4.4482216152605;
+            assert!((read("force").await? - force).abs() < 0.5);
+            assert_eq!(
+                number(page, "before-max").await?,
+                summary.before_mm.both.max,
+                "in full it stays in mm"
+            );
+            let units = page.js("return [...new Set([...document.querySelectorAll('[data-unit]')].map(unit => unit.textContent))].sort()").await?;
+            assert_eq!(units, json!(["in", "lbf"]));
+            assert_eq!(text(page, "verdict").await?, summary.verdict);
+            assert_ne!(page.js(background).await?, light);
+            Ok(())
+        };
+        check().await?;
+        page.reload().await?;
+        shows(page, &run(&[])).await?;
+        check().await?;
+        let open = page.js("return ['motion', 'tool', 'path'].map(name => document.getElementById(`group-${name}`).open)").await?;
+        assert_eq!(open, json!([false, true, true]));
+        assert_eq!(page.js("return document.querySelector('#panel-joints').hidden").await?, false);
+        // Light was chosen: the system does not count.
+        page.click("#open-settings").await?;
+        page.click("#setting-theme-light").await?;
+        page.prefer_dark(true).await?;
+        assert_eq!(page.js(background).await?, light);
+        page.click("#setting-theme-auto").await?;
+        assert_ne!(page.js(background).await?, light);
+        Ok(())
+    })
+}
+
+#[test]
+fn nothing_moves_while_the_page_opens_and_typing_never_waits() -> Result {
+    let watch = "localStorage.setItem('armill-settings', JSON.stringify({ length: 'inch', force: 'lbf', theme: 'dark' }));
+        window.shifts = []; window.delays = [];
+        new PerformanceObserver((list) => window.shifts.push(...list.getEntries().map((entry) => entry.value))).observe({ type: 'layout-shift', buffered: true });
+        addEventListener('keydown', ({ timeStamp }) => requestAnimationFrame(() => window.delays.push(performance.now() - timeStamp)), true);";
+    for size in [DESKTOP, PHONE] {
+        visit("/", size, async |page| {
+            page.devtools("Page.addScriptToEvaluateOnNewDocument", json!({ "source": watch })).await?;
+            page.reload().await?;
+            shows(page, &run(&[])).await?;
+            page.wait_for("document.querySelector('#chart-before-after svg')", 20.0).await?;
+            page.js("return new Promise(done => setTimeout(done, 300))").await?;
+            let shift = page.js("return window.shifts.reduce((sum, each) => sum + each, 0)").await?;
+            // A tenth of what browsers call good.
+            assert!(shift.as_f64().unwrap() < 0.01, "layout shift {shift} at {size:?}");
+            if size == PHONE {
+                return Ok(());
+            }
+            // Every key has its picture soon, although each one supersedes a run of half a second.
+            page.type_into("#motion-sample_time_s", "0.0005").await?;
+            current(page).await?;
+            page.type_into("#motion-feed_mm_s", "123.456789").await?;
+            current(page).await?;
+            let slowest = page.js("return Math.max(...window.delays)").await?;
+            assert!(slowest.as_f64().unwrap() < 200.0, "a key took {slowest} ms");
+            Ok(())
+        })?;
+    }
+    Ok(())
+}
+
+#[test]
+fn each_view_says_how_it_is_computed_with_and_without_javascript() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        for view in ["overview", "path", "forces", "deflection", "error", "joints", "shaper"] {
+            page.click(&format!("#tab-{view}")).await?;
+            page.click(&format!("#panel-{view} > .how > summary")).await?;
+            let told = page.text(&format!("#panel-{view} > .how")).await?;
+            assert!(told.contains("Thesis"), "{view}: {told}");
+            let formulas = format!("return document.querySelectorAll('#panel-{view} > .how math').length");
+            assert!(page.js(&formulas).await?.as_u64() > Some(0), "{view}");
+        }
+        page.devtools("Emulation.setScriptExecutionDisabled", json!({ "value": true })).await?;
+        // Where the page scrolls smoothly, the driver clicks too early.
+        let calm = json!({ "features": [{ "name": "prefers-reduced-motion", "value": "reduce" }] });
+        page.devtools("Emulation.setEmulatedMedia", calm).await?;
+        page.reload().await?;
+        page.click("#panel-forces > .how > summary").await?;
+        assert!(page.text("#panel-forces > .how").await?.contains("Thesis eq. 4.11"));
+        assert!(page.text("#limits").await?.contains("Dynamics of the arm"));
+        assert!(page.text("body").await?.contains("Both are needed"));
+        for gone in ["#verdict", "#inputs", ".tabs", "#open-settings", "#fingerprint"] {
+            assert_eq!(page.text(gone).await?, "", "{gone} has no use");
+        }
+        Ok(())
+    })
+}
+
+#[test]
+fn on_paper_it_is_a_report() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        page.js("document.querySelector('#open-settings').click(); document.activeElement.blur()").await?;
+        page.devtools("Emulation.setEmulatedMedia", json!({ "media": "print" })).await?;
+        let seen = async |css: &str| {
+            page.js(&format!(
+                "return [...document.querySelectorAll('{css}')].some(element => element.checkVisibility())"
+            ))
+            .await
+        };
+        for shown in [
+            "#verdict",
+            "#before-max",
+            "#warnings-list li",
+            "#motion-feed_mm_s",
+            "#tool-diameter_mm",
+            "#chart-before-after svg",
+            "#errors",
+            "#fingerprint",
+        ] {
+            assert_eq!(seen(shown).await?, true, "{shown}");
+        }
+        for hidden in [
+            ".tabs",
+            ".actions",
+            "#undo",
+            "#reset",
+            "#open-settings",
+            "#settings",
+            ".program-tools",
+            ".explain",
+            ".how",
+        ] {
+            assert_eq!(seen(hidden).await?, false, "{hidden}");
+        }
+        let paper = page.devtools("Page.printToPDF", json!({ "preferCSSPageSize": true })).await?;
+        assert!(paper["data"].as_str().is_some_and(|data| data.len() > 10_000));
+        Ok(())
+    })
+}
