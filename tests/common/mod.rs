@@ -106,7 +106,7 @@ pub(crate) type Pinned = (&'static str, Vec<(&'static str, Value)>, &'static str
 pub(crate) fn pinned() -> [Pinned; 4] {
     use serde_json::json;
     [
-        ("default", vec![], "8a1af3e745927855b8a01ee17d81210e"),
+        ("default", vec![], "105198a3961c0d1a82267525b76f9d82"),
         (
             "rounded rectangle, EI in Hz, chip from feed, tilted part, offset tool",
             vec![
@@ -140,7 +140,7 @@ pub(crate) fn pinned() -> [Pinned; 4] {
                 ),
                 ("shaper", json!("none")),
             ],
-            "e4119b5c399995deba0df752da9df247",
+            "b9d2bcdbe6c99b66c04bad4ab0c33652",
         ),
     ]
 }
