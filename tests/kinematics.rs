@@ -1,4 +1,5 @@
 //! Kinematics and compliance against published cases (tests/data/golden.json) and against their own definitions.
+#![allow(clippy::disallowed_types, reason = "quaternions by another library, compared within a tolerance")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
