@@ -1,5 +1,4 @@
 //! Files to take away: what is thinned stays within its tolerance, orientations multiply back, every file says where it comes from.
-#![allow(clippy::disallowed_types, reason = "quaternions by another library, compared within a tolerance")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_types, reason = "nalgebra's own rotations are the second way")]
 
