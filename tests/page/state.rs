@@ -283,7 +283,7 @@ fn a_result_is_shared_in_three_forms() -> Result {
 
         // A job that makes the link too long becomes a file.
         let points: Vec<[f64; 3]> = (0..1500)
-            .map(|k| [600.0 + 0.1 * f64::from(k), (f64::from(k) * 0.7).sin() * 50.0, 100.0])
+            .map(|k| [600.0 + 0.1 * f64::from(k), armill::math::sin(f64::from(k) * 0.7) * 50.0, 100.0])
             .collect();
         let rows: Vec<String> = points.iter().map(|[x, y, z]| format!("{x},{y},{z}")).collect();
         page.click("#undo").await?;
