@@ -24,15 +24,20 @@ export interface Statistics { mean: number; max: number; }
 export interface Warning { code: string; message: string; from_sample?: number; to_sample?: number; from_s?: number; to_s?: number; }
 export interface Parts { joints: number[]; shaping: number; total: number; }
 export interface Budget { sample: number; time_s: number; worst_mm: Parts; mean_mm: Parts; sentence: string; }
+export interface Understood {
+  language: "gcode" | "apt" | "csv"; unit: string; lines: number; cutting_moves: number; rapid_moves: number; multi_axis: boolean;
+  lowest_mm: [number, number, number]; highest_mm: [number, number, number]; feeds_mm_s?: [number, number]; ignored: { word: string; lines: number[] }[];
+}
 export interface Summary {
   fingerprint: string; samples: number; duration_s: number; path_length_mm: number; mean_force_n: [number, number, number];
   before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics }; after_mm: Statistics; budget: Budget;
+  before_axis_deg: Statistics; after_axis_deg: Statistics; program?: Understood;
   passes: number; converged: boolean; tolerance_mm: number; history_max_mm: number[]; history_mean_mm: number[];
   verdict: string; robot: string; branch: string; warnings: Warning[];
 }
 export interface Field {
   path: string; group: string; label: string; unit: string; kind: "number" | "integer" | "choice" | "vector" | "table" | "text" | "set";
-  choices?: { value: string; label: string }[]; min?: number; max?: number; default: unknown; help: string; when?: { path: string; is: string[] };
+  choices?: { value: string; label: string }[]; min?: number; max?: number; default: unknown; defaults?: Record<string, unknown>; help: string; when?: { path: string; is: string[] };
 }
 export interface Presets {
   robots: { id: string; name: string; note: string; modified_dh: { alpha_deg: number; a_mm: number; d_mm: number; theta_offset_deg: number }[];

@@ -5,6 +5,8 @@
 #[path = "page/browser.rs"]
 pub mod browser;
 mod common;
+#[path = "page/accessibility.rs"]
+mod accessibility;
 #[path = "page/charts.rs"]
 mod charts;
 #[path = "page/embed.rs"]

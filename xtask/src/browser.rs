@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail};
 
-use crate::workspace::{output, program, run};
+use crate::workspace::{self, program};
 
 /// What Debian calls the browser and its driver.
 const PACKAGES: [&str; 2] = ["chromium", "chromium-driver"];
@@ -27,12 +27,8 @@ pub(crate) fn driver() -> Result<PathBuf> {
     if let Some(path) = find() {
         return Ok(path);
     }
-    if program("apt-get").is_some() && output("id", &["-u"]).as_deref() == Some("0") {
-        let apt = || Command::new("apt-get");
-        run(apt().arg("update")).and_then(|()| {
-            let quietly = ["install", "-y", "--no-install-recommends"];
-            run(apt().env("DEBIAN_FRONTEND", "noninteractive").args(quietly).args(PACKAGES))
-        })?;
+    if workspace::may_install() {
+        workspace::install(&PACKAGES)?;
     }
     find().with_context(|| {
         let [browser, driver] = PACKAGES;

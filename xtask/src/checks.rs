@@ -6,6 +6,7 @@ use anyhow::{Context, Result};
 
 use crate::browser::{self, Driver};
 use crate::docs;
+use crate::npm;
 use crate::server::Server;
 use crate::site;
 use crate::workspace::{self, WASM, cargo, run};
@@ -20,6 +21,11 @@ pub(crate) fn all() -> Result<()> {
         browser::driver()?;
         run(&mut cargo(&["test", "--locked", "--target", WASM, "--test", "web"])?)
     })?;
+    step("tests of the npm package", || {
+        run(cargo(&["test", "--locked", "--features", "page", "--test", "npm"])?
+            .env("ARMILL_NPM_PROJECT", npm::project()?)
+            .env("ARMILL_NPM_TOOLS", npm::tools()?))
+    })?;
     step("tests of the page", || {
         let docs = Server::start_plain(&docs::build()?)?;
         let server = Server::start_anywhere(&site::build()?)?;
@@ -27,6 +33,7 @@ pub(crate) fn all() -> Result<()> {
         run(cargo(&["test", "--locked", "--features", "page", "--test", "page"])?
             .env("ARMILL_SITE_URL", &server.url)
             .env("ARMILL_DOCS_URL", &docs.url)
+            .env("ARMILL_NPM_TOOLS", npm::tools()?)
             .env("ARMILL_WEBDRIVER_URL", driver.url()))
     })
 }

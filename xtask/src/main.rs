@@ -6,6 +6,7 @@ mod modules;
 mod standalone;
 mod site;
 mod docs;
+mod npm;
 mod server;
 mod browser;
 mod checks;
@@ -22,6 +23,7 @@ usage: cargo xtask <command>
   build            build the complete static site in target/site
   serve            build it and serve it on this machine, from port 8080 on
   docs             build the documentation, with the calculator in it, in target/docs
+  npm              make the package for npm in target/npm
   test             check formatting and lints, run all tests: native, in the browser, through the page
   test --native    only what needs no browser
   fuzz [target [seconds]]  search for texts that break a reader, the job or an export: each for a minute
@@ -44,6 +46,7 @@ fn run(arguments: &[String]) -> Result<()> {
         ["build"] => site::build().map(|_| ()),
         ["serve"] => server::serve(&site::build()?),
         ["docs"] => docs::build().map(|_| ()),
+        ["npm"] => npm::package().map(|_| ()),
         ["test"] => checks::all(),
         ["test", "--native"] => checks::native(),
         ["fuzz"] => fuzz::fuzz(None, 60),

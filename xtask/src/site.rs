@@ -109,7 +109,10 @@ fn remove(path: &Path) -> std::io::Result<()> {
 }
 
 /// Writes a file, unless it has this content already.
-fn update(wanted: &[u8], file: &Path) -> std::io::Result<()> {
+///
+/// # Errors
+/// If it cannot be read or written.
+pub(crate) fn update(wanted: &[u8], file: &Path) -> std::io::Result<()> {
     match fs::read(file) {
         Ok(present) if present == wanted => Ok(()),
         Err(error) if error.kind() != ErrorKind::NotFound => Err(error),

@@ -59,6 +59,22 @@ pub(crate) fn program(name: &str) -> Option<PathBuf> {
     env::split_paths(&env::var_os("PATH")?).map(|folder| folder.join(&file)).find(|path| path.is_file())
 }
 
+/// Whether packages of the system can be installed from here: root on Debian or Ubuntu.
+pub(crate) fn may_install() -> bool {
+    program("apt-get").is_some() && output("id", &["-u"]).as_deref() == Some("0")
+}
+
+/// Installs packages of the system.
+///
+/// # Errors
+/// If apt-get fails.
+pub(crate) fn install(packages: &[&str]) -> Result<()> {
+    let apt = || Command::new("apt-get");
+    run(apt().arg("update"))?;
+    let quietly = ["install", "-y", "--no-install-recommends"];
+    run(apt().env("DEBIAN_FRONTEND", "noninteractive").args(quietly).args(packages))
+}
+
 /// Adds the WebAssembly target to the toolchain in use, if it is missing.
 ///
 /// # Errors

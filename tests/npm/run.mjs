@@ -1,0 +1,55 @@
+// Runs in Node what the package offers; prints its fingerprint and writes what it answered as TypeScript, so that
+// `tsc` can hold the answers against the declared types: a key too many or too few is an error there.
+
+import { writeFileSync } from "node:fs";
+import init, * as armill from "armill";
+
+await init();
+const program = { ...JSON.parse(armill.default_job()), path: { kind: "gcode", text: "G21 G90 M8\nS4000 M3\nG0 X600 Y-60 Z120\nG1 Z100 F1200\nY20\nM30" } };
+const result = armill.run(armill.default_job());
+const other = armill.run(JSON.stringify(program));
+const charts = result.charts().map(({ name }) => result.chart(name, { width: 640, height: 300 }));
+const answers = {
+  fields: [armill.fields()],
+  formats: [armill.formats()],
+  presets: [armill.presets()],
+  thesis_recomputed: [armill.thesis_recomputed()],
+};
+const methods = {
+  summary: [result.summary(), other.summary()],
+  columns: [result.columns()],
+  column: [result.column("time_s")],
+  charts: [result.charts()],
+  chart: charts,
+  chart_data: [result.chart_data("before-after", { length: "inch" })],
+  frames: [result.frames(0)],
+  track: [result.track(100)],
+  export: [result.export("krl")],
+  replay: [other.replay("gcode")],
+  fingerprint: [result.fingerprint()],
+};
+
+const literal = (value) => {
+  if (value instanceof Float64Array) return `new Float64Array([${value.slice(0, 3)}])`;
+  if (Array.isArray(value)) return `[${value.map(literal)}]`;
+  if (value === null || typeof value !== "object") return JSON.stringify(value);
+  return `{${Object.entries(value).map(([key, each]) => `${JSON.stringify(key)}: ${literal(each)}`)}}`;
+};
+const lines = ['import * as armill from "armill";'];
+const write = (type, values) => values.forEach((value) => lines.push(`((_: ${type}) => {})(${literal(value)});`));
+for (const [name, values] of Object.entries(answers)) write(`ReturnType<typeof armill.${name}>`, values);
+for (const [name, values] of Object.entries(methods)) write(`ReturnType<armill.Run["${name}"]>`, values);
+writeFileSync("values.ts", `${lines.join("\n")}\n`);
+
+// Whatever a run offers was asked for: what is new has to be added above.
+const offered = Object.getOwnPropertyNames(armill.Run.prototype).filter((name) => !["constructor", "free", "__destroy_into_raw"].includes(name));
+const missing = offered.filter((name) => !(name in methods));
+if (missing.length) throw new Error(`not tried: ${missing.join(", ")}`);
+
+const refused = {};
+try {
+  armill.check('{ "version": 1, "motion": { "feed_mm_s": -1 } }');
+} catch ({ code, field, message }) {
+  Object.assign(refused, { code, field, message });
+}
+console.log(JSON.stringify({ version: armill.version(), fingerprint: result.fingerprint(), samples: result.column("time_s").length, refused }));

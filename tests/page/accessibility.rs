@@ -1,0 +1,113 @@
+//! axe-core finds nothing serious on any state of the page, in light and dark.
+
+use std::path::Path;
+
+use crate::browser::{DESKTOP, PHONE, Page, Result, setting, visit};
+use crate::{current, stale, standalone, unfold};
+
+/// What axe-core calls serious or critical on the page as it stands: rule, place and reason, a line each.
+async fn faults(page: &Page) -> Result<Vec<String>> {
+    if page.js("return window.axe === undefined").await? == true {
+        let source = Path::new(&setting("ARMILL_NPM_TOOLS")?).join("axe-core/axe.min.js");
+        page.js(&std::fs::read_to_string(source)?).await?;
+    }
+    // What fades in or out is judged when it has done so.
+    page.js("return Promise.all(document.getAnimations().map(each => each.finished.catch(() => {})))")
+        .await?;
+    let found = page
+        .js("return axe.run(document, { resultTypes: ['violations'] }).then(({ violations }) => violations
+               .filter(({ impact }) => impact === 'serious' || impact === 'critical')
+               .flatMap(({ id, nodes }) => nodes.map(({ target, failureSummary }) => `${id}: ${target.flat().join(' ')}: ${failureSummary.replaceAll('\\n', ' ')}`)))")
+        .await?;
+    Ok(serde_json::from_value(found)?)
+}
+
+/// Looks at the page in light and in dark, and notes what is found under the state's name.
+async fn look(page: &Page, state: &str, notes: &mut Vec<String>) -> Result {
+    for (dark, colours) in [(false, "light"), (true, "dark")] {
+        page.prefer_dark(dark).await?;
+        notes.extend(faults(page).await?.into_iter().map(|fault| format!("{state}, {colours}: {fault}")));
+    }
+    page.prefer_dark(false).await
+}
+
+/// Nothing has been noted.
+fn none(notes: &[String]) -> Result {
+    if notes.is_empty() { Ok(()) } else { Err(notes.join("\n").into()) }
+}
+
+/// Unfolds every group of inputs.
+async fn unfold_all(page: &Page) -> Result {
+    page.js("for (const group of document.querySelectorAll('details')) group.open = true").await.map(|_| ())
+}
+
+#[test]
+fn every_view_is_accessible() -> Result {
+    visit("/", DESKTOP, async |page| {
+        let mut notes = Vec::new();
+        current(page).await?;
+        let tabs = page.js("return [...document.querySelectorAll('[role=tab]')].map(tab => tab.id)").await?;
+        let tabs: Vec<String> = serde_json::from_value(tabs)?;
+        assert!(tabs.len() >= 8);
+        for tab in tabs {
+            page.click(&format!("#{tab}")).await?;
+            let panel = tab.replace("tab-", "panel-");
+            page.wait_for(&format!("document.querySelector('#{panel} :is(svg, canvas, tbody tr)')"), 20.0)
+                .await?;
+            look(page, &tab, &mut notes).await?;
+        }
+        unfold_all(page).await?;
+        look(page, "all inputs", &mut notes).await?;
+        none(&notes)
+    })
+}
+
+#[test]
+fn every_answer_is_accessible() -> Result {
+    visit("/", DESKTOP, async |page| {
+        let mut notes = Vec::new();
+        current(page).await?;
+        page.type_into("#motion-feed_mm_s", "-5").await?;
+        stale(page).await?;
+        look(page, "invalid input", &mut notes).await?;
+        page.type_into("#motion-feed_mm_s", "100").await?;
+        current(page).await?;
+        page.type_into("#path-radius_mm", "1500").await?;
+        stale(page).await?;
+        look(page, "out of reach", &mut notes).await?;
+        unfold(page, "path").await?;
+        page.choose("#examples", "dome.apt").await?;
+        current(page).await?;
+        page.click("#tab-path").await?;
+        look(page, "program", &mut notes).await?;
+        page.type_into("#path-text", "G41").await?;
+        stale(page).await?;
+        look(page, "program refused", &mut notes).await?;
+        none(&notes)
+    })
+}
+
+#[test]
+fn a_phone_and_the_other_pages_are_accessible() -> Result {
+    let mut notes = Vec::new();
+    visit("/", PHONE, async |page| {
+        current(page).await?;
+        look(page, "phone", &mut notes).await?;
+        page.click("#inputs-toggle").await?;
+        unfold_all(page).await?;
+        look(page, "phone, inputs", &mut notes).await
+    })?;
+    visit("/embed.html#charts=before-after+actual-path", PHONE, async |page| {
+        current(page).await?;
+        look(page, "embed", &mut notes).await?;
+        unfold_all(page).await?;
+        page.type_into("#motion-feed_mm_s", "-5").await?;
+        stale(page).await?;
+        look(page, "embed, invalid input", &mut notes).await
+    })?;
+    visit(&standalone::address(), DESKTOP, async |page| {
+        current(page).await?;
+        look(page, "one file", &mut notes).await
+    })?;
+    none(&notes)
+}
