@@ -46,8 +46,16 @@ fn the_package_works_in_node_and_its_types_are_true() {
     assert_eq!(printed["refused"]["field"], "motion.feed_mm_s");
 
     let compiler = folder("ARMILL_NPM_TOOLS").join("typescript/bin/tsc");
-    let options =
-        ["--strict", "--noEmit", "--target", "es2023", "--module", "nodenext", "--lib", "es2023,esnext.disposable,dom"];
+    let options = [
+        "--strict",
+        "--noEmit",
+        "--target",
+        "es2023",
+        "--module",
+        "nodenext",
+        "--lib",
+        "es2023,esnext.disposable,dom",
+    ];
     let files = ["consumer.ts", "values.ts"];
     node(&project, [compiler.as_os_str()].into_iter().chain(options.iter().chain(&files).map(OsStr::new)));
 }

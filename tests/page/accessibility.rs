@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::browser::{DESKTOP, PHONE, Page, Result, setting, visit};
+use crate::browser::{DESKTOP, Key, PHONE, Page, Result, setting, visit};
 use crate::{current, stale, standalone, unfold};
 
 /// What axe-core calls serious or critical on the page as it stands: rule, place and reason, a line each.
@@ -83,6 +83,27 @@ fn every_answer_is_accessible() -> Result {
         page.type_into("#path-text", "G41").await?;
         stale(page).await?;
         look(page, "program refused", &mut notes).await?;
+        none(&notes)
+    })
+}
+
+#[test]
+fn every_dialog_is_accessible() -> Result {
+    visit("/", DESKTOP, async |page| {
+        let mut notes = Vec::new();
+        current(page).await?;
+        page.click("#open-settings").await?;
+        page.wait_for("document.querySelector('#settings:popover-open')", 5.0).await?;
+        look(page, "settings", &mut notes).await?;
+        page.press(char::from(Key::Escape)).await?;
+        page.click("#share").await?;
+        page.wait_for("document.querySelector('#share-dialog[open]')", 5.0).await?;
+        look(page, "share", &mut notes).await?;
+        page.press(char::from(Key::Escape)).await?;
+        page.click("#pin").await?;
+        page.type_into("#motion-feed_mm_s", "50").await?;
+        current(page).await?;
+        look(page, "compared", &mut notes).await?;
         none(&notes)
     })
 }
