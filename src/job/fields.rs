@@ -2,6 +2,7 @@
 //!
 //! The page builds its form from this table and the job is checked against it: one range, written once.
 
+use crate::cutting::material;
 use crate::error::Error;
 use crate::job::Job;
 use crate::robot::library;
@@ -88,137 +89,170 @@ pub struct When {
     pub is: Vec<&'static str>,
 }
 
-fn field(
+/// A row of the table: a [`Field`] that is there before the program runs.
+#[derive(Clone, Copy)]
+struct Row {
     path: &'static str,
     label: &'static str,
     unit: &'static str,
     kind: Kind,
-    default: Value,
+    default: fn() -> Value,
     help: &'static str,
-) -> Field {
-    let group = path.split('.').next().unwrap_or(path);
-    let group = match group {
-        "tool_frame" | "workpiece_frame" | "start_branch" => "frames",
-        other => other,
-    };
-    Field {
-        path,
-        group,
-        label,
-        unit,
-        kind,
-        choices: Vec::new(),
-        min: None,
-        max: None,
-        default,
-        defaults: None,
-        help,
-        when: None,
+    words: &'static [(&'static str, &'static str)],
+    range: Option<(f64, f64)>,
+    defaults: &'static [(&'static str, &'static str)],
+    when: Option<(&'static str, &'static [&'static str])>,
+}
+
+const fn field(
+    path: &'static str,
+    label: &'static str,
+    unit: &'static str,
+    kind: Kind,
+    default: fn() -> Value,
+    help: &'static str,
+) -> Row {
+    Row { path, label, unit, kind, default, help, words: &[], range: None, defaults: &[], when: None }
+}
+
+impl Row {
+    const fn range(self, min: f64, max: f64) -> Self {
+        Self { range: Some((min, max)), ..self }
+    }
+
+    const fn words(self, words: &'static [(&'static str, &'static str)]) -> Self {
+        Self { words, ..self }
+    }
+
+    const fn defaults(self, defaults: &'static [(&'static str, &'static str)]) -> Self {
+        Self { defaults, ..self }
+    }
+
+    const fn when(self, path: &'static str, is: &'static [&'static str]) -> Self {
+        Self { when: Some((path, is)), ..self }
+    }
+
+    fn field(&self) -> Field {
+        let group = self.path.split('.').next().unwrap_or(self.path);
+        let group = match group {
+            "tool_frame" | "workpiece_frame" | "start_branch" => "frames",
+            other => other,
+        };
+        let defaults = self.defaults.iter().map(|&(word, text)| (word, json!(text)));
+        Field {
+            path: self.path,
+            group,
+            label: self.label,
+            unit: self.unit,
+            kind: self.kind,
+            choices: self.words.iter().map(|&(value, label)| Word { value, label }).collect(),
+            min: self.range.map(|(min, _)| min),
+            max: self.range.map(|(_, max)| max),
+            default: (self.default)(),
+            defaults: (!self.defaults.is_empty()).then(|| defaults.collect()),
+            help: self.help,
+            when: self.when.map(|(path, is)| When { path, is: is.to_vec() }),
+        }
     }
 }
 
-impl Field {
-    fn range(mut self, min: f64, max: f64) -> Self {
-        (self.min, self.max) = (Some(min), Some(max));
-        self
-    }
+/// What the library offers, as words.
+macro_rules! words_of {
+    ($library:expr) => {{
+        let mut words = [("", ""); $library.len()];
+        let mut k = 0;
+        while k < words.len() {
+            words[k] = ($library[k].id, $library[k].name);
+            k += 1;
+        }
+        words
+    }};
+}
+static ROBOTS: [(&str, &str); library::ROBOTS.len()] = words_of!(library::ROBOTS);
+static MATERIALS: [(&str, &str); material::MATERIALS.len()] = words_of!(material::MATERIALS);
 
-    fn words(mut self, words: &[(&'static str, &'static str)]) -> Self {
-        self.choices = words.iter().map(|&(value, label)| Word { value, label }).collect();
-        self
-    }
-
-    fn defaults(mut self, defaults: &[(&'static str, &'static str)]) -> Self {
-        self.defaults = Some(defaults.iter().map(|&(word, text)| (word, json!(text))).collect());
-        self
-    }
-
-    fn when(mut self, path: &'static str, is: &[&'static str]) -> Self {
-        self.when = Some(When { path, is: is.to_vec() });
-        self
-    }
+/// The RX-90's table, as what a fresh table shows.
+fn rx90_rows() -> Value {
+    let row = |[alpha, a, d, theta]: [f64; 4]| json!({"alpha_deg": alpha, "a_mm": a, "d_mm": d, "theta_offset_deg": theta});
+    library::ROBOTS[0].modified_dh.map(row).to_vec().into()
 }
 
 /// The table, in the order of the pipeline.
-pub fn fields() -> Vec<Field> {
+static TABLE: &[Row] = {
     use Kind::{Choice, Integer, Number, Set, Table, Text, Vector};
-    let robots: Vec<_> = library::ROBOTS.iter().map(|robot| (robot.id, robot.name)).collect();
-    let materials: Vec<_> = crate::cutting::material::MATERIALS.iter().map(|m| (m.id, m.name)).collect();
-    let rx90 = &library::ROBOTS[0];
-    let rows: Vec<Value> = rx90
-        .modified_dh
-        .iter()
-        .map(|[alpha, a, d, theta]| json!({"alpha_deg": alpha, "a_mm": a, "d_mm": d, "theta_offset_deg": theta}))
-        .collect();
-    let round = &["circle", "arc"];
-    vec![
-        field("robot.preset", "Robot", "", Choice, json!("staubli-rx90"), "An arm of the library, or your own as a modified Denavit-Hartenberg table.").words(&robots),
-        field("robot.name", "Name", "", Text, json!("My robot"), "For the report.").when("robot", &["table"]),
-        field("robot.modified_dh", "Modified DH table", "deg, mm", Table, json!(rows), "One row a joint: twist and length to the joint before, offset along the axis, constant part of the angle. Axes 2 and 3 parallel, axes 4 to 6 through one point.").when("robot", &["table"]),
-        field("robot.joint_limits_deg", "Joint ranges", "deg", Table, json!(rx90.joint_limits_deg), "Lowest and highest angle of each joint in the table's zero; from the data sheet.").when("robot", &["table"]),
-        field("robot.joint_compliance_rad_per_nm", "Joint compliance", "rad/(N m)", Table, json!(rx90.joint_compliance), "How far each joint turns under 1 N m; 1 divided by its stiffness, from a load test or a paper. Measured values of one robot family scatter by a factor of two and more.").range(0.0, 1e-2),
-        field("tool_frame.xyz_mm", "Tool tip on the flange", "mm", Vector, json!([0, 0, 0]), "Position of the tip (TCP) in the flange frame, as in the controller's tool data.").range(-5000.0, 5000.0),
-        field("tool_frame.rpy_deg", "Tool orientation", "deg", Vector, json!([0, 0, 0]), "Roll, pitch and yaw of the TCP; its z axis points out of the tool towards the part.").range(-360.0, 360.0),
-        field("workpiece_frame.xyz_mm", "Workpiece position", "mm", Vector, json!([0, 0, 0]), "Origin of the workpiece frame in the robot's base frame, as in the controller's base or work object data.").range(-20000.0, 20000.0),
-        field("workpiece_frame.rpy_deg", "Workpiece orientation", "deg", Vector, json!([0, 0, 0]), "Roll, pitch and yaw of the workpiece frame about the base's x, y and z axes, in this order.").range(-360.0, 360.0),
-        field("start_branch.shoulder", "Shoulder", "", Choice, json!("front"), "The arm faces the first point, or reaches over its back.").words(&[("front", "facing the point"), ("back", "over its back")]),
-        field("start_branch.elbow", "Elbow", "", Choice, json!("positive"), "Sign of the elbow angle from the stretched arm (RX-90: of q3).").words(&[("positive", "positive"), ("negative", "negative")]),
-        field("start_branch.wrist", "Wrist", "", Choice, json!("near"), "The wrist with the smaller turn of joint 4, or the one turned by 180 degrees.").words(&[("near", "smaller q4"), ("flipped", "flipped")]),
-        field("path.kind", "Shape", "", Choice, json!("circle"), "What the tool tip is to follow, in the workpiece frame, tool upright.").words(&[("circle", "Circle"), ("arc", "Arc"), ("rectangle", "Rectangle"), ("line", "Straight line"), ("gcode", "G-code program"),
+    &[
+        field("robot.preset", "Robot", "", Choice, || json!("staubli-rx90"), "An arm of the library, or your own as a modified Denavit-Hartenberg table.").words(&ROBOTS),
+        field("robot.name", "Name", "", Text, || json!("My robot"), "For the report.").when("robot", &["table"]),
+        field("robot.modified_dh", "Modified DH table", "deg, mm", Table, rx90_rows, "One row a joint: twist and length to the joint before, offset along the axis, constant part of the angle. Axes 2 and 3 parallel, axes 4 to 6 through one point.").when("robot", &["table"]),
+        field("robot.joint_limits_deg", "Joint ranges", "deg", Table, || json!(library::ROBOTS[0].joint_limits_deg), "Lowest and highest angle of each joint in the table's zero; from the data sheet.").when("robot", &["table"]),
+        field("robot.joint_compliance_rad_per_nm", "Joint compliance", "rad/(N m)", Table, || json!(library::ROBOTS[0].joint_compliance), "How far each joint turns under 1 N m; 1 divided by its stiffness, from a load test or a paper. Measured values of one robot family scatter by a factor of two and more.").range(0.0, 1e-2),
+        field("tool_frame.xyz_mm", "Tool tip on the flange", "mm", Vector, || json!([0, 0, 0]), "Position of the tip (TCP) in the flange frame, as in the controller's tool data.").range(-5000.0, 5000.0),
+        field("tool_frame.rpy_deg", "Tool orientation", "deg", Vector, || json!([0, 0, 0]), "Roll, pitch and yaw of the TCP; its z axis points out of the tool towards the part.").range(-360.0, 360.0),
+        field("workpiece_frame.xyz_mm", "Workpiece position", "mm", Vector, || json!([0, 0, 0]), "Origin of the workpiece frame in the robot's base frame, as in the controller's base or work object data.").range(-20000.0, 20000.0),
+        field("workpiece_frame.rpy_deg", "Workpiece orientation", "deg", Vector, || json!([0, 0, 0]), "Roll, pitch and yaw of the workpiece frame about the base's x, y and z axes, in this order.").range(-360.0, 360.0),
+        field("start_branch.shoulder", "Shoulder", "", Choice, || json!("front"), "The arm faces the first point, or reaches over its back.").words(&[("front", "facing the point"), ("back", "over its back")]),
+        field("start_branch.elbow", "Elbow", "", Choice, || json!("positive"), "Sign of the elbow angle from the stretched arm (RX-90: of q3).").words(&[("positive", "positive"), ("negative", "negative")]),
+        field("start_branch.wrist", "Wrist", "", Choice, || json!("near"), "The wrist with the smaller turn of joint 4, or the one turned by 180 degrees.").words(&[("near", "smaller q4"), ("flipped", "flipped")]),
+        field("path.kind", "Shape", "", Choice, || json!("circle"), "What the tool tip is to follow, in the workpiece frame, tool upright.").words(&[("circle", "Circle"), ("arc", "Arc"), ("rectangle", "Rectangle"), ("line", "Straight line"), ("gcode", "G-code program"),
                 ("apt", "APT / CLDATA program"),
                 ("csv", "Points, pasted"), ("polyline", "Points, listed (JSON)")]),
-        field("path.center_mm", "Centre", "mm", Vector, json!([0, 0, 0]), "Centre of the shape.").range(-20000.0, 20000.0).when("path.kind", &["circle", "arc", "rectangle"]),
-        field("path.radius_mm", "Radius", "mm", Number, json!(300), "Radius of the circle or arc.").range(0.001, 10000.0).when("path.kind", round),
-        field("path.normal", "Normal", "", Vector, json!([0.2, 0.3, 0.5]), "Direction the circle runs counter-clockwise about; its length does not matter.").range(-1e6, 1e6).when("path.kind", round),
-        field("path.start_deg", "Start angle", "deg", Number, json!(0), "From the projection of +X into the circle's plane.").range(-360.0, 360.0).when("path.kind", &["arc"]),
-        field("path.sweep_deg", "Sweep", "deg", Number, json!(180), "Counter-clockwise about the normal if positive.").range(-3600.0, 3600.0).when("path.kind", &["arc"]),
-        field("path.width_mm", "Width (X)", "mm", Number, json!(300), "Size along X.").range(0.001, 20000.0).when("path.kind", &["rectangle"]),
-        field("path.height_mm", "Height (Y)", "mm", Number, json!(200), "Size along Y.").range(0.001, 20000.0).when("path.kind", &["rectangle"]),
-        field("path.corner_radius_mm", "Corner radius", "mm", Number, json!(0), "0 gives sharp corners, at which the path stops.").range(0.0, 10000.0).when("path.kind", &["rectangle"]),
-        field("path.from_mm", "From", "mm", Vector, json!([600, -200, 100]), "Start of the line.").range(-20000.0, 20000.0).when("path.kind", &["line"]),
-        field("path.to_mm", "To", "mm", Vector, json!([600, 200, 100]), "End of the line.").range(-20000.0, 20000.0).when("path.kind", &["line"]),
-        field("path.points_mm", "Points", "mm", Table, json!([[600, -200, 100], [700, 0, 100], [600, 200, 100]]), "Straight lines through these points.").range(-20000.0, 20000.0).when("path.kind", &["polyline"]),
-        field("path.text", "Program", "", Text, json!(EXAMPLE_ROWS), "As it comes from CAM; drop a file here. Points: one a line, x, y, z, with tool axis i, j, k and feed where they are needed, separated by comma, semicolon, tab or blank.").when("path.kind", &["csv", "gcode", "apt"]).defaults(&[("csv", EXAMPLE_ROWS), ("gcode", EXAMPLE_GCODE), ("apt", EXAMPLE_APT)]),
-        field("path.unit", "Unit of lengths", "", Choice, json!("mm"), "Of a text that does not say its own.").words(&[("mm", "mm"), ("inch", "inch")]).when("path.kind", &["csv", "apt"]),
-        field("path.feed_unit", "Unit of feeds", "", Choice, json!("mm/s"), "Of rows that do not say their own.").words(&[("mm/s", "mm/s"), ("mm/min", "mm/min"), ("inch/min", "inch/min")]).when("path.kind", &["csv"]),
-        field("path.tool_length_offsets_mm", "Tool length offsets", "mm", Table, json!([]), "For G43 H: one row an offset, the number H and the length that is added to Z. Leave it empty if the tool frame holds the whole tool.").range(-5000.0, 5000.0).when("path.kind", &["gcode"]),
-        field("path.work_offsets_mm", "Work offsets", "mm", Table, json!([]), "G54, G55 and so on, one row each: x, y, z from the workpiece frame. Leave it empty if the program's zero is the workpiece frame.").range(-20000.0, 20000.0).when("path.kind", &["gcode"]),
-        field("motion.feed_mm_s", "Feed", "mm/s", Number, json!(100), "Highest speed along the path: the F word of a program, divided by 60.").range(0.001, 10000.0),
-        field("motion.rapid_mm_s", "Rapid speed", "mm/s", Number, json!(250), "Speed of a program's positioning moves, which do not cut.").range(0.001, 20000.0).when("path.kind", &["gcode", "apt"]),
-        field("motion.acceleration_mm_s2", "Acceleration", "mm/s²", Number, json!(200), "Along the path, at starts and stops; from the controller's data, or from the slope of a logged speed.").range(0.01, 1e6),
-        field("motion.sample_time_s", "Sample time", "s", Number, json!(0.001), "Interpolation interval of the controller; in its manual, often 1 to 16 ms.").range(1e-5, 1.0),
-        field("motion.corner_angle_deg", "Corners stop above", "deg", Number, json!(5), "A corner sharper than this is a full stop: that keeps the contour.").range(0.1, 180.0),
-        field("motion.corner_dwell", "Wait in corners", "s", Number, json!("settle"), "Time at rest in such a corner; until settled is the only exact cure for a corner that shaping rounds.").range(0.0, 60.0).words(&[("settle", "until settled")]),
-        field("tool.diameter_mm", "Diameter", "mm", Number, json!(10), "Of the end mill; in its catalogue or on its shank.").range(0.01, 500.0),
-        field("tool.flutes", "Flutes", "", Integer, json!(4), "Number of cutting edges; count them.").range(1.0, 100.0),
-        field("tool.helix_deg", "Helix angle", "deg", Number, json!(30), "Angle between edge and tool axis; it smooths the force but does not change its mean. In the tool's catalogue.").range(0.0, 80.0),
-        field("material.preset", "Material", "", Choice, json!("thesis"), "Cutting coefficients of the library, or your own. Take any table value as ±30 %.").words(&materials),
-        field("material.ktc_n_mm2", "k_tc, tangential", "N/mm²", Number, json!(1800), "Tangential force for each mm² of chip section; from a table of the alloy, or fitted to measured forces.").range(0.0, 1e5).when("material", &["table"]),
-        field("material.krc_n_mm2", "k_rc, radial", "N/mm²", Number, json!(540), "Radial force for each mm² of chip section.").range(-1e5, 1e5).when("material", &["table"]),
-        field("material.kac_n_mm2", "k_ac, axial", "N/mm²", Number, json!(800), "Axial force for each mm² of chip section.").range(-1e5, 1e5).when("material", &["table"]),
-        field("material.kte_n_mm", "k_te, tangential edge", "N/mm", Number, json!(0), "Tangential force for each mm of edge, whatever the chip.").range(-1e4, 1e4).when("material", &["table"]),
-        field("material.kre_n_mm", "k_re, radial edge", "N/mm", Number, json!(0), "Radial force for each mm of edge.").range(-1e4, 1e4).when("material", &["table"]),
-        field("material.kae_n_mm", "k_ae, axial edge", "N/mm", Number, json!(0), "Axial force for each mm of edge.").range(-1e4, 1e4).when("material", &["table"]),
-        field("cutting.axial_depth_mm", "Axial depth", "mm", Number, json!(10), "Depth of cut along the tool axis, as in the CAM operation; 0 is air.").range(0.0, 1000.0),
-        field("cutting.entry_deg", "Entry angle", "deg", Number, json!(90), "Immersion angle at which a tooth enters, clockwise from the side the feed's left hand points to. Down milling at half immersion: 90 to 180; slot: 0 to 180.").range(0.0, 180.0),
-        field("cutting.exit_deg", "Exit angle", "deg", Number, json!(180), "Immersion angle at which a tooth leaves.").range(0.0, 180.0),
-        field("cutting.spindle_rpm", "Spindle speed", "1/min", Number, json!(4000), "The S word of the program; clockwise, seen from the spindle.").range(1.0, 1e6),
-        field("cutting.feed_per_tooth_mm", "Feed per tooth", "mm", Number, json!(0.1), "Chip load; from feed means the local speed divided by flutes and spindle speed.").range(0.0, 10.0).words(&[("from_feed", "from feed")]),
-        field("shaper.kind", "Input shaper", "", Choice, json!("zvd"), "Filter that keeps the arm from shaking; the more robust, the longer its delay.").words(&[("none", "none"), ("zv", "ZV"), ("zvd", "ZVD"), ("zvdd", "ZVDD"), ("ei", "EI")]),
-        field("shaper.frequency_rad_s", "Natural frequency", "rad/s", Number, json!(18), "Of the mode to be left at rest, from a tap test at the tool. 1 Hz is 6.283 rad/s; heavy milling robots have 45 to 125 rad/s (7 to 20 Hz).").range(0.1, 10000.0).when("shaper.kind", &["zv", "zvd", "zvdd", "ei"]),
-        field("shaper.frequency_hz", "Natural frequency", "Hz", Number, json!(2.865), "The same in Hz: a job gives one of the two.").range(0.01, 2000.0).when("shaper", &["hz"]),
-        field("shaper.damping", "Damping ratio", "", Number, json!(0.1), "Of that mode, from the decay after a tap; heavy milling robots have 0.02 to 0.04.").range(0.0, 0.9).when("shaper.kind", &["zv", "zvd", "zvdd", "ei"]),
-        field("compensation.sources", "Compensate", "", Set, json!(["deflection", "shaping"]), "Which errors the commanded path corrects; all act in the result.").words(&[("deflection", "deflection by cutting forces"), ("shaping", "distortion by the shaper")]),
-        field("compensation.tolerance_mm", "Tolerance", "mm", Number, json!(0.01), "Largest contour error to reach, from the part's drawing.").range(1e-6, 100.0),
-        field("compensation.max_passes", "Passes at most", "", Integer, json!(5), "Each pass sends the whole path through the model again.").range(0.0, 100.0),
+        field("path.center_mm", "Centre", "mm", Vector, || json!([0, 0, 0]), "Centre of the shape.").range(-20000.0, 20000.0).when("path.kind", &["circle", "arc", "rectangle"]),
+        field("path.radius_mm", "Radius", "mm", Number, || json!(300), "Radius of the circle or arc.").range(0.001, 10000.0).when("path.kind", &["circle", "arc"]),
+        field("path.normal", "Normal", "", Vector, || json!([0.2, 0.3, 0.5]), "Direction the circle runs counter-clockwise about; its length does not matter.").range(-1e6, 1e6).when("path.kind", &["circle", "arc"]),
+        field("path.start_deg", "Start angle", "deg", Number, || json!(0), "From the projection of +X into the circle's plane.").range(-360.0, 360.0).when("path.kind", &["arc"]),
+        field("path.sweep_deg", "Sweep", "deg", Number, || json!(180), "Counter-clockwise about the normal if positive.").range(-3600.0, 3600.0).when("path.kind", &["arc"]),
+        field("path.width_mm", "Width (X)", "mm", Number, || json!(300), "Size along X.").range(0.001, 20000.0).when("path.kind", &["rectangle"]),
+        field("path.height_mm", "Height (Y)", "mm", Number, || json!(200), "Size along Y.").range(0.001, 20000.0).when("path.kind", &["rectangle"]),
+        field("path.corner_radius_mm", "Corner radius", "mm", Number, || json!(0), "0 gives sharp corners, at which the path stops.").range(0.0, 10000.0).when("path.kind", &["rectangle"]),
+        field("path.from_mm", "From", "mm", Vector, || json!([600, -200, 100]), "Start of the line.").range(-20000.0, 20000.0).when("path.kind", &["line"]),
+        field("path.to_mm", "To", "mm", Vector, || json!([600, 200, 100]), "End of the line.").range(-20000.0, 20000.0).when("path.kind", &["line"]),
+        field("path.points_mm", "Points", "mm", Table, || json!([[600, -200, 100], [700, 0, 100], [600, 200, 100]]), "Straight lines through these points.").range(-20000.0, 20000.0).when("path.kind", &["polyline"]),
+        field("path.text", "Program", "", Text, || json!(EXAMPLE_ROWS), "As it comes from CAM; drop a file here. Points: one a line, x, y, z, with tool axis i, j, k and feed where they are needed, separated by comma, semicolon, tab or blank.").when("path.kind", &["csv", "gcode", "apt"]).defaults(&[("csv", EXAMPLE_ROWS), ("gcode", EXAMPLE_GCODE), ("apt", EXAMPLE_APT)]),
+        field("path.unit", "Unit of lengths", "", Choice, || json!("mm"), "Of a text that does not say its own.").words(&[("mm", "mm"), ("inch", "inch")]).when("path.kind", &["csv", "apt"]),
+        field("path.feed_unit", "Unit of feeds", "", Choice, || json!("mm/s"), "Of rows that do not say their own.").words(&[("mm/s", "mm/s"), ("mm/min", "mm/min"), ("inch/min", "inch/min")]).when("path.kind", &["csv"]),
+        field("path.tool_length_offsets_mm", "Tool length offsets", "mm", Table, || json!([]), "For G43 H: one row an offset, the number H and the length that is added to Z. Leave it empty if the tool frame holds the whole tool.").range(-5000.0, 5000.0).when("path.kind", &["gcode"]),
+        field("path.work_offsets_mm", "Work offsets", "mm", Table, || json!([]), "G54, G55 and so on, one row each: x, y, z from the workpiece frame. Leave it empty if the program's zero is the workpiece frame.").range(-20000.0, 20000.0).when("path.kind", &["gcode"]),
+        field("motion.feed_mm_s", "Feed", "mm/s", Number, || json!(100), "Highest speed along the path: the F word of a program, divided by 60.").range(0.001, 10000.0),
+        field("motion.rapid_mm_s", "Rapid speed", "mm/s", Number, || json!(250), "Speed of a program's positioning moves, which do not cut.").range(0.001, 20000.0).when("path.kind", &["gcode", "apt"]),
+        field("motion.acceleration_mm_s2", "Acceleration", "mm/s²", Number, || json!(200), "Along the path, at starts and stops; from the controller's data, or from the slope of a logged speed.").range(0.01, 1e6),
+        field("motion.sample_time_s", "Sample time", "s", Number, || json!(0.001), "Interpolation interval of the controller; in its manual, often 1 to 16 ms.").range(1e-5, 1.0),
+        field("motion.corner_angle_deg", "Corners stop above", "deg", Number, || json!(5), "A corner sharper than this is a full stop: that keeps the contour.").range(0.1, 180.0),
+        field("motion.corner_dwell", "Wait in corners", "s", Number, || json!("settle"), "Time at rest in such a corner; until settled is the only exact cure for a corner that shaping rounds.").range(0.0, 60.0).words(&[("settle", "until settled")]),
+        field("tool.diameter_mm", "Diameter", "mm", Number, || json!(10), "Of the end mill; in its catalogue or on its shank.").range(0.01, 500.0),
+        field("tool.flutes", "Flutes", "", Integer, || json!(4), "Number of cutting edges; count them.").range(1.0, 100.0),
+        field("tool.helix_deg", "Helix angle", "deg", Number, || json!(30), "Angle between edge and tool axis; it smooths the force but does not change its mean. In the tool's catalogue.").range(0.0, 80.0),
+        field("material.preset", "Material", "", Choice, || json!("thesis"), "Cutting coefficients of the library, or your own. Take any table value as ±30 %.").words(&MATERIALS),
+        field("material.ktc_n_mm2", "k_tc, tangential", "N/mm²", Number, || json!(1800), "Tangential force for each mm² of chip section; from a table of the alloy, or fitted to measured forces.").range(0.0, 1e5).when("material", &["table"]),
+        field("material.krc_n_mm2", "k_rc, radial", "N/mm²", Number, || json!(540), "Radial force for each mm² of chip section.").range(-1e5, 1e5).when("material", &["table"]),
+        field("material.kac_n_mm2", "k_ac, axial", "N/mm²", Number, || json!(800), "Axial force for each mm² of chip section.").range(-1e5, 1e5).when("material", &["table"]),
+        field("material.kte_n_mm", "k_te, tangential edge", "N/mm", Number, || json!(0), "Tangential force for each mm of edge, whatever the chip.").range(-1e4, 1e4).when("material", &["table"]),
+        field("material.kre_n_mm", "k_re, radial edge", "N/mm", Number, || json!(0), "Radial force for each mm of edge.").range(-1e4, 1e4).when("material", &["table"]),
+        field("material.kae_n_mm", "k_ae, axial edge", "N/mm", Number, || json!(0), "Axial force for each mm of edge.").range(-1e4, 1e4).when("material", &["table"]),
+        field("cutting.axial_depth_mm", "Axial depth", "mm", Number, || json!(10), "Depth of cut along the tool axis, as in the CAM operation; 0 is air.").range(0.0, 1000.0),
+        field("cutting.entry_deg", "Entry angle", "deg", Number, || json!(90), "Immersion angle at which a tooth enters, clockwise from the side the feed's left hand points to. Down milling at half immersion: 90 to 180; slot: 0 to 180.").range(0.0, 180.0),
+        field("cutting.exit_deg", "Exit angle", "deg", Number, || json!(180), "Immersion angle at which a tooth leaves.").range(0.0, 180.0),
+        field("cutting.spindle_rpm", "Spindle speed", "1/min", Number, || json!(4000), "The S word of the program; clockwise, seen from the spindle.").range(1.0, 1e6),
+        field("cutting.feed_per_tooth_mm", "Feed per tooth", "mm", Number, || json!(0.1), "Chip load; from feed means the local speed divided by flutes and spindle speed.").range(0.0, 10.0).words(&[("from_feed", "from feed")]),
+        field("shaper.kind", "Input shaper", "", Choice, || json!("zvd"), "Filter that keeps the arm from shaking; the more robust, the longer its delay.").words(&[("none", "none"), ("zv", "ZV"), ("zvd", "ZVD"), ("zvdd", "ZVDD"), ("ei", "EI")]),
+        field("shaper.frequency_rad_s", "Natural frequency", "rad/s", Number, || json!(18), "Of the mode to be left at rest, from a tap test at the tool. 1 Hz is 6.283 rad/s; heavy milling robots have 45 to 125 rad/s (7 to 20 Hz).").range(0.1, 10000.0).when("shaper.kind", &["zv", "zvd", "zvdd", "ei"]),
+        field("shaper.frequency_hz", "Natural frequency", "Hz", Number, || json!(2.865), "The same in Hz: a job gives one of the two.").range(0.01, 2000.0).when("shaper", &["hz"]),
+        field("shaper.damping", "Damping ratio", "", Number, || json!(0.1), "Of that mode, from the decay after a tap; heavy milling robots have 0.02 to 0.04.").range(0.0, 0.9).when("shaper.kind", &["zv", "zvd", "zvdd", "ei"]),
+        field("compensation.sources", "Compensate", "", Set, || json!(["deflection", "shaping"]), "Which errors the commanded path corrects; all act in the result.").words(&[("deflection", "deflection by cutting forces"), ("shaping", "distortion by the shaper")]),
+        field("compensation.tolerance_mm", "Tolerance", "mm", Number, || json!(0.01), "Largest contour error to reach, from the part's drawing.").range(1e-6, 100.0),
+        field("compensation.max_passes", "Passes at most", "", Integer, || json!(5), "Each pass sends the whole path through the model again.").range(0.0, 100.0),
     ]
+};
+
+/// The table, in the order of the pipeline.
+pub fn fields() -> Vec<Field> {
+    TABLE.iter().map(Row::field).collect()
 }
 
 /// Checks every number of the job against the table.
 pub(crate) fn check_ranges(job: &Job) -> Result<(), Error> {
     let Ok(values) = serde_json::to_value(job) else { return Ok(()) };
-    for field in fields() {
-        let (Some(min), Some(max)) = (field.min, field.max) else { continue };
+    for field in TABLE {
+        let Some((min, max)) = field.range else { continue };
         let value = field.path.split('.').try_fold(&values, |value, key| value.get(key));
         if let Some(value) = value {
             check(field.path.to_owned(), value, min, max, field.unit)?;
@@ -251,13 +285,13 @@ fn check(field: String, value: &Value, min: f64, max: f64, unit: &'static str) -
 pub(crate) fn check_path_keys(job: &Job) -> Result<(), Error> {
     let Ok(Value::Object(given)) = serde_json::to_value(&job.path) else { return Ok(()) };
     let kind = given.get("kind").and_then(Value::as_str).unwrap_or_default();
-    for field in fields() {
-        let Some((key, when)) = field.path.strip_prefix("path.").zip(field.when.as_ref()) else { continue };
-        if given.contains_key(key) && !when.is.contains(&kind) {
+    for field in TABLE {
+        let Some((key, (_, kinds))) = field.path.strip_prefix("path.").zip(field.when) else { continue };
+        if given.contains_key(key) && !kinds.contains(&kind) {
             return Err(Error::Invalid {
                 field: field.path.into(),
                 value: "given".into(),
-                expected: format!("a path of kind {kind} has no {key}; it belongs to {}", when.is.join(", ")),
+                expected: format!("a path of kind {kind} has no {key}; it belongs to {}", kinds.join(", ")),
             });
         }
     }

@@ -6,9 +6,9 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 
-use crate::standalone;
+use crate::standalone::{self, compressed};
 use crate::workspace::{self, WASM};
 
 /// Folder of the site that the compiled core lives in.
@@ -16,6 +16,10 @@ const CORE: &str = "pkg";
 
 /// The whole site in one file.
 const STANDALONE: &str = "standalone.html";
+
+/// Most bytes that the core may have, as it is and compressed by gzip, for every first visit loads them. The goal is 500 kB and
+/// 200 kB; these limits only keep it from growing unnoticed.
+const CORE_LIMITS: [usize; 2] = [930_000, 380_000];
 
 /// Makes the site in `target/site` and returns that folder. What is up to date stays untouched.
 ///
@@ -27,6 +31,7 @@ pub(crate) fn build() -> Result<PathBuf> {
     workspace::add_wasm_target()?;
     let wasm = compile(&root)?;
     bind(&wasm, &site.join(CORE)).context("wasm-bindgen failed")?;
+    weigh(&site.join(CORE).join("armill_bg.wasm"), CORE_LIMITS)?;
     mirror(&root.join("web"), &site, &[CORE, STANDALONE])?;
     update(standalone::page(&site)?.as_bytes(), &site.join(STANDALONE))?;
     println!("The site is in target/site");
@@ -62,6 +67,19 @@ fn bind(wasm: &Path, folder: &Path) -> Result<()> {
     words.extend(options.map(OsStr::new));
     words.extend([OsStr::new("--out-dir"), folder.as_os_str()]);
     wasm_bindgen_cli::wasm_bindgen::run_cli_with_args(words)
+}
+
+/// Prints the size of a file, as it is and compressed, and refuses one that exceeds either limit.
+fn weigh(file: &Path, [raw_limit, zipped_limit]: [usize; 2]) -> Result<()> {
+    let content = fs::read(file).with_context(|| format!("cannot read {}", file.display()))?;
+    let (raw, zipped) = (content.len(), compressed(&content)?.len());
+    println!("The core has {raw} bytes, {zipped} compressed");
+    ensure!(
+        raw <= raw_limit && zipped <= zipped_limit,
+        "{} has {raw} bytes, {zipped} compressed by gzip; at most {raw_limit} and {zipped_limit} are allowed",
+        file.display()
+    );
+    Ok(())
 }
 
 /// Whether every output exists and is at least as new as every input.
@@ -171,6 +189,18 @@ mod tests {
         assert_eq!(fs::metadata(&file).unwrap().modified().unwrap(), before);
         update(b"other", &file).unwrap();
         assert_eq!(fs::read_to_string(&file).unwrap(), "other");
+    }
+
+    #[test]
+    fn a_file_above_either_limit_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("core.wasm");
+        fs::write(&file, [0; 1000]).unwrap();
+        assert!(weigh(&file, [1000, 100]).is_ok());
+        let refusal = weigh(&file, [999, 100]).unwrap_err().to_string();
+        assert!(refusal.contains("has 1000 bytes") && refusal.contains("at most 999 and 100"), "{refusal}");
+        assert!(weigh(&file, [1000, 5]).is_err(), "1000 equal bytes compress to some twenty");
+        assert!(weigh(&folder.path().join("missing"), [1000, 100]).is_err());
     }
 
     #[test]

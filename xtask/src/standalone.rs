@@ -113,7 +113,8 @@ fn replaced(
     Ok(result)
 }
 
-fn compressed(bytes: &[u8]) -> Result<Vec<u8>> {
+/// The bytes compressed by gzip, as well as it can.
+pub(crate) fn compressed(bytes: &[u8]) -> Result<Vec<u8>> {
     let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(bytes)?;
     Ok(encoder.finish()?)
