@@ -145,7 +145,7 @@ impl fmt::Display for Error {
         match self {
             Error::Json { message, .. } => write!(f, "{message}"),
             Error::UnknownKey { field, nearest, .. } => {
-                write!(f, "no job has the key {field}")?;
+                write!(f, "no job has the key {}", Short(field))?;
                 match nearest {
                     Some(key) => write!(f, "; did you mean {key}?"),
                     None => Ok(()),
@@ -159,10 +159,10 @@ impl fmt::Display for Error {
                     "{field} is {value}{space}{unit}; legal is {min} to {max}{space}{unit}, nearest {nearest}"
                 )
             }
-            Error::Invalid { field, value, expected } => write!(f, "{field} is {value}; {expected}"),
+            Error::Invalid { field, value, expected } => write!(f, "{field} is {}; {expected}", Short(value)),
             Error::Missing { field, expected } => write!(f, "{field} is missing: {expected}"),
             Error::Text { line, column, found, expected, .. } => {
-                write!(f, "line {line}, column {column}: found {found}; {expected}")
+                write!(f, "line {line}, column {column}: found {}; {expected}", Short(found))
             }
             Error::Unreachable {
                 sample,
@@ -196,3 +196,15 @@ impl fmt::Display for Error {
 }
 
 impl std::error::Error for Error {}
+
+/// What was typed, cut where it is too long to be read in a sentence: it may be a whole file without a line break.
+pub(crate) struct Short<'a>(pub(crate) &'a str);
+
+impl fmt::Display for Short<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.char_indices().nth(300) {
+            Some((end, _)) => write!(f, "{}...", &self.0[..end]),
+            None => f.write_str(self.0),
+        }
+    }
+}

@@ -2,7 +2,7 @@
 //!
 //! serde_json checks the text and reads the single values; which keys there are, and what becomes of them, says [`Read`].
 
-use crate::error::Error;
+use crate::error::{Error, Short};
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::value::RawValue;
 use std::fmt;
@@ -137,7 +137,7 @@ impl<'a> Node<'a> {
         let (line, column) = self.place(offset);
         let path = self.path();
         let place = if path.is_empty() { String::new() } else { format!("{path}: ") };
-        let message = format!("{place}{message} (line {line}, column {column})");
+        let message = format!("{place}{} (line {line}, column {column})", Short(message));
         Error::Json { field: (!path.is_empty()).then_some(path), message, line, column }
     }
 
@@ -153,8 +153,10 @@ impl<'a> Node<'a> {
     /// This value's key is none of the known ones; the place is where the key begins.
     fn unknown_key(&self, key: &str, known: &[(&str, &mut dyn Read)]) -> Error {
         let parent = self.parent.map_or_else(String::new, |(parent, _)| parent.path());
+        // Comparing takes time and memory of the key's length; no known one is so long.
         let nearest = known
             .iter()
+            .filter(|_| key.len() <= 60)
             .map(|(known, _)| (strsim::normalized_damerau_levenshtein(key, known), known))
             .max_by(|a, b| a.0.total_cmp(&b.0))
             .filter(|(similarity, _)| *similarity > 0.4)

@@ -98,6 +98,10 @@ pub(super) fn refused(word: &str) -> Option<&'static str> {
 
 /// The known word that looks most like this one.
 pub(super) fn nearest(word: &str) -> Option<&'static str> {
+    // No word of APT is so long, and comparing a whole file that is none takes its time.
+    if word.len() > 30 {
+        return None;
+    }
     let known = READ.iter().chain(&HARMLESS).chain(&CONTROLLER);
     known
         .map(|candidate| (strsim::jaro_winkler(word, candidate), *candidate))
