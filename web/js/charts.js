@@ -23,6 +23,7 @@ export function showPanel(shown) {
   if (panel) resized.unobserve(panel);
   panel = shown;
   resized.observe(panel);
+  for (const figure of figures.values()) if (!panel.contains(figure.node)) figure.forget();
   draw();
 }
 

@@ -85,7 +85,7 @@ export class Figure {
     }
   }
 
-  /** Forgets the values of a result, or of units, that no longer hold. */
+  /** Forgets the values: those of another result, in other units, or not looked at. */
   forget() {
     this.#data = this.#fetching = null;
     this.#index = null;
@@ -300,11 +300,11 @@ export class Figure {
 
   /** Follows the page's cursor, at an instant of the run [s] or at none. */
   async follow(time) {
-    if (!this.#chart || !this.node.isConnected) return;
-    if (!this.overRun) return this.#at(this.#local);
-    if (time === null) return this.#at(null);
+    if (!this.#chart || this.node.closest("[hidden]")) return; // it follows when it is shown
+    if ((this.overRun ? time : this.#local) === null) return this.#at(null);
     if (!this.#data && !(await this.#fetch())) return;
-    if (time === cursor()) this.#at(nearest(this.#data[0].values, time));
+    if (!this.overRun) this.#at(this.#local);
+    else if (time === cursor()) this.#at(nearest(this.#data[0].values, time));
   }
 
   #at(index) {
