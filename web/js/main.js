@@ -8,7 +8,7 @@ import { byId, debounced, make, sentence } from "./dom.js";
 import { download } from "./download.js";
 import { Form } from "./form.js";
 import { Job } from "./job.js";
-import { formatNumber } from "./number.js";
+import { formatLength, formatNumber } from "./number.js";
 import { openPanels, rememberPanels, restoreGroups } from "./panels.js";
 import { followCaret, openProgram, programTools, setLines, showProgram } from "./program.js";
 import { showSummary, showThesis, showUnits } from "./results.js";
@@ -208,7 +208,7 @@ async function tryProgram(id) {
     const { max } = await core.replayed(readable);
     const { tolerance_mm } = shown.summary;
     const met = max <= tolerance_mm ? "within" : "beyond";
-    say(`The program, read back and run through the model: largest error ${formatNumber(max, 2)} mm, ${met} the tolerance of ${formatNumber(tolerance_mm, 2)} mm.`);
+    say(`Read back and run, the program errs by at most ${formatLength(max)} mm: ${met} the tolerance of ${formatLength(tolerance_mm)} mm`);
   } catch (error) {
     if (!error.fatal && error.code !== "cancelled") alertOn(`The program could not be tried: ${error.message}`);
   }
