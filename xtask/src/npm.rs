@@ -30,8 +30,8 @@ pub(crate) fn package() -> Result<PathBuf> {
         (&core, "armill.d.ts"),
         (&core, "armill_bg.wasm"),
         (&core, "armill_bg.wasm.d.ts"),
-        (&root.join("npm"), "node.js"),
-        (&root.join("npm"), "README.md"),
+        (&root.join("xtask/npm"), "node.js"),
+        (&root.join("xtask/npm"), "README.md"),
         (&root, "LICENSE-APACHE"),
         (&root, "LICENSE-MIT"),
     ];
@@ -40,9 +40,9 @@ pub(crate) fn package() -> Result<PathBuf> {
         let content = fs::read(&file_from).with_context(|| format!("cannot read {}", file_from.display()))?;
         update(&content, &folder.join(file))?;
     }
-    let manifest = fs::read_to_string(root.join("npm/package.json"))?;
+    let manifest = fs::read_to_string(root.join("xtask/npm/package.json"))?;
     let versioned = manifest.replace("\"0.0.0\"", &format!("\"{}\"", env!("CARGO_PKG_VERSION")));
-    ensure!(versioned != manifest, "npm/package.json has no version to fill in");
+    ensure!(versioned != manifest, "xtask/npm/package.json has no version to fill in");
     update(versioned.as_bytes(), &folder.join("package.json"))?;
     println!("The package is in target/npm");
     Ok(folder)

@@ -1,4 +1,4 @@
-//! Builds the book in `docs/book` into the folder that is given: what `mdbook build --dest-dir` does.
+//! Builds the book in `xtask/docs/book` into the folder that is given: what `mdbook build --dest-dir` does.
 
 use std::path::Path;
 
