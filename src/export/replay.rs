@@ -146,17 +146,15 @@ fn standing_for(report: &Report, own: &Trajectory, instants: &[f64]) -> Trajecto
         values[i] + (values[next] - values[i]) * (t - i as f64)
     };
     let arc_length: Vec<f64> = instants.iter().map(|&t| between(&original.pace.arc_length, t)).collect();
-    let turned = |t: f64| {
+    // Where the direction jumps from one instant to the next, the force goes over evenly: the mean of the two, not one of their size in between.
+    let turned = |&t: &f64| {
         let i = (t.floor() as usize).min(last);
         let (from, to) = (original.pace.heading[i], original.pace.heading[(i + 1).min(last)]);
-        (from.lerp(&to, t - i as f64), from.norm() + (to.norm() - from.norm()) * (t - i as f64))
+        let heading = from.lerp(&to, t - i as f64);
+        let size = from.norm() + (to.norm() - from.norm()) * (t - i as f64);
+        (heading, if size > 0.0 { heading.norm() / size } else { 1.0 })
     };
-    let heading: Vec<_> = instants.iter().map(|&t| turned(t).0).collect();
-    // Where the direction jumps from one instant to the next, the force goes over evenly: the mean of the two, not one of their size in between.
-    let share = instants
-        .iter()
-        .map(|&t| turned(t))
-        .map(|(heading, size)| if size > 0.0 { heading.norm() / size } else { 1.0 });
+    let (heading, share): (Vec<_>, Vec<_>) = instants.iter().map(turned).unzip();
     let engaged = own.pace.engaged.iter().zip(share).map(|(engaged, share)| engaged * share);
     let end = arc_length.len() - 1;
     let speed = (0..=end).map(|k| {
