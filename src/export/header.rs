@@ -40,6 +40,9 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
             "Positions in the workpiece frame, in the robot base at {}",
             placed(&setup.workpiece)
         ));
+        if setup.base != Pose::identity() {
+            lines.push(format!("The robot base in the cell at {}", placed(&setup.base)));
+        }
     }
     lines.push(format!("Tool tip on the flange at {}", placed(report.plan.robot.tool())));
     lines.push(

@@ -135,7 +135,7 @@ impl Row {
     fn field(&self) -> Field {
         let group = self.path.split('.').next().unwrap_or(self.path);
         let group = match group {
-            "tool_frame" | "workpiece_frame" | "start_branch" => "frames",
+            "tool_frame" | "base_frame" | "workpiece_frame" | "start_branch" => "frames",
             other => other,
         };
         let defaults = self.defaults.iter().map(|&(word, text)| (word, json!(text)));
@@ -188,8 +188,10 @@ static TABLE: &[Row] = {
         field("robot.joint_compliance_rad_per_nm", "Joint compliance", "rad/(N m)", Table, || json!(library::ROBOTS[0].joint_compliance), "How far each joint turns under 1 N m; 1 divided by its stiffness, from a load test or a paper. Measured values of one robot family scatter by a factor of two and more.").range(0.0, 1e-2),
         field("tool_frame.xyz_mm", "Tool tip on the flange", "mm", Vector, || json!([0, 0, 0]), "Position of the tip (TCP) in the flange frame, as in the controller's tool data.").range(-5000.0, 5000.0),
         field("tool_frame.rpy_deg", "Tool orientation", "deg", Vector, || json!([0, 0, 0]), "Roll, pitch and yaw of the TCP; its z axis points out of the tool towards the part.").range(-360.0, 360.0),
-        field("workpiece_frame.xyz_mm", "Workpiece position", "mm", Vector, || json!([0, 0, 0]), "Origin of the workpiece frame in the robot's base frame, as in the controller's base or work object data.").range(-20000.0, 20000.0),
-        field("workpiece_frame.rpy_deg", "Workpiece orientation", "deg", Vector, || json!([0, 0, 0]), "Roll, pitch and yaw of the workpiece frame about the base's x, y and z axes, in this order.").range(-360.0, 360.0),
+        field("workpiece_frame.xyz_mm", "Workpiece position", "mm", Vector, || json!([0, 0, 0]), "Origin of the workpiece frame in the cell; with the robot's base at zero, in the base frame, as in the controller's base or work object data.").range(-20000.0, 20000.0),
+        field("workpiece_frame.rpy_deg", "Workpiece orientation", "deg", Vector, || json!([0, 0, 0]), "Roll, pitch and yaw of the workpiece frame about the cell's x, y and z axes, in this order.").range(-360.0, 360.0),
+        field("base_frame.xyz_mm", "Robot base position", "mm", Vector, || json!([0, 0, 0]), "Where the robot's base stands in the cell: on a plinth, or along a track. Columns, charts and programs stay in the base frame; only the workpiece is given in the cell.").range(-20000.0, 20000.0),
+        field("base_frame.rpy_deg", "Robot base orientation", "deg", Vector, || json!([0, 0, 0]), "Roll, pitch and yaw of the base in the cell, whose z axis points up; roll 180 hangs it from the ceiling.").range(-360.0, 360.0),
         field("start_branch.shoulder", "Shoulder", "", Choice, || json!("front"), "The arm faces the first point, or reaches over its back.").words(&[("front", "facing the point"), ("back", "over its back")]),
         field("start_branch.elbow", "Elbow", "", Choice, || json!("positive"), "Sign of the elbow angle from the stretched arm (RX-90: of q3).").words(&[("positive", "positive"), ("negative", "negative")]),
         field("start_branch.wrist", "Wrist", "", Choice, || json!("near"), "The wrist with the smaller turn of joint 4, or the one turned by 180 degrees.").words(&[("near", "smaller q4"), ("flipped", "flipped")]),

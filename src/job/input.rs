@@ -15,7 +15,9 @@ pub struct Job {
     pub robot: Robot,
     /// TCP in the flange frame.
     pub tool_frame: Frame,
-    /// Workpiece in the base frame.
+    /// The robot's base in the cell: on a plinth, a track, a wall.
+    pub base_frame: Frame,
+    /// Workpiece in the cell; with the robot's base at the cell's origin: in the base frame.
     pub workpiece_frame: Frame,
     /// Which of the arm's solutions the path starts on.
     pub start_branch: Branch,
@@ -41,6 +43,7 @@ impl Default for Job {
             version: 1,
             robot: Robot { preset: Some("staubli-rx90".into()), ..Robot::default() },
             tool_frame: Frame::default(),
+            base_frame: Frame::default(),
             workpiece_frame: Frame::default(),
             start_branch: Branch::default(),
             path: Path {
@@ -309,6 +312,7 @@ keys!(Job {
     version,
     robot,
     tool_frame,
+    base_frame,
     workpiece_frame,
     start_branch,
     path,

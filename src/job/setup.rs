@@ -25,6 +25,8 @@ pub struct Setup {
     pub robot: Robot,
     /// The desired path in the base frame.
     pub path: Path,
+    /// The robot's base in the cell, whose z axis points up.
+    pub base: Pose,
     /// The workpiece in the base frame.
     pub workpiece: Pose,
     /// The program that the path was read from, if it was not drawn from a shape.
@@ -68,7 +70,8 @@ impl Job {
         }
         fields::check_ranges(self)?;
         let robot = self.arm()?.with_tool(frame(&self.tool_frame));
-        let workpiece = frame(&self.workpiece_frame);
+        let base = frame(&self.base_frame);
+        let workpiece = base.inverse().compose(&frame(&self.workpiece_frame));
         let (path, listing) = self.desired_path(on_read)?;
         let path = path.placed(&workpiece);
         let (shaper, mode) = self.input_shaper()?;
@@ -125,6 +128,7 @@ impl Job {
         Ok(Setup {
             robot,
             path,
+            base,
             workpiece,
             listing,
             tempo,
