@@ -6,11 +6,11 @@ mod common;
 
 use armill::math::Pose;
 use armill::robot::inverse::{Branch, inverse};
-use armill::robot::{Joints, Link, Robot, compliance, forward, jacobian};
+use armill::robot::{Joints, Link, Opw, Robot, compliance, forward, jacobian};
 use common::{any_arm, any_joints, any_vector};
 use nalgebra::{Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
 use serde_json::Value;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 fn golden(kind: &str) -> Vec<Value> {
     let all: Value = serde_json::from_str(include_str!("data/golden.json")).unwrap();
@@ -22,19 +22,15 @@ fn numbers<const N: usize>(value: &Value) -> [f64; N] {
     list.try_into().unwrap()
 }
 
-/// An arm given by ortho-parallel parameters, as the modified DH table that Armill takes; joint values are the parameters' own theta.
+/// An arm by ortho-parallel parameters as golden.json prints them (metres); joint values are the maker's own.
 fn ortho_parallel(opw: &Value) -> Robot {
-    let get = |key: &str| opw[key].as_f64().unwrap();
-    let row = |alpha, a, d, theta_offset| Link { alpha, a, d, theta_offset };
-    let links = [
-        row(0.0, 0.0, get("c1"), 0.0),
-        row(-FRAC_PI_2, get("a1"), 0.0, -FRAC_PI_2),
-        row(0.0, get("c2"), get("b"), FRAC_PI_2),
-        row(FRAC_PI_2, get("a2"), get("c3"), 0.0),
-        row(-FRAC_PI_2, 0.0, 0.0, 0.0),
-        row(FRAC_PI_2, 0.0, get("c4"), 0.0),
-    ];
-    Robot::new("ortho-parallel", links, None, [0.0; 6]).unwrap()
+    let keys = ["a1", "a2", "b", "c1", "c2", "c3", "c4"];
+    let opw = Opw {
+        lengths_mm: keys.map(|key| opw[key].as_f64().unwrap() * 1e3),
+        joint_sign: numbers(&opw["joint_sign"]),
+        joint_offset_deg: numbers(&opw["joint_offset_deg"]),
+    };
+    Robot::new("ortho-parallel", opw.links(), None, [0.0; 6]).unwrap()
 }
 
 #[test]
@@ -44,13 +40,8 @@ fn published_poses_and_all_their_solutions() {
     for case in cases {
         let opw = &case["inputs"]["opw"];
         let robot = ortho_parallel(opw);
-        let sign: [f64; 6] = numbers(&opw["joint_sign"]);
-        let offset: [f64; 6] = numbers(&opw["joint_offset_deg"]);
-        let theta = |q: &Value| {
-            let q: [f64; 6] = numbers(q);
-            Joints::from_fn(|i, _| (sign[i] * q[i] - offset[i]).to_radians())
-        };
-        let tcp = forward::forward(&robot, &theta(&case["inputs"]["joints_deg"]));
+        let joints = |q: &Value| Joints::from(numbers::<6>(q)).map(f64::to_radians);
+        let tcp = forward::forward(&robot, &joints(&case["inputs"]["joints_deg"]));
         let position = Vector3::from(numbers::<3>(&case["expected"]["position_m"]));
         let [x, y, z, w] = numbers::<4>(&case["expected"]["quaternion"]);
         let rotation = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)).to_rotation_matrix();
@@ -62,7 +53,7 @@ fn published_poses_and_all_their_solutions() {
         let expected = case["expected"]["ik_solutions_deg"].as_array().unwrap();
         assert_eq!(solutions.iter().count(), expected.len(), "number of solutions of {}", case["id"]);
         for printed in expected {
-            let wanted = theta(printed);
+            let wanted = joints(printed);
             let apart = |s: &Joints| {
                 (s - wanted).iter().map(|d| (d - TAU * (d / TAU).round()).abs()).fold(0.0, f64::max)
             };
@@ -84,6 +75,7 @@ fn published_pose_and_jacobian_of_a_milling_robot() {
             a: if i == 0 { 0.0 } else { rows[i - 1][2] },
             d: rows[i][1] + if i == 0 { base } else { 0.0 },
             theta_offset: rows[i][0].to_radians(),
+            sign: 1.0,
         });
         let flange = Pose::from_xyz_rpy(Vector3::zeros(), [rows[5][3].to_radians(), 0.0, 0.0]);
         let robot = Robot::new("KR210", links, None, [0.0; 6]).unwrap().with_tool(flange);
@@ -113,7 +105,7 @@ fn compliance_of_a_measured_robot() {
             case["inputs"]["mdh_alpha_a_theta0_d"].as_array().unwrap().iter().map(numbers).collect();
         let links: [Link; 6] = std::array::from_fn(|i| {
             let [alpha, a, theta_offset, d] = rows[i];
-            Link { alpha, a, d, theta_offset }
+            Link { alpha, a, d, theta_offset, sign: 1.0 }
         });
         let tcp = Vector3::from(numbers::<3>(&case["inputs"]["tcp_offset_in_flange_m"]));
         let stiffness: [f64; 6] = numbers(&case["inputs"]["K_Nm_per_rad"]);
@@ -282,6 +274,7 @@ fn tables_outside_the_family_are_refused_by_row() {
     assert_eq!(field(5, &|l| l.a = -0.1), "robot.modified_dh[5].a_mm");
     assert_eq!(field(2, &|l| l.a = 0.0), "robot.modified_dh[2].a_mm");
     assert_eq!(field(3, &|l| l.d = 0.0), "robot.modified_dh[3].d_mm");
+    assert_eq!(field(3, &|l| l.sign = 0.5), "robot.modified_dh[3].joint_sign");
     assert_eq!(field(0, &|l| l.d = f64::NAN), "robot.modified_dh[0].d_mm");
 }
 

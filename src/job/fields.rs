@@ -173,8 +173,14 @@ static MATERIALS: [(&str, &str); material::MATERIALS.len()] = words_of!(material
 
 /// The RX-90's table, as what a fresh table shows.
 fn rx90_rows() -> Value {
-    let row = |[alpha, a, d, theta]: [f64; 4]| json!({"alpha_deg": alpha, "a_mm": a, "d_mm": d, "theta_offset_deg": theta});
+    let row = |[alpha, a, d, theta]: [f64; 4]| json!({"alpha_deg": alpha, "a_mm": a, "d_mm": d, "theta_offset_deg": theta, "joint_sign": 1});
     library::ROBOTS[0].modified_dh.map(row).to_vec().into()
+}
+
+/// The RX-90 by ortho-parallel parameters.
+fn rx90_opw() -> Value {
+    json!({"a1_mm": 0, "a2_mm": 0, "b_mm": 0, "c1_mm": 420, "c2_mm": 450, "c3_mm": 650, "c4_mm": 85,
+        "joint_sign": [1, 1, 1, 1, 1, 1], "joint_offset_deg": [0, 0, 0, 0, 0, 0]})
 }
 
 /// The table, in the order of the pipeline.
@@ -182,9 +188,10 @@ static TABLE: &[Row] = {
     use Kind::{Choice, Integer, Number, Set, Table, Text, Vector};
     &[
         field("robot.preset", "Robot", "", Choice, || json!("staubli-rx90"), "An arm of the library, or your own as a modified Denavit-Hartenberg table.").words(&ROBOTS),
-        field("robot.name", "Name", "", Text, || json!("My robot"), "For the report.").when("robot", &["table"]),
-        field("robot.modified_dh", "Modified DH table", "deg, mm", Table, rx90_rows, "One row a joint: twist and length to the joint before, offset along the axis, constant part of the angle. Axes 2 and 3 parallel, axes 4 to 6 through one point.").when("robot", &["table"]),
-        field("robot.joint_limits_deg", "Joint ranges", "deg", Table, || json!(library::ROBOTS[0].joint_limits_deg), "Lowest and highest angle of each joint in the table's zero; from the data sheet.").when("robot", &["table"]),
+        field("robot.name", "Name", "", Text, || json!("My robot"), "For the report.").when("robot", &["table", "opw"]),
+        field("robot.modified_dh", "Modified DH table", "deg, mm", Table, rx90_rows, "One row a joint: twist and length to the joint before, offset along the axis, constant part of the angle, and 1 or -1 for the way it is counted.").when("robot", &["table"]),
+        field("robot.opw", "Ortho-parallel parameters", "mm, deg", Table, rx90_opw, "Lengths a1 to c4 as robot packages list them (Brandstoetter 2014), and for each joint its sign and zero offset: the parameters' own angle is sign times joint value less the offset. KUKA: signs -1 1 1 -1 1 -1, offset of joint 2 -90; ABB: all 1, joint 3 -90.").range(-20000.0, 20000.0).when("robot", &["opw"]),
+        field("robot.joint_limits_deg", "Joint ranges", "deg", Table, || json!(library::ROBOTS[0].joint_limits_deg), "Lowest and highest angle of each joint in the robot's own zero; from the data sheet.").when("robot", &["table", "opw"]),
         field("robot.joint_compliance_rad_per_nm", "Joint compliance", "rad/(N m)", Table, || json!(library::ROBOTS[0].joint_compliance), "How far each joint turns under 1 N m; 1 divided by its stiffness, from a load test or a paper. Measured values of one robot family scatter by a factor of two and more.").range(0.0, 1e-2),
         field("tool_frame.xyz_mm", "Tool tip on the flange", "mm", Vector, || json!([0, 0, 0]), "Position of the tip (TCP) in the flange frame, as in the controller's tool data.").range(-5000.0, 5000.0),
         field("tool_frame.rpy_deg", "Tool orientation", "deg", Vector, || json!([0, 0, 0]), "Roll, pitch and yaw of the TCP; its z axis points out of the tool towards the part.").range(-360.0, 360.0),
@@ -269,6 +276,9 @@ fn check(field: String, value: &Value, min: f64, max: f64, unit: &'static str) -
             .iter()
             .enumerate()
             .try_for_each(|(index, item)| check(format!("{field}[{index}]"), item, min, max, unit)),
+        Value::Object(parts) => {
+            parts.iter().try_for_each(|(key, part)| check(format!("{field}.{key}"), part, min, max, unit))
+        }
         // serde_json writes a number that is not finite as null.
         Value::Null => Err(Error::Invalid {
             field,

@@ -67,7 +67,7 @@ impl Default for Job {
     }
 }
 
-/// The arm: a preset (whose limits and compliances may be overruled), or a modified DH table.
+/// The arm: a preset (whose limits and compliances may be overruled), a modified DH table, or ortho-parallel parameters.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Robot {
     /// Key of a robot in the library.
@@ -79,6 +79,9 @@ pub struct Robot {
     /// Modified DH table, six rows.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub modified_dh: Option<[DhRow; 6]>,
+    /// Ortho-parallel parameters.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub opw: Option<Opw>,
     /// Joint ranges [deg].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint_limits_deg: Option<[[f64; 2]; 6]>,
@@ -88,7 +91,7 @@ pub struct Robot {
 }
 
 /// One row of a modified DH table.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct DhRow {
     /// Twist alpha_{i-1}.
     pub alpha_deg: f64,
@@ -98,6 +101,45 @@ pub struct DhRow {
     pub d_mm: f64,
     /// Constant part of theta_i.
     pub theta_offset_deg: f64,
+    /// 1, or -1 where the maker counts the joint the other way round.
+    pub joint_sign: f64,
+}
+
+impl Default for DhRow {
+    fn default() -> Self {
+        Self { alpha_deg: 0.0, a_mm: 0.0, d_mm: 0.0, theta_offset_deg: 0.0, joint_sign: 1.0 }
+    }
+}
+
+/// Ortho-parallel parameters (see [`crate::robot::Opw`]): lengths, and sign and zero offset of each joint.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Opw {
+    /// Axis 2 ahead of axis 1.
+    pub a1_mm: f64,
+    /// Wrist centre beside the forearm's line; negative is the elbow above it.
+    pub a2_mm: f64,
+    /// Arm's plane beside axis 1.
+    pub b_mm: f64,
+    /// Base to axis 2.
+    pub c1_mm: f64,
+    /// Axis 2 to axis 3.
+    pub c2_mm: f64,
+    /// Axis 3 to the wrist centre, along the forearm.
+    pub c3_mm: f64,
+    /// Wrist centre to the flange.
+    pub c4_mm: f64,
+    /// 1 or -1.
+    pub joint_sign: [f64; 6],
+    /// The parameters' own angle is sign times joint value less this.
+    pub joint_offset_deg: [f64; 6],
+}
+
+impl Default for Opw {
+    fn default() -> Self {
+        let [a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm] = [0.0; 7];
+        let (joint_sign, joint_offset_deg) = ([1.0; 6], [0.0; 6]);
+        Self { a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm, joint_sign, joint_offset_deg }
+    }
 }
 
 /// A frame: position, then roll, pitch and yaw about the fixed x, y and z axes.
@@ -323,8 +365,9 @@ keys!(Job {
     shaper,
     compensation
 });
-keys!(new Robot { preset, name, modified_dh, joint_limits_deg, joint_compliance_rad_per_nm });
-keys!(new DhRow { alpha_deg, a_mm, d_mm, theta_offset_deg } required alpha_deg, a_mm, d_mm);
+keys!(new Robot { preset, name, modified_dh, opw, joint_limits_deg, joint_compliance_rad_per_nm });
+keys!(new DhRow { alpha_deg, a_mm, d_mm, theta_offset_deg, joint_sign } required alpha_deg, a_mm, d_mm);
+keys!(new Opw { a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm, joint_sign, joint_offset_deg } required c2_mm, c3_mm);
 keys!(Frame { xyz_mm, rpy_deg });
 keys!(Branch { shoulder, elbow, wrist });
 keys!(Motion { feed_mm_s, rapid_mm_s, acceleration_mm_s2, sample_time_s, corner_angle_deg, corner_dwell });

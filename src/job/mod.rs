@@ -13,8 +13,8 @@ pub mod fields;
 
 pub use choice::{Choice, Dwell, FeedPerTooth};
 pub use input::{
-    Branch, Compensation, Cutting, DhRow, Elbow, Frame, Job, Material, Motion, Robot, Shaper, ShaperKind,
-    ShaperSpec, Shoulder, Source, Tool, Wrist,
+    Branch, Compensation, Cutting, DhRow, Elbow, Frame, Job, Material, Motion, Opw, Robot, Shaper,
+    ShaperKind, ShaperSpec, Shoulder, Source, Tool, Wrist,
 };
 pub use path::{FeedUnit, Path, PathKind, Unit};
 pub use setup::Setup;

@@ -5,13 +5,13 @@ use crate::cutting::along::ChipLoad;
 use crate::cutting::{Coefficients, Cut, material};
 use crate::deviation::Sources;
 use crate::error::Error;
-use crate::job::{Choice, Elbow, Frame, Job, Shaper, ShaperSpec, Shoulder, Source, Wrist, fields};
+use crate::job::{Choice, Elbow, Frame, Job, Opw, Shaper, ShaperSpec, Shoulder, Source, Wrist, fields};
 use crate::math::Pose;
 use crate::motion::joints::StartBranch;
 use crate::motion::trajectory::Tempo;
 use crate::motion::{self, shaper};
 use crate::path::{Listing, Path};
-use crate::robot::{Link, Robot, library};
+use crate::robot::{self, Link, Robot, library};
 use crate::units::{DEG, HZ, MM, N_PER_MM, N_PER_MM2, RPM};
 use nalgebra::Vector3;
 
@@ -145,41 +145,40 @@ impl Job {
 
     fn arm(&self) -> Result<Robot, Error> {
         let given = &self.robot;
-        let (name, links, limits, compliance) = match (&given.preset, &given.modified_dh) {
-            (Some(_), Some(_)) => {
-                return Err(invalid(
-                    "robot.preset",
-                    "given together with modified_dh",
-                    "give one of the two",
-                ));
-            }
-            (Some(id), None) => {
-                let Some(preset) = library::ROBOTS.iter().find(|robot| robot.id == id) else {
-                    return Err(unknown_preset(
-                        "robot.preset",
-                        id,
-                        library::ROBOTS.iter().map(|robot| robot.id),
-                    ));
-                };
-                (preset.name, preset.links(), Some(preset.limits()), preset.joint_compliance)
-            }
-            (None, Some(rows)) => {
-                let links = rows.map(|row| Link {
-                    alpha: row.alpha_deg * DEG,
-                    a: row.a_mm * MM,
-                    d: row.d_mm * MM,
-                    theta_offset: row.theta_offset_deg * DEG,
-                });
-                let compliance = given.joint_compliance_rad_per_nm.ok_or_else(|| {
-                    missing("robot.joint_compliance_rad_per_nm", "six compliances, 0 for a rigid joint")
-                })?;
-                ("", links, None, compliance)
-            }
-            (None, None) => return Err(missing("robot.preset", "name a preset, or give modified_dh")),
+        let forms = [given.preset.is_some(), given.modified_dh.is_some(), given.opw.is_some()];
+        if forms.into_iter().filter(|form| *form).count() > 1 {
+            let field = if forms[0] { "robot.preset" } else { "robot.opw" };
+            return Err(invalid(
+                field,
+                "given together with another form",
+                "give one of preset, modified_dh and opw",
+            ));
+        }
+        let (name, links, limits, compliance) = if let Some(id) = &given.preset {
+            let Some(preset) = library::ROBOTS.iter().find(|robot| robot.id == id) else {
+                let known = library::ROBOTS.iter().map(|robot| robot.id);
+                return Err(unknown_preset("robot.preset", id, known));
+            };
+            (preset.name, preset.links(), Some(preset.limits()), Some(preset.joint_compliance))
+        } else if let Some(rows) = given.modified_dh {
+            let links = rows.map(|row| Link {
+                alpha: row.alpha_deg * DEG,
+                a: row.a_mm * MM,
+                d: row.d_mm * MM,
+                theta_offset: row.theta_offset_deg * DEG,
+                sign: row.joint_sign,
+            });
+            ("", links, None, None)
+        } else if let Some(opw) = &given.opw {
+            ("", ortho_parallel(opw)?.links(), None, None)
+        } else {
+            return Err(missing("robot.preset", "name a preset, or give modified_dh or opw"));
         };
         let limits =
             given.joint_limits_deg.map(|ranges| ranges.map(|[low, high]| (low * DEG, high * DEG))).or(limits);
-        let compliance = given.joint_compliance_rad_per_nm.unwrap_or(compliance);
+        let compliance = given.joint_compliance_rad_per_nm.or(compliance).ok_or_else(|| {
+            missing("robot.joint_compliance_rad_per_nm", "six compliances, 0 for a rigid joint")
+        })?;
         Robot::new(given.name.clone().unwrap_or_else(|| name.to_owned()), links, limits, compliance)
     }
 
@@ -273,6 +272,22 @@ impl Job {
             exit: self.cutting.exit_deg * DEG,
         })
     }
+}
+
+/// The parameters, checked for what a table of links could not name.
+fn ortho_parallel(given: &Opw) -> Result<robot::Opw, Error> {
+    let Opw { a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm, joint_sign, joint_offset_deg } = *given;
+    if let Some(i) = joint_sign.iter().position(|sign| sign.abs() != 1.0) {
+        let field = format!("robot.opw.joint_sign[{i}]");
+        return Err(invalid(&field, joint_sign[i], "a joint turns one way or the other: 1 or -1"));
+    }
+    for (key, length) in [("c2_mm", c2_mm), ("c3_mm", c3_mm)] {
+        if length < 0.001 {
+            return Err(invalid(&format!("robot.opw.{key}"), length, "upper arm and forearm need a length"));
+        }
+    }
+    let lengths_mm = [a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm];
+    Ok(robot::Opw { lengths_mm, joint_sign, joint_offset_deg })
 }
 
 fn frame(given: &Frame) -> Pose {

@@ -9,7 +9,7 @@ pub fn frames(robot: &Robot, q: &Joints) -> [Pose; 6] {
     let mut frames = [Pose::identity(); 6];
     let mut outer = Pose::identity();
     for (i, link) in robot.links().iter().enumerate() {
-        let (sin_theta, cos_theta) = math::sin_cos(q[i] + link.theta_offset);
+        let (sin_theta, cos_theta) = math::sin_cos(link.theta(q[i]));
         let (cos_alpha, sin_alpha) = robot.twists[i];
         // Eq. 3.1, multiplied out onto the columns of the outer frame.
         let rotation = outer.rotation;

@@ -168,7 +168,7 @@ pub(crate) fn candidates(
                     continue;
                 }
                 let theta = [theta_1, theta_2, theta_3, theta_4, theta_5, theta_6];
-                let q = Joints::from_fn(|i, _| math::nearest_turn(theta[i] - links[i].theta_offset, near[i]));
+                let q = Joints::from_fn(|i, _| math::nearest_turn(links[i].joint(theta[i]), near[i]));
                 let branch = Branch { front: shoulder, elbow_positive: elbow, wrist_positive: positive };
                 let margin = Margin { shoulder: forward_reach, elbow: sin_elbow.abs(), wrist: sin_wrist };
                 let index = 4 * usize::from(!shoulder) + 2 * usize::from(!elbow) + usize::from(!positive);
@@ -212,7 +212,7 @@ fn wrist_angles(robot: &Robot, m: &Matrix3<f64>, near: &Joints) -> [(bool, [f64;
         let theta_4 = if sin_b > WRIST_SINGULAR {
             math::atan2(sign * m[(1, 2)], sign * m[(0, 2)])
         } else {
-            near[3] + robot.links()[3].theta_offset
+            robot.links()[3].theta(near[3])
         };
         let (sin_4, cos_4) = math::sin_cos(theta_4);
         // Rz(-theta_4) M = Ry(b) Rz(theta_6): exact whatever theta_4, so the pose closes near the singularity too.

@@ -13,6 +13,7 @@ pub fn jacobian(robot: &Robot, q: &Joints) -> Matrix6<f64> {
     let tcp = frames[5].compose(robot.tool()).position;
     let mut j = Matrix6::zeros();
     for (i, (k, lever)) in levers(&frames, &tcp).into_iter().enumerate() {
+        let k = k * robot.links()[i].sign;
         let v = k.cross(&lever);
         j.set_column(i, &Vector6::new(v.x, v.y, v.z, k.x, k.y, k.z));
     }

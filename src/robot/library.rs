@@ -28,6 +28,7 @@ impl Preset {
             a: a * MM,
             d: d * MM,
             theta_offset: theta_offset * DEG,
+            sign: 1.0,
         })
     }
 

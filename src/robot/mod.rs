@@ -5,6 +5,7 @@
 //! [Jacobian](jacobian::jacobian) and the [Cartesian compliance](compliance::cartesian_compliance) follow from it.
 
 pub mod model;
+pub mod opw;
 pub mod forward;
 pub mod inverse;
 pub mod jacobian;
@@ -12,3 +13,4 @@ pub mod compliance;
 pub mod library;
 
 pub use model::{Joints, Link, Robot};
+pub use opw::Opw;

@@ -20,11 +20,23 @@ pub struct Link {
     pub a: f64,
     /// Offset d_i along z_i [m].
     pub d: f64,
-    /// Constant added to the joint value to give the angle about z_i [rad].
+    /// Constant part of the angle about z_i [rad]: theta_i = sign * q_i + theta_offset.
     pub theta_offset: f64,
+    /// +1, or -1 where the maker counts the joint the other way round.
+    pub sign: f64,
 }
 
 impl Link {
+    /// The angle about z_i [rad] for the joint value `q` [rad].
+    pub(crate) fn theta(&self, q: f64) -> f64 {
+        self.sign * q + self.theta_offset
+    }
+
+    /// The joint value [rad] for the angle `theta` about z_i [rad].
+    pub(crate) fn joint(&self, theta: f64) -> f64 {
+        self.sign * (theta - self.theta_offset)
+    }
+
     /// Cosine and sine of the twist, exact for multiples of 90 degrees.
     pub(crate) fn twist(&self) -> (f64, f64) {
         match quarter_turns(self.alpha) {
@@ -170,6 +182,14 @@ impl Geometry {
                 if !value.is_finite() {
                     return Err(broken(i, key, value / unit, "a finite number is needed"));
                 }
+            }
+            if link.sign.abs() != 1.0 {
+                return Err(broken(
+                    i,
+                    "joint_sign",
+                    link.sign,
+                    "a joint turns one way or the other: 1 or -1",
+                ));
             }
         }
         let turn = |i: usize, legal: [u8; 2], expected: &'static str| match quarter_turns(links[i].alpha) {

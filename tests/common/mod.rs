@@ -86,7 +86,8 @@ pub(crate) fn any_arm(random: &mut fastrand::Rng) -> Robot {
         (sign(random) * FRAC_PI_2, 0.0, 0.0),
         (sign(random) * FRAC_PI_2, 0.0, offset(random, 0.3)),
     ];
-    let links = rows.map(|(alpha, a, d)| Link { alpha, a, d, theta_offset: offset(random, PI) });
+    let links =
+        rows.map(|(alpha, a, d)| Link { alpha, a, d, theta_offset: offset(random, PI), sign: sign(random) });
     let compliance = [0; 6].map(|_| between(random, 0.0, 1e-5));
     let rpy = [0; 3].map(|_| between(random, -3.0, 3.0));
     let tool = armill::math::Pose::from_xyz_rpy(any_vector(random, 0.3), rpy);
