@@ -85,6 +85,11 @@ pub enum Error {
         /// Largest distance the arm can take [m].
         reach_max: f64,
     },
+    /// Only a build with the feature `full` can do this.
+    NeedsFull {
+        /// What it is.
+        what: &'static str,
+    },
 }
 
 impl Error {
@@ -98,6 +103,7 @@ impl Error {
             Error::Missing { .. } => "missing",
             Error::Text { .. } => "text",
             Error::Unreachable { .. } => "unreachable",
+            Error::NeedsFull { .. } => "needs-full",
         }
     }
 
@@ -110,7 +116,7 @@ impl Error {
             | Error::Invalid { field, .. }
             | Error::Missing { field, .. }
             | Error::Text { field, .. } => Some(field),
-            Error::Unreachable { .. } => None,
+            Error::Unreachable { .. } | Error::NeedsFull { .. } => None,
         }
     }
 
@@ -159,6 +165,7 @@ impl fmt::Display for Error {
                     "{field} is {value}{space}{unit}; legal is {min} to {max}{space}{unit}, nearest {nearest}"
                 )
             }
+            Error::NeedsFull { what } => write!(f, "{what} needs a build of Armill with the feature `full`"),
             Error::Invalid { field, value, expected } => write!(f, "{field} is {}; {expected}", Short(value)),
             Error::Missing { field, expected } => write!(f, "{field} is missing: {expected}"),
             Error::Text { line, column, found, expected, .. } => {

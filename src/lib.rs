@@ -43,6 +43,7 @@ pub mod compensation;
 pub mod job;
 pub mod report;
 pub mod chart;
+#[cfg(feature = "full")]
 pub mod export;
 mod pipeline;
 #[cfg(target_arch = "wasm32")]

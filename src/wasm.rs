@@ -2,16 +2,21 @@
 //!
 //! Errors cross as `Error` objects with `code`, `message` and, where they apply, `field`, `line`, `column`.
 
+#[cfg(feature = "full")]
+mod full;
+#[cfg(feature = "full")]
+pub use full::thesis_recomputed;
+
 use crate::chart::{self, ForceUnit, Options, Units};
 use crate::column::Column;
 use crate::cutting::material::MATERIALS;
 use crate::error::Error;
 use crate::job::fields;
 use crate::path::unit::LengthUnit;
-use crate::report::{Report, thesis};
+use crate::report::Report;
+use crate::report::format::FORMATS;
 use crate::robot::library::ROBOTS;
-use crate::units::MM;
-use crate::{Job, Stage, export};
+use crate::{Job, Stage};
 use js_sys::{Array, Float64Array, Function, Object, Reflect};
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -91,7 +96,7 @@ pub fn fields() -> Result<JsValue, JsValue> {
 /// Every kind of file that a run can be exported to.
 #[wasm_bindgen(unchecked_return_type = "Format[]")]
 pub fn formats() -> Result<JsValue, JsValue> {
-    object(&export::FORMATS.to_vec())
+    object(&FORMATS.to_vec())
 }
 
 #[derive(Serialize)]
@@ -141,15 +146,6 @@ pub fn run(
         }
     };
     crate::run_json(json, tell).map(|report| Run { report }).map_err(|error| thrown(&error))
-}
-
-/// The thesis's printed figures beside ours, for the default job.
-#[wasm_bindgen(unchecked_return_type = "ThesisRow[]")]
-pub fn thesis_recomputed() -> Result<JsValue, JsValue> {
-    let rows = crate::run(&Job::default())
-        .and_then(|report| thesis::rows(&report))
-        .map_err(|error| thrown(&error))?;
-    object(&rows)
 }
 
 /// Panics on purpose, so that the page's recovery can be tried.
@@ -271,22 +267,6 @@ impl Run {
             object
         };
         Ok(columns.into_iter().map(plain).collect())
-    }
-
-    /// A file to take away, in one of [`formats`]; `thinning_mm` is how far its points may stray from the samples (a tenth of the tolerance, if it is not given).
-    pub fn export(&self, format: &str, thinning_mm: Option<f64>) -> Result<String, JsValue> {
-        let options = export::Options { thinning: thinning_mm.map(|thinning| thinning * MM) };
-        match export::export(&self.report, format, &options) {
-            Ok(export) => Ok(export.text),
-            Err(error) => Err(thrown(&error)),
-        }
-    }
-
-    /// Contour error [mm] that comes out of a program (`gcode`, `apt` or `path-csv`), read back and sent through the model.
-    #[wasm_bindgen(unchecked_return_type = "Statistics")]
-    pub fn replay(&self, format: &str) -> Result<JsValue, JsValue> {
-        let outcome = export::replay::replay(&self.report, format, &export::Options::default());
-        object(&outcome.map_err(|error| thrown(&error))?.statistics())
     }
 
     /// Hash over the bits of all columns.

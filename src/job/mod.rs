@@ -7,6 +7,8 @@ mod json;
 mod choice;
 mod input;
 mod path;
+#[cfg(feature = "full")]
+mod program;
 mod read;
 mod setup;
 pub mod fields;

@@ -7,9 +7,13 @@ pub mod segment;
 pub mod shape;
 pub mod program;
 pub mod unit;
+#[cfg(feature = "full")]
 mod draft;
+#[cfg(feature = "full")]
 pub mod gcode;
+#[cfg(feature = "full")]
 pub mod apt;
+#[cfg(feature = "full")]
 pub mod csv;
 
 pub use program::{Listing, Move, MovePace, Program, Tool};

@@ -2,8 +2,10 @@
 
 pub mod columns;
 pub mod warning;
+#[cfg(feature = "full")]
 pub mod thesis;
 pub mod scene;
+pub mod format;
 mod budget;
 mod summary;
 

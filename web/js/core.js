@@ -3,9 +3,10 @@
 // Two Workers take turns: one holds the result that the page shows and draws its charts, the other computes the
 // next one. A run that is invalid, cancelled or trapped therefore never takes the shown result away.
 
-import { compileCore, startWorker } from "./files.js";
+import { FIRST_CORE, compileCore, startWorker } from "./files.js";
 
 const SUPERSEDE_MS = 400; // a run older than this is cut off when a newer job arrives; a younger one may finish
+const REST = "The part of the calculator that reads programs and writes files";
 const CANCELLED = { code: "cancelled", message: "Cancelled." };
 
 let events; // { onstart, onprogress, onresult, onerror, oncancel, ontrap }, given to start()
@@ -15,7 +16,8 @@ let since = null; // when the run in progress began
 let next = null; // the job to compute next: only the latest counts
 let good = null; // the job of the shown result
 let lost = false; // the shown result was lost to a trap and is being computed again
-let core; // the compiled module, a promise: every Worker starts from the same one
+let core = FIRST_CORE; // the one that a new Worker starts with: the full one once a Worker has needed it
+const modules = {}; // the compiled cores, promises: every Worker starts from the same ones
 
 /** Starts the core. Returns its version, default job, fields and presets; rejects if the browser cannot run it. */
 export function start(handlers) {
@@ -126,6 +128,13 @@ function retire(worker) {
   if (worker === spare) spare = spawn();
 }
 
+/** A core, loaded and compiled once; a failure may be mended by trying again. */
+function moduleOf(name) {
+  modules[name] ??= compileCore(name);
+  modules[name].catch(() => delete modules[name]);
+  return modules[name];
+}
+
 /** A Worker that answers `ask(kind, ...args)` with a promise. */
 function spawn() {
   const worker = startWorker();
@@ -137,8 +146,10 @@ function spawn() {
     waiting.clear();
   };
   const fail = ({ message }) => stop({ code: "load", message: message || "The core could not be loaded.", fatal: true });
-  worker.addEventListener("message", ({ data: { id, value, error, progress } }) => {
+  const lack = ({ message }) => worker.postMessage({ core: "full", error: { code: "load", message: `${REST} could not be loaded (${message}).` } });
+  worker.addEventListener("message", ({ data: { id, value, error, progress, need } }) => {
     if (progress) return events.onprogress(progress);
+    if (need) return give(need).catch(lack);
     const question = waiting.get(id);
     waiting.delete(id);
     if (error) question?.reject(error);
@@ -148,7 +159,8 @@ function spawn() {
     event.preventDefault();
     fail(event);
   });
-  (core ??= compileCore()).then((module) => worker.postMessage({ module }), fail);
+  const give = (name) => moduleOf(name).then((module) => worker.postMessage({ core: (core = name), module }));
+  give(core).catch(fail);
   return {
     stop,
     ask: (kind, ...args) =>

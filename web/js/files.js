@@ -9,9 +9,12 @@ export async function readText(path) {
   return answer.text();
 }
 
-/** The compiled core, for a Worker to start from. */
-export async function compileCore() {
-  const load = () => fetch(urlOf("pkg/armill_bg.wasm"));
+/** The core that a Worker starts with: it has all that the first result needs. */
+export const FIRST_CORE = "small";
+
+/** A compiled core, `small` or `full`. */
+export async function compileCore(name) {
+  const load = () => fetch(urlOf(`pkg/${name}/armill_bg.wasm`));
   // Hosts that do not know the file's type get it compiled after loading instead of meanwhile.
   return WebAssembly.compileStreaming(load()).catch(async () => WebAssembly.compile(await (await load()).arrayBuffer()));
 }

@@ -110,7 +110,8 @@ const events = {
     if (form.showError(error)) return stale();
     state("stale");
     const where = error.line ? ` (line ${error.line}, column ${error.column})` : "";
-    alertOn(`${error.message}${where}`);
+    if (error.code === "load") alertOn(error.message, "Try again", edited);
+    else alertOn(`${error.message}${where}`);
     say(lastValid().trim() || "No result yet.");
   },
   oncancel() {

@@ -9,7 +9,10 @@ export async function readText(path) {
   return text;
 }
 
-/** The compiled core, for a Worker to start from. */
+/** The core that a Worker starts with, here the only one. */
+export const FIRST_CORE = "full";
+
+/** The compiled core. */
 export function compileCore() {
   const packed = Uint8Array.from(atob(textOf("core")), (character) => character.charCodeAt(0));
   const wasm = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));

@@ -24,7 +24,7 @@ pub(crate) fn package() -> Result<PathBuf> {
     let root = workspace::root()?;
     let folder = root.join("target/npm");
     fs::create_dir_all(&folder)?;
-    let core = site.join("pkg");
+    let core = site.join("pkg/full");
     let files = [
         (&core, "armill.js"),
         (&core, "armill.d.ts"),

@@ -11,15 +11,30 @@ use anyhow::{Context, Result, ensure};
 use crate::standalone::{self, compressed};
 use crate::workspace::{self, WASM};
 
-/// Folder of the site that the compiled core lives in.
-const CORE: &str = "pkg";
+/// Folder of the site that the compiled cores live in.
+const CORES: &str = "pkg";
 
 /// The whole site in one file.
 const STANDALONE: &str = "standalone.html";
 
-/// Most bytes that the core may have, as it is and compressed by gzip, for every first visit loads them. The goal is 500 kB and
-/// 200 kB; these limits only keep it from growing unnoticed.
-const CORE_LIMITS: [usize; 2] = [930_000, 380_000];
+/// One build of the core.
+struct Core {
+    /// Folder in [`CORES`].
+    name: &'static str,
+    /// Cargo's profile; each has a folder of its own in `target`.
+    profile: &'static str,
+    /// Cargo's options besides.
+    options: &'static [&'static str],
+    /// Most bytes that it may have, as it is and compressed by gzip.
+    limits: [usize; 2],
+}
+
+/// Every visit loads the small one; the full one follows when a program is read or a file is written. Its limits only keep it from
+/// growing unnoticed.
+const BUILDS: [Core; 2] = [
+    Core { name: "small", profile: "small", options: &["--no-default-features"], limits: [930_000, 380_000] },
+    Core { name: "full", profile: "release", options: &[], limits: [930_000, 380_000] },
+];
 
 /// Makes the site in `target/site` and returns that folder. What is up to date stays untouched.
 ///
@@ -29,19 +44,23 @@ pub(crate) fn build() -> Result<PathBuf> {
     let root = workspace::root()?;
     let site = root.join("target/site");
     workspace::add_wasm_target()?;
-    let wasm = compile(&root)?;
-    bind(&wasm, &site.join(CORE)).context("wasm-bindgen failed")?;
-    weigh(&site.join(CORE).join("armill_bg.wasm"), CORE_LIMITS)?;
-    mirror(&root.join("web"), &site, &[CORE, STANDALONE])?;
+    for core in &BUILDS {
+        let wasm = compile(&root, core)?;
+        let folder = site.join(CORES).join(core.name);
+        bind(&wasm, &folder).context("wasm-bindgen failed")?;
+        weigh(core.name, &folder.join("armill_bg.wasm"), core.limits)?;
+    }
+    mirror(&root.join("web"), &site, &[CORES, STANDALONE])?;
     update(standalone::page(&site)?.as_bytes(), &site.join(STANDALONE))?;
     println!("The site is in target/site");
     Ok(site)
 }
 
-/// Compiles the core and returns the raw module.
-fn compile(root: &Path) -> Result<PathBuf> {
-    let arguments = ["build", "--release", "--locked", "--target", WASM, "--package", "armill", "--lib"];
+/// Compiles a core and returns the raw module.
+fn compile(root: &Path, core: &Core) -> Result<PathBuf> {
+    let arguments = ["build", "--locked", "--target", WASM, "--package", "armill", "--lib"];
     let mut command = workspace::cargo(&arguments)?;
+    command.args(["--profile", core.profile]).args(core.options);
     // An explicit folder, because the site has to be found in `target` whatever the environment says.
     command.args(["--target-dir", "target"]);
     if let Some(home) = workspace::cargo_home() {
@@ -50,7 +69,7 @@ fn compile(root: &Path) -> Result<PathBuf> {
         command.args(["--config", &format!("target.{WASM}.rustflags=['{flag}']")]);
     }
     workspace::run(&mut command)?;
-    Ok(root.join("target").join(WASM).join("release/armill.wasm"))
+    Ok(root.join("target").join(WASM).join(core.profile).join("armill.wasm"))
 }
 
 /// Turns the raw module into one with a JavaScript interface, in `folder`.
@@ -70,10 +89,10 @@ fn bind(wasm: &Path, folder: &Path) -> Result<()> {
 }
 
 /// Prints the size of a file, as it is and compressed, and refuses one that exceeds either limit.
-fn weigh(file: &Path, [raw_limit, zipped_limit]: [usize; 2]) -> Result<()> {
+fn weigh(name: &str, file: &Path, [raw_limit, zipped_limit]: [usize; 2]) -> Result<()> {
     let content = fs::read(file).with_context(|| format!("cannot read {}", file.display()))?;
     let (raw, zipped) = (content.len(), compressed(&content)?.len());
-    println!("The core has {raw} bytes, {zipped} compressed");
+    println!("The {name} core has {raw} bytes, {zipped} compressed");
     ensure!(
         raw <= raw_limit && zipped <= zipped_limit,
         "{} has {raw} bytes, {zipped} compressed by gzip; at most {raw_limit} and {zipped_limit} are allowed",
@@ -196,11 +215,11 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("core.wasm");
         fs::write(&file, [0; 1000]).unwrap();
-        assert!(weigh(&file, [1000, 100]).is_ok());
-        let refusal = weigh(&file, [999, 100]).unwrap_err().to_string();
+        assert!(weigh("tiny", &file, [1000, 100]).is_ok());
+        let refusal = weigh("tiny", &file, [999, 100]).unwrap_err().to_string();
         assert!(refusal.contains("has 1000 bytes") && refusal.contains("at most 999 and 100"), "{refusal}");
-        assert!(weigh(&file, [1000, 5]).is_err(), "1000 equal bytes compress to some twenty");
-        assert!(weigh(&folder.path().join("missing"), [1000, 100]).is_err());
+        assert!(weigh("tiny", &file, [1000, 5]).is_err(), "1000 equal bytes compress to some twenty");
+        assert!(weigh("missing", &folder.path().join("missing"), [1000, 100]).is_err());
     }
 
     #[test]

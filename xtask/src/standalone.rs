@@ -17,6 +17,9 @@ use crate::modules::bundle;
 /// What the one-file page has in place of `web/js/files.js`.
 const FILES: &str = include_str!("files.js");
 
+/// What it has in place of `web/js/worker.js`.
+const WORKER: &str = include_str!("worker.js");
+
 /// Folder of files that the page reads as text.
 const EXAMPLES: &str = "examples";
 
@@ -29,8 +32,11 @@ pub(crate) fn page(site: &Path) -> Result<String> {
         let file = site.join(path);
         fs::read_to_string(&file).with_context(|| format!("cannot read {}", file.display()))
     };
-    let module =
-        |path: &Path| if path == Path::new("js/files.js") { Ok(FILES.to_owned()) } else { read(path) };
+    let module = |path: &Path| match path.to_str() {
+        Some("js/files.js") => Ok(FILES.to_owned()),
+        Some("js/worker.js") => Ok(WORKER.to_owned()),
+        _ => read(path),
+    };
     let icon = format!("data:image/svg+xml;base64,{}", BASE64_STANDARD.encode(read(Path::new("icon.svg"))?));
     let mut policy = Policy::default();
 
@@ -48,7 +54,7 @@ pub(crate) fn page(site: &Path) -> Result<String> {
     // only asks for it when it is to load the core itself.
     let worker = bundle(Path::new("js/worker.js"), &module)?.replace("import.meta.url", "location.href");
     ensure!(!worker.contains("</script"), "the Worker's script would end early in HTML");
-    let core = fs::read(site.join("pkg/armill_bg.wasm")).context("cannot read the core")?;
+    let core = fs::read(site.join("pkg/full/armill_bg.wasm")).context("cannot read the core")?;
     let data =
         [("core", BASE64_STANDARD.encode(compressed(&core)?)), ("worker", worker), ("files", files(site)?)];
     let blocks = data.map(|(id, text)| format!("<script type=\"text/plain\" id=\"{id}\">{text}</script>\n"));
