@@ -36,6 +36,7 @@ pub mod error;
 pub mod column;
 pub mod robot;
 pub mod path;
+pub mod identify;
 pub mod motion;
 pub mod cutting;
 pub mod deviation;

@@ -5,13 +5,14 @@ use std::path::Path;
 
 /// The modules from left to right. The job is read first, but it makes the stages' inputs, so it may name them; `column` is the
 /// currency of report, charts and files.
-const ORDER: [&str; 14] = [
+const ORDER: [&str; 15] = [
     "math",
     "units",
     "error",
     "column",
     "robot",
     "path",
+    "identify",
     "motion",
     "cutting",
     "deviation",

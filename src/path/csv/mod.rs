@@ -7,6 +7,7 @@
 //!
 //! The path runs straight from row to row. The axis (i, j, k) points from tip to spindle; a row's feed is that of the move that ends there.
 
+pub(crate) mod cell;
 mod header;
 mod row;
 

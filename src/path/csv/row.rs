@@ -1,19 +1,12 @@
 //! Rows of numbers: lines cut into cells, and what a comma means.
 
+use super::cell::{Separator, is_passed_over, number, position, separate};
 use super::header::{Columns, Width};
 use crate::error::Error;
 use crate::path::draft::{self, Fault};
 use crate::path::unit::LengthUnit;
 use nalgebra::Vector3;
 use std::str::Lines;
-
-/// What separates the cells of a line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Separator {
-    Semicolon,
-    Comma,
-    Blank,
-}
 
 /// What commas were in the rows so far.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -214,72 +207,6 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// Line and column, both from 1; columns count characters.
-fn position(line: usize, text: &str, byte: usize) -> (usize, usize) {
-    (line, text[..byte].chars().count() + 1)
-}
-
 fn not_a_number(cell: &str) -> Fault {
     Fault::new(format!("\"{cell}\""), "a number, such as 12.5")
-}
-
-/// The number of a cell; with a decimal comma where one is allowed.
-fn number(cell: &str, comma: bool) -> Option<f64> {
-    // `inf` and `nan` are no numbers here.
-    if !cell.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b) || (comma && b == b',')) {
-        return None;
-    }
-    let value: f64 = match cell.split_once(',') {
-        Some((whole, fraction))
-            if !whole.contains('.') && fraction.starts_with(|c: char| c.is_ascii_digit()) =>
-        {
-            format!("{whole}.{fraction}").parse().ok()?
-        }
-        Some(_) => return None,
-        None => cell.parse().ok()?,
-    };
-    value.is_finite().then_some(value)
-}
-
-/// Whether a line holds no row: nothing but separators, or a comment that starts with a semicolon and a word.
-fn is_passed_over(text: &str) -> bool {
-    let rest = text.trim_start();
-    let comment =
-        rest.strip_prefix(';').is_some_and(|words| words.trim_start().starts_with(char::is_alphabetic));
-    comment || rest.chars().all(|c| c.is_whitespace() || c == ',' || c == ';')
-}
-
-/// Cuts a line into cells, each with its byte in the line. One separator may end the line.
-fn separate<'a>(text: &'a str, cells: &mut Vec<(usize, &'a str)>) -> Separator {
-    let mut cut = |separator: Separator| {
-        cells.clear();
-        let ends = |c: char| match separator {
-            Separator::Semicolon => c == ';',
-            Separator::Comma => c == ',',
-            Separator::Blank => c.is_whitespace(),
-        };
-        let mut start = 0;
-        for piece in text.trim_end().split_inclusive(ends) {
-            let cell = piece.strip_suffix(ends).unwrap_or(piece);
-            let lead = cell.len() - cell.trim_start().len();
-            if separator != Separator::Blank || !cell.trim().is_empty() {
-                cells.push((start + lead, cell.trim()));
-            }
-            start += piece.len();
-        }
-        separator
-    };
-    if text.contains(';') {
-        return cut(Separator::Semicolon);
-    }
-    // Commas are decimal signs where blanks separate and each has a digit on both sides: in `1,5 2,5`, not in `1, 2`.
-    let inner_blank = |cell: &str| cell.trim().contains(char::is_whitespace);
-    let digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
-    let bytes = text.as_bytes();
-    let between_digits =
-        |(at, _): (usize, &str)| at > 0 && digit(bytes.get(at - 1)) && digit(bytes.get(at + 1));
-    if text.split(',').any(inner_blank) && text.match_indices(',').all(between_digits) {
-        return cut(Separator::Blank);
-    }
-    if text.contains(',') { cut(Separator::Comma) } else { cut(Separator::Blank) }
 }

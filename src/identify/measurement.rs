@@ -1,0 +1,264 @@
+//! Loaded poses as text: joint angles, force and displacement, one pose a row.
+//!
+//! A first line names the columns, in any order, with or without units: `q1_deg` to `q6_deg` (or `_rad`), `fx_n`, `fy_n`, `fz_n`, if
+//! there are any `mx_nm`, `my_nm`, `mz_nm`, and what was measured of `dx_mm`, `dy_mm`, `dz_mm` (or `_m`, `_um`). Without it twelve
+//! numbers are angles [deg], force [N] and displacement [mm]; fifteen have moments [N m] before the displacement. An empty
+//! displacement was not measured. Cells are separated as in a path's CSV; `#` starts a comment.
+//!
+//! Force, moment and displacement are those of the TCP, in the robot's base frame; the displacement is how far the load moves the
+//! TCP. Where a row is the difference between two loads, so is its force.
+
+use crate::error::Error;
+use crate::identify::table::Table;
+use crate::robot::Joints;
+use crate::units::{DEG, INCH, MM};
+use nalgebra::Vector6;
+
+/// JSON path of the text, for errors.
+const FIELD: &str = "measurements";
+/// Largest displacement that is believed [m].
+const FARTHEST: f64 = 1.0;
+/// Largest force [N] or moment [N m] that is believed.
+const STRONGEST: f64 = 1e6;
+/// Largest joint angle that is believed [rad].
+const TURNED: f64 = 7200.0 * DEG;
+
+/// One loaded pose.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurement {
+    /// Line of the text, from 1.
+    pub line: usize,
+    /// Joint values [rad], as the robot's table counts them.
+    pub q: Joints,
+    /// Force [N] and moment [N m] on the TCP, in the base frame.
+    pub wrench: Vector6<f64>,
+    /// How far that moved the TCP along the base's axes [m]; none along an axis that was not measured.
+    pub displacement: [Option<f64>; 3],
+}
+
+/// What a text says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurements {
+    /// The poses in the order of the text.
+    pub rows: Vec<Measurement>,
+    /// What is odd about the text but was read all the same.
+    pub remarks: Vec<String>,
+}
+
+/// How the text counts joint angles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Convention {
+    /// As the robot's table does.
+    #[default]
+    Table,
+    /// As a FANUC's pendant does: J3 from the horizontal, so that it changes with J2, and J3 to J6 the other way round than a
+    /// modified DH table with twists 0, -90, 0, -90, 90, -90 deg: the table's angles are (q1, q2, -(q2 + q3), -q4, -q5, -q6).
+    FanucPendant,
+}
+
+impl Convention {
+    /// Every convention with its key.
+    pub const ALL: [(&'static str, Convention); 2] =
+        [("table", Convention::Table), ("fanuc-pendant", Convention::FanucPendant)];
+
+    /// The convention with the key `id`.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] with the keys there are.
+    pub fn of(id: &str) -> Result<Self, Error> {
+        let found = Self::ALL.iter().find(|(key, _)| *key == id);
+        found.map(|(_, convention)| *convention).ok_or_else(|| Error::Invalid {
+            field: "convention".into(),
+            value: format!("\"{id}\""),
+            expected: format!("legal are {}", Self::ALL.map(|(key, _)| key).join(", ")),
+        })
+    }
+
+    /// The table's joint values.
+    pub fn joints(self, q: Joints) -> Joints {
+        match self {
+            Convention::Table => q,
+            Convention::FanucPendant => Joints::new(q[0], q[1], -(q[1] + q[2]), -q[3], -q[4], -q[5]),
+        }
+    }
+}
+
+/// What a column holds; the number is the component.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Quantity {
+    Angle,
+    Force,
+    Moment,
+    Displacement,
+}
+
+/// A column and the value in SI of one of its unit.
+#[derive(Debug, Clone, Copy)]
+struct Column {
+    quantity: Quantity,
+    component: usize,
+    unit: f64,
+    /// Whether the text gives the unit.
+    said: bool,
+}
+
+/// Reads loaded poses.
+///
+/// # Errors
+/// [`Error::Text`] with line and column of the first cell or name that is not what it should be.
+pub fn read(text: &str, convention: Convention) -> Result<Measurements, Error> {
+    let table = Table::read(text, FIELD)?;
+    let columns = columns(&table)?;
+    let mut rows = Vec::with_capacity(table.len());
+    let mut largest_angle: f64 = 0.0;
+    for (row, &line) in table.lines.iter().enumerate() {
+        let mut q = Joints::zeros();
+        let mut wrench = Vector6::zeros();
+        let mut displacement = [None; 3];
+        for (cell, (number, column)) in table.row(row).iter().zip(&columns).enumerate() {
+            let value = number * column.unit;
+            let wrong = |expected: &str| Err(table.cell_error(row, cell, expected));
+            let (place, most, expected) = match column.quantity {
+                Quantity::Displacement if number.is_nan() => continue,
+                Quantity::Displacement => (
+                    None,
+                    FARTHEST,
+                    "a displacement is at most 1 m; name its unit in the header: dx_mm, dx_um",
+                ),
+                Quantity::Angle => {
+                    (Some(&mut q[column.component]), TURNED, "a joint angle is at most 7200 deg")
+                }
+                Quantity::Force => {
+                    (Some(&mut wrench[column.component]), STRONGEST, "a force is at most 1e6 N")
+                }
+                Quantity::Moment => {
+                    (Some(&mut wrench[3 + column.component]), STRONGEST, "a moment is at most 1e6 N m")
+                }
+            };
+            if number.is_nan() {
+                return wrong("angles, forces and moments are there in every row");
+            }
+            if value.abs() > most {
+                return wrong(expected);
+            }
+            match place {
+                Some(place) => *place = value,
+                None => displacement[column.component] = Some(value),
+            }
+        }
+        largest_angle = q.amax().max(largest_angle);
+        rows.push(Measurement { line, q: convention.joints(q), wrench, displacement });
+    }
+    if rows.is_empty() {
+        return Err(table.end_error("the end of a text without numbers", "one row a loaded pose"));
+    }
+    let mut remarks = Vec::new();
+    let unsaid = columns.iter().any(|column| column.quantity == Quantity::Angle && !column.said);
+    if unsaid && largest_angle < 7.0 * DEG {
+        remarks.push(
+            "no joint angle is larger than 7: if they are in rad, name the columns q1_rad to q6_rad in a first line"
+                .to_owned(),
+        );
+    }
+    Ok(Measurements { rows, remarks })
+}
+
+fn columns(table: &Table) -> Result<Vec<Column>, Error> {
+    if table.names.is_empty() {
+        return unnamed(table);
+    }
+    let mut columns: Vec<Column> = Vec::with_capacity(table.width);
+    for (index, words) in table.names.iter().enumerate() {
+        let column = named(words).map_err(|expected| table.name_error(index, expected))?;
+        let same = |other: &Column| (other.quantity, other.component) == (column.quantity, column.component);
+        if columns.iter().any(same) {
+            return Err(table.name_error(index, "each column stands once"));
+        }
+        columns.push(column);
+    }
+    let count = |quantity| columns.iter().filter(|column| column.quantity == quantity).count();
+    let wanted = if count(Quantity::Angle) != 6 {
+        "the columns q1 to q6 are there"
+    } else if count(Quantity::Force) != 3 {
+        "the columns fx, fy and fz are there"
+    } else if count(Quantity::Displacement) == 0 {
+        "one or more of the columns dx, dy and dz are there"
+    } else if ![0, 3].contains(&count(Quantity::Moment)) {
+        "of mx, my and mz all three are there, or none"
+    } else {
+        return Ok(columns);
+    };
+    Err(table.name_error(table.width - 1, wanted))
+}
+
+/// What the columns are without a header.
+fn unnamed(table: &Table) -> Result<Vec<Column>, Error> {
+    let moments = match table.width {
+        0 => return Ok(vec![]),
+        12 => 0,
+        15 => 3,
+        _ => {
+            let expected = "a row without a header is q1 to q6 [deg], fx, fy, fz [N], if there are any mx, my, mz [N m], then dx, dy, dz [mm]";
+            return Err(table.cell_error(0, 0, expected));
+        }
+    };
+    let groups = [
+        (Quantity::Angle, 6, DEG),
+        (Quantity::Force, 3, 1.0),
+        (Quantity::Moment, moments, 1.0),
+        (Quantity::Displacement, 3, MM),
+    ];
+    let column = |(quantity, count, unit)| {
+        (0..count).map(move |component| Column { quantity, component, unit, said: false })
+    };
+    Ok(groups.into_iter().flat_map(column).collect())
+}
+
+/// What a column may be called before its component, in lower case.
+const NAMES: [(Quantity, &[&str]); 4] = [
+    (Quantity::Angle, &["q", "j", "joint", "theta", "axis"]),
+    (Quantity::Force, &["f", "force"]),
+    (Quantity::Moment, &["m", "moment"]),
+    (Quantity::Displacement, &["d", "displacement", "deflection", "delta"]),
+];
+
+/// What a name says: quantity, component, unit.
+fn named(words: &[String]) -> Result<Column, &'static str> {
+    const UNKNOWN: &str = "the columns are q1 to q6, fx, fy, fz, mx, my, mz, dx, dy, dz, with or without a unit: q1_deg, fx_n, dx_mm";
+    let part = |name: &str| {
+        let component = name.chars().last()?;
+        let stem = &name[..name.len() - component.len_utf8()];
+        let (quantity, _) = NAMES.iter().find(|(_, stems)| stems.contains(&stem))?;
+        let legal = if *quantity == Quantity::Angle { "123456" } else { "xyz" };
+        Some((*quantity, legal.find(component)?))
+    };
+    // Two words may be one name: force x, joint 1.
+    let joined = words.get(..2).map(<[String]>::concat);
+    let (quantity, component, rest) = match (joined.and_then(|name| part(&name)), words.first()) {
+        (Some((quantity, component)), _) => (quantity, component, &words[2..]),
+        (None, Some(first)) => {
+            let (quantity, component) = part(first).ok_or(UNKNOWN)?;
+            (quantity, component, &words[1..])
+        }
+        (None, None) => return Err(UNKNOWN),
+    };
+    // The base frame is the one that holds; other words, such as "tool", would change the meaning.
+    let rest: Vec<&str> = rest.iter().map(String::as_str).filter(|word| *word != "base").collect();
+    let (unit, said) = match (quantity, rest.concat().as_str()) {
+        (Quantity::Angle, "") => (DEG, false),
+        (Quantity::Displacement, "") => (MM, false),
+        (_, "") => (1.0, false),
+        (Quantity::Angle, "deg" | "degree" | "degrees") => (DEG, true),
+        (Quantity::Angle, "rad" | "radian" | "radians") => (1.0, true),
+        (Quantity::Force, "n") | (Quantity::Moment, "nm") | (Quantity::Displacement, "m") => (1.0, true),
+        (Quantity::Force, "kn") => (1e3, true),
+        (Quantity::Displacement, "mm") => (MM, true),
+        (Quantity::Displacement, "um" | "µm" | "μm") => (1e-3 * MM, true),
+        (Quantity::Displacement, "in" | "inch") => (INCH, true),
+        (Quantity::Angle, _) => return Err("joint angles are in deg or rad"),
+        (Quantity::Force, _) => return Err("forces are in N or kN, in the base frame"),
+        (Quantity::Moment, _) => return Err("moments are in Nm, in the base frame"),
+        (Quantity::Displacement, _) => return Err("displacements are in mm, um, m or in, in the base frame"),
+    };
+    Ok(Column { quantity, component, unit, said })
+}

@@ -1,0 +1,280 @@
+//! Frequency and damping from a measured step or impact response.
+//!
+//! After the step or the blow the arm rings freely: any signal of that (acceleration, speed, displacement) is
+//!
+//! ```text
+//! a(t) = exp(-zeta w t) (A cos w_d t + B sin w_d t) + offset,   w_d = w sqrt(1 - zeta^2)
+//! ```
+//!
+//! with the undamped natural frequency w that the shaper takes. Extrema give a first guess (logarithmic decrement: S. Rao,
+//! Mechanical Vibrations, 5th ed. 2011, section 2.6.3), least squares over all samples the result.
+
+mod decay;
+mod extrema;
+
+use crate::error::Error;
+use crate::identify::student;
+use crate::identify::table::Table;
+use crate::math;
+use decay::{Decay, Samples};
+
+/// JSON path of the text, for errors.
+const FIELD: &str = "response";
+/// Damping times after which nothing is left to fit: exp(-6) is 0.25 %.
+const FADED: f64 = 6.0;
+/// Cycles below which the result is remarked on.
+const FEW_CYCLES: f64 = 3.0;
+/// Samples a cycle below which the result is remarked on, and below which there is none.
+const FEW_SAMPLES: (f64, f64) = (10.0, 4.0);
+/// A second mode is told of from this share of the first one's amplitude on, if it explains this share of what the first leaves.
+const SECOND: (f64, f64) = (0.03, 0.5);
+
+/// A signal over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Signal {
+    /// Instants [s], growing.
+    pub time: Vec<f64>,
+    /// The signal; its unit does not matter.
+    pub value: Vec<f64>,
+}
+
+impl Signal {
+    /// Reads rows of time and signal. A first line may name them and give the time's unit: `time_ms, acceleration`.
+    ///
+    /// # Errors
+    /// [`Error::Text`] with line and column of the first cell that is not what it should be.
+    pub fn read(text: &str) -> Result<Self, Error> {
+        let table = Table::read(text, FIELD)?;
+        if table.len() == 0 {
+            return Err(
+                table.end_error("the end of a text without numbers", "one row an instant: time, signal")
+            );
+        }
+        if table.width != 2 {
+            return Err(table.cell_error(0, table.width.min(2), "a row is two numbers: time [s] and signal"));
+        }
+        let mut unit = 1.0;
+        if let Some(words) = table.names.first() {
+            unit = match words.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+                ["t" | "time"] | ["t" | "time", "s" | "sec" | "seconds"] => 1.0,
+                ["t" | "time", "ms"] => 1e-3,
+                ["t" | "time", "us" | "µs" | "μs"] => 1e-6,
+                _ => return Err(table.name_error(0, "the first column is the time: time, time_s, time_ms")),
+            };
+        }
+        let (mut time, mut value) = (Vec::with_capacity(table.len()), Vec::with_capacity(table.len()));
+        for row in 0..table.len() {
+            let numbers = table.row(row);
+            if let Some(empty) = numbers.iter().position(|number| number.is_nan()) {
+                return Err(table.cell_error(row, empty, "a number, such as 12.5"));
+            }
+            if time.last().is_some_and(|&before| numbers[0] * unit <= before) {
+                return Err(table.cell_error(row, 0, "each instant comes after the one before"));
+            }
+            time.push(numbers[0] * unit);
+            value.push(numbers[1]);
+        }
+        Ok(Self { time, value })
+    }
+}
+
+/// A value with half the width of its 95 % confidence interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured {
+    /// The value.
+    pub value: f64,
+    /// How far its interval reaches to each side.
+    pub half: f64,
+}
+
+/// One more mode in the signal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Other {
+    /// Undamped natural frequency [rad/s].
+    pub frequency: f64,
+    /// Damping ratio.
+    pub damping: f64,
+    /// Amplitude at the beginning, as a share of the first mode's.
+    pub share: f64,
+}
+
+/// What rings.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mode {
+    /// Undamped natural frequency [rad/s], as the shaper takes it.
+    pub frequency: Measured,
+    /// Damping ratio.
+    pub damping: Measured,
+    /// The same two from the extrema alone, by logarithmic decrement: a second way.
+    pub decrement: (f64, f64),
+    /// The part of the signal that was fitted [s].
+    pub window: (f64, f64),
+    /// Cycles in it.
+    pub cycles: f64,
+    /// Samples in a cycle.
+    pub samples_per_cycle: f64,
+    /// Share of the signal's variance that the fit explains.
+    pub explained: f64,
+    /// A second mode that the signal shows; it is fitted along.
+    pub other: Option<Other>,
+    /// The fit at every instant of the signal; NaN outside the window.
+    pub fitted: Vec<f64>,
+    /// Passes of the fit, and whether it came to rest.
+    pub passes: (usize, bool),
+    /// What makes the result doubtful: a stable slug and a sentence.
+    pub remarks: Vec<(&'static str, String)>,
+}
+
+/// Fits the mode that rings most from `from` on [s]; without it, from the largest excursion on.
+///
+/// # Errors
+/// [`Error::Invalid`] if nothing rings long enough, is sampled densely enough, or decays.
+pub fn mode(signal: &Signal, from: Option<f64>) -> Result<Mode, Error> {
+    let all = Samples { time: &signal.time, value: &signal.value };
+    let start = match from {
+        Some(from) => signal.time.partition_point(|&t| t < from),
+        None => extrema::largest(&all),
+    };
+    let ringing = all.part(start, all.len());
+    let guess = extrema::guess(&ringing).ok_or_else(|| {
+        refused(
+            format!("{} samples from {:.4} s on", ringing.len(), signal.time.get(start).unwrap_or(&f64::NAN)),
+            "nothing rings there for a cycle and a half: the response after a step or a blow, until it has died down",
+        )
+    })?;
+    let cycle = math::TAU / guess.damped;
+    let seen_by = |cycle: f64, span: f64, samples: usize| samples as f64 * cycle / span;
+    let span = ringing.span();
+    if seen_by(cycle, span, ringing.len()) < FEW_SAMPLES.1 {
+        return Err(refused(
+            format!("{:.1} samples a cycle", seen_by(cycle, span, ringing.len())),
+            "sampled too slowly to tell the frequency: ten samples a cycle or more",
+        ));
+    }
+    let (mut decay, part, passes) = widening(&ringing, guess);
+    let mut rest = part.minus(&decay);
+    let explained_by_one = 1.0 - rest.iter().map(|r| r * r).sum::<f64>() / part.variance();
+    let mut other = None;
+    if let Some(second) = second_mode(&part, &rest, &decay) {
+        // Each is fitted to what the other leaves, until neither moves.
+        let mut second = second;
+        for _ in 0..30 {
+            let own = part.minus(&second);
+            decay = Samples { time: part.time, value: &own }.fit(decay).0;
+            let own = part.minus(&decay);
+            second = Samples { time: part.time, value: &own }.fit(second).0;
+        }
+        let own = part.minus(&second);
+        rest = Samples { time: part.time, value: &own }.minus(&decay);
+        let (frequency, damping) = second.undamped();
+        other = Some(Other { frequency, damping, share: second.amplitude() / decay.amplitude() });
+    }
+    if decay.rate <= 0.0 {
+        return Err(refused("a vibration that grows".into(), "a free decay, from the step or blow on"));
+    }
+    let left: f64 = rest.iter().map(|r| r * r).sum();
+    let freedom = part.len().saturating_sub(if other.is_some() { 10 } else { 5 });
+    let reach = student::quantile_975(freedom) * (left / freedom.max(1) as f64).sqrt();
+    let (frequency, damping) = decay.uncertain(&part, reach);
+    let cycles = part.span() * decay.damped / math::TAU;
+    let samples_per_cycle = seen_by(math::TAU / decay.damped, part.span(), part.len());
+    let mut mode = Mode {
+        frequency,
+        damping,
+        decrement: guess.undamped(),
+        window: (part.time[0], part.time[part.len() - 1]),
+        cycles,
+        samples_per_cycle,
+        explained: 1.0 - left / part.variance(),
+        other,
+        fitted: vec![f64::NAN; all.len()],
+        passes,
+        remarks: vec![],
+    };
+    for (k, rest) in rest.iter().enumerate() {
+        mode.fitted[start + k] = part.value[k] - rest;
+    }
+    mode.remarks = remarks(&mode, &rest, explained_by_one);
+    Ok(mode)
+}
+
+/// Fits a few cycles first and ever longer parts then, so that the phase never runs a turn ahead, until the vibration has faded.
+fn widening<'a>(ringing: &Samples<'a>, guess: Decay) -> (Decay, Samples<'a>, (usize, bool)) {
+    let (mut decay, mut cycles, mut passes) = (guess, 3.0, 0);
+    loop {
+        let wanted = cycles * math::TAU / decay.damped;
+        let faded = FADED / decay.rate.max(1e-12);
+        let span = wanted.min(faded);
+        let end = ringing.time.partition_point(|&t| t <= ringing.time[0] + span);
+        let part = ringing.part(0, end.max(12).min(ringing.len()));
+        let (fitted, more, rested) = part.fit(decay);
+        (decay, passes) = (fitted, passes + more);
+        if part.len() == ringing.len() || span >= faded {
+            return (decay, part, (passes, rested));
+        }
+        cycles *= 2.0;
+    }
+}
+
+/// A second damped sinusoid in what the first leaves, if there is one worth telling of.
+fn second_mode(part: &Samples<'_>, rest: &[f64], first: &Decay) -> Option<Decay> {
+    let rest = Samples { time: part.time, value: rest };
+    let guess = extrema::guess(&rest)?;
+    let (second, _, _) = rest.fit(guess);
+    let left: f64 = rest.minus(&second).iter().map(|r| r * r).sum();
+    let explains = 1.0 - left / rest.variance();
+    let distinct = (second.damped / first.damped - 1.0).abs() > 0.02;
+    (distinct
+        && second.damped > 0.0
+        && explains > SECOND.1
+        && second.amplitude() > SECOND.0 * first.amplitude())
+    .then_some(second)
+}
+
+fn remarks(mode: &Mode, rest: &[f64], explained_by_one: f64) -> Vec<(&'static str, String)> {
+    let mut remarks = Vec::new();
+    let mut say = |code, text: String| remarks.push((code, text));
+    if let Some(Other { frequency, share, .. }) = mode.other {
+        say(
+            "several-modes",
+            format!(
+                "there is a second mode at {:.2} Hz with {:.0} % of the amplitude; one damped sinusoid alone explains {:.1} %. A shaper for one mode leaves the other",
+                frequency / math::TAU,
+                100.0 * share,
+                100.0 * explained_by_one
+            ),
+        );
+    }
+    if mode.explained < 0.9 {
+        say(
+            "poor-fit",
+            format!(
+                "a damped sinusoid explains only {:.0} % of the signal: more modes, noise or backlash",
+                100.0 * mode.explained
+            ),
+        );
+    }
+    if mode.cycles < FEW_CYCLES {
+        say("few-cycles", format!("only {:.1} cycles: the damping hangs on little", mode.cycles));
+    }
+    if mode.samples_per_cycle < FEW_SAMPLES.0 {
+        let text = format!(
+            "only {:.1} samples a cycle: what rings faster than half the sampling rate would show up at a wrong, lower frequency",
+            mode.samples_per_cycle
+        );
+        say("slow-sampling", text);
+    }
+    let squares: f64 = rest.iter().map(|r| r * r).sum();
+    let neighbours: f64 = rest.windows(2).map(|pair| pair[0] * pair[1]).sum();
+    if mode.explained < 1.0 - 1e-9 && neighbours > 0.5 * squares {
+        say("not-noise", "what is left is no noise, so that the intervals are too narrow".to_owned());
+    }
+    if !mode.passes.1 {
+        say("not-converged", format!("the fit did not come to rest in {} passes", mode.passes.0));
+    }
+    remarks
+}
+
+fn refused(value: String, expected: &str) -> Error {
+    Error::Invalid { field: FIELD.into(), value, expected: expected.into() }
+}

@@ -1,0 +1,50 @@
+//! A first guess from the extrema of a vibration.
+
+use super::decay::{Decay, Samples};
+use crate::math;
+
+/// An excursion counts from this share of the largest on: noise below it makes no extrema.
+const COUNTS: f64 = 0.15;
+/// Extrema that a guess takes: one and a half cycles.
+const FEWEST: usize = 4;
+
+/// The sample furthest from the signal's mean.
+pub(super) fn largest(samples: &Samples<'_>) -> usize {
+    let mean = samples.mean();
+    let far = |k: &usize| (samples.value[*k] - mean).abs();
+    (0..samples.len()).max_by(|a, b| far(a).total_cmp(&far(b)).then(b.cmp(a))).unwrap_or(0)
+}
+
+/// Frequency from the time between extrema, decay rate from the logarithms of their heights by a straight line.
+pub(super) fn guess(samples: &Samples<'_>) -> Option<Decay> {
+    let mean = samples.mean();
+    let height = samples.value.iter().map(|v| (v - mean).abs()).fold(0.0, f64::max);
+    if !(height > 0.0) {
+        return None;
+    }
+    // One extremum for each run on one side; a run ends where the other side is clearly entered.
+    let mut extrema: Vec<(f64, f64)> = Vec::new();
+    for (t, v) in samples.time.iter().zip(samples.value) {
+        let v = v - mean;
+        match extrema.last_mut() {
+            Some(last) if last.1 * v > 0.0 => {
+                if v.abs() > last.1.abs() {
+                    *last = (*t, v);
+                }
+            }
+            _ if v.abs() > COUNTS * height => extrema.push((*t, v)),
+            _ => {}
+        }
+    }
+    if extrema.len() < FEWEST {
+        return None;
+    }
+    let n = extrema.len() as f64;
+    let half = (extrema.last()?.0 - extrema[0].0) / (n - 1.0);
+    let logs: Vec<(f64, f64)> = extrema.iter().map(|(t, v)| (*t, math::ln(v.abs()))).collect();
+    let (t_mean, l_mean) =
+        (logs.iter().map(|l| l.0).sum::<f64>() / n, logs.iter().map(|l| l.1).sum::<f64>() / n);
+    let fall: f64 = logs.iter().map(|(t, l)| (t - t_mean) * (l - l_mean)).sum();
+    let run: f64 = logs.iter().map(|(t, _)| (t - t_mean) * (t - t_mean)).sum();
+    Some(Decay { start: samples.time[0], rate: -fall / run, damped: math::PI / half, ..Decay::default() })
+}

@@ -1,0 +1,359 @@
+//! Joint compliances from loaded poses.
+//!
+//! The displacement of the TCP under a wrench W is linear in the joint compliances c_i (thesis eqs. 3.47, 3.48, sorted by joint):
+//!
+//! ```text
+//! d = J C_theta J^T W = sum over i of  J_i (J_i^T W) c_i
+//! ```
+//!
+//! so each measured component is one row of A c = b, solved by non-negative least squares with equal weights.
+
+use crate::error::Error;
+use crate::identify::eigen::eigen;
+use crate::identify::measurement::Measurement;
+use crate::identify::{nnls, student};
+use crate::robot::{Robot, jacobian::jacobian};
+use nalgebra::{Matrix6, Vector6};
+
+/// A direction is unseen where its singular value is below this share of the largest, columns scaled to unit length.
+const UNSEEN: f64 = 1e-5;
+/// A column shorter than this share of the longest moves the TCP by nothing but rounding.
+const IDLE: f64 = 1e-9;
+/// Condition index from which a near dependency can do harm, and the share of variance that makes a joint part of it
+/// (D. Belsley, E. Kuh, R. Welsch, Regression Diagnostics, 1980, section 3.2).
+const HARMFUL: (f64, f64) = (30.0, 0.5);
+/// Half an interval, as a share of its compliance, up to which a compliance counts as known.
+const KNOWN: f64 = 0.25;
+/// Half an interval that advice aims at, as a share of the compliance.
+const WANTED: f64 = 0.1;
+
+/// How far a joint's compliance is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// Its interval reaches no more than a quarter to each side.
+    Known,
+    /// Its interval reaches further, but not to zero.
+    Rough,
+    /// Its interval reaches zero, or it is held there: these loads do not tell it from a rigid joint.
+    Small,
+    /// No load of these poses moves the TCP through this joint.
+    Idle,
+    /// Only a sum with other joints' compliances shows.
+    Entangled,
+}
+
+impl Verdict {
+    /// Stable slug.
+    pub fn id(self) -> &'static str {
+        match self {
+            Verdict::Known => "known",
+            Verdict::Rough => "rough",
+            Verdict::Small => "small",
+            Verdict::Idle => "idle",
+            Verdict::Entangled => "entangled",
+        }
+    }
+}
+
+/// What the poses say about one joint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    /// Compliance [rad/(N m)], zero or positive.
+    pub compliance: f64,
+    /// 95 % confidence interval of it [rad/(N m)]; infinite where nothing bounds it.
+    pub interval: (f64, f64),
+    /// Whether it is held at zero, where the data alone would make it negative.
+    pub at_zero: bool,
+    /// Variance inflation: how many times as uncertain (squared) as it would be if the other joints' columns were at right angles
+    /// to its own. Infinite where it cannot be told from them.
+    pub inflation: f64,
+    /// Share of its variance that comes from each singular direction, the best determined one first; empty where there is no variance.
+    pub shares: Vec<f64>,
+    /// The joints, from 0, that it is hard or impossible to tell from.
+    pub mixed_with: Vec<usize>,
+    /// How many times as large loads would bring its interval to 10 % on each side; none where more load does not help.
+    pub load_factor: Option<f64>,
+    /// In one word.
+    pub verdict: Verdict,
+}
+
+/// What the fit leaves of one row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Residual {
+    /// Line of the text, from 1.
+    pub line: usize,
+    /// Length of what was measured [m].
+    pub measured: f64,
+    /// Length of what the fit gives along the same axes [m].
+    pub fitted: f64,
+    /// Length of measured minus fitted [m].
+    pub residual: f64,
+    /// Length of measured minus what a fit to all other rows gives [m].
+    pub left_out: f64,
+}
+
+/// Joint compliances and how far to trust them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// The six joints.
+    pub joints: [Joint; 6],
+    /// The rows in the order of the text.
+    pub rows: Vec<Residual>,
+    /// Measured components minus free compliances.
+    pub freedom: usize,
+    /// Root mean square of the components' residuals [m].
+    pub rms: f64,
+    /// Standard deviation of one component [m], with the degrees of freedom taken off.
+    pub deviation: f64,
+    /// Share of the squared displacements that J C J^T explains; no mean is taken off, as without load there is no displacement.
+    pub explained: f64,
+    /// Largest by smallest singular value, columns scaled to unit length; infinite where a direction is unseen.
+    pub condition: f64,
+}
+
+impl Fit {
+    /// The compliances [rad/(N m)].
+    pub fn compliance(&self) -> [f64; 6] {
+        self.joints.each_ref().map(|joint| joint.compliance)
+    }
+
+    /// Mean over the rows of the residual by the measured length, of the fit itself and of the fits to all other rows.
+    pub fn relative(&self) -> (f64, f64) {
+        let moved: Vec<&Residual> = self.rows.iter().filter(|row| row.measured > 0.0).collect();
+        let mean = |of: fn(&Residual) -> f64| {
+            moved.iter().map(|row| of(row) / row.measured).sum::<f64>() / moved.len().max(1) as f64
+        };
+        (mean(|row| row.residual), mean(|row| row.left_out))
+    }
+
+    /// The rows with the largest residuals first.
+    pub fn worst(&self) -> Vec<&Residual> {
+        let mut rows: Vec<&Residual> = self.rows.iter().collect();
+        rows.sort_by(|a, b| b.residual.total_cmp(&a.residual));
+        rows
+    }
+}
+
+/// One row's part of A c = b: for each measured component the six coefficients [m per rad/(N m)] and the displacement [m].
+pub fn equations(robot: &Robot, row: &Measurement) -> Vec<(Vector6<f64>, f64)> {
+    let j = jacobian(robot, &row.q);
+    let torque = j.transpose() * row.wrench;
+    let component = |axis: usize| {
+        let coefficients = Vector6::from_fn(|i, _| j[(axis, i)] * torque[i]);
+        row.displacement[axis].map(|measured| (coefficients, measured))
+    };
+    [0, 1, 2].into_iter().filter_map(component).collect()
+}
+
+/// Fits the joint compliances to the rows. The robot's own compliances do not count, its tool does: loads and displacements are the TCP's.
+///
+/// The intervals take errors of all components as independent and equally large, and hold the joints at zero there; where those are
+/// not zero, or the arm gives way in more than its joints, they are too narrow.
+///
+/// # Errors
+/// [`Error::Invalid`] if there are too few measured components, or if nothing is loaded.
+pub fn fit(robot: &Robot, rows: &[Measurement]) -> Result<Fit, Error> {
+    let equations: Vec<_> = rows.iter().map(|row| equations(robot, row)).collect();
+    let count: usize = equations.iter().map(Vec::len).sum();
+    if count <= 6 {
+        return Err(refused(
+            format!("{} rows with {count} displacements", rows.len()),
+            "six compliances and their uncertainty take seven or more measured displacements, better 60",
+        ));
+    }
+    let (mut g, mut h, mut square) = (Matrix6::zeros(), Vector6::zeros(), 0.0);
+    for (a, b) in equations.iter().flatten() {
+        g += a * a.transpose();
+        h += a * *b;
+        square += b * b;
+    }
+    let longest = (0..6).map(|i| g[(i, i)].sqrt()).fold(0.0, f64::max);
+    if !(longest > 0.0 && square > 0.0) {
+        return Err(refused("without load or without displacement".into(), "loads that move the TCP"));
+    }
+    // What only rounding moves is not moved.
+    for i in (0..6).filter(|&i| g[(i, i)].sqrt() <= IDLE * longest).collect::<Vec<_>>() {
+        g.set_row(i, &Matrix6::zeros().row(0));
+        g.set_column(i, &Matrix6::zeros().column(0));
+        h[i] = 0.0;
+    }
+    let solution = nnls::solve(&g, &h);
+    let residuals = |row: &[(Vector6<f64>, f64)], c: &Vector6<f64>| {
+        row.iter().map(|(a, b)| (b - a.dot(c)) * (b - a.dot(c))).sum::<f64>()
+    };
+    let left: f64 = equations.iter().map(|row| residuals(row, &solution.x)).sum();
+    let freedom = count - solution.free.iter().filter(|free| **free).count();
+    let deviation = (left / freedom as f64).sqrt();
+    let outcomes = rows.iter().zip(&equations).map(|(row, own)| {
+        let (mut g, mut h) = (g, h);
+        for (a, b) in own {
+            g -= a * a.transpose();
+            h -= a * *b;
+        }
+        let others = nnls::solve(&g, &h).x;
+        Residual {
+            line: row.line,
+            measured: own.iter().map(|(_, b)| b * b).sum::<f64>().sqrt(),
+            fitted: own.iter().map(|(a, _)| a.dot(&solution.x) * a.dot(&solution.x)).sum::<f64>().sqrt(),
+            residual: residuals(own, &solution.x).sqrt(),
+            left_out: residuals(own, &others).sqrt(),
+        }
+    });
+    let rows = outcomes.collect();
+    let reach = student::quantile_975(freedom) * deviation;
+    let poses = Poses::of(&g);
+    Ok(Fit {
+        joints: [0, 1, 2, 3, 4, 5].map(|i| poses.joint(i, &solution, &h, reach)),
+        rows,
+        freedom,
+        rms: (left / count as f64).sqrt(),
+        deviation,
+        explained: 1.0 - left / square,
+        condition: poses.condition(),
+    })
+}
+
+fn refused(value: String, expected: &str) -> Error {
+    Error::Invalid { field: "measurements".into(), value, expected: expected.into() }
+}
+
+/// What the poses and loads can tell at all, whatever was measured.
+struct Poses {
+    /// Length of each joint's column.
+    length: Vector6<f64>,
+    /// A^T A with columns of unit length.
+    g: Matrix6<f64>,
+    /// Squared singular values, largest first, and their directions; an idle joint has 1 and itself.
+    directions: Vec<(f64, Vector6<f64>)>,
+    idle: [bool; 6],
+    /// Joints that take part in an unseen direction.
+    entangled: [bool; 6],
+}
+
+impl Poses {
+    fn of(g: &Matrix6<f64>) -> Self {
+        let length = Vector6::from_fn(|i, _| g[(i, i)].sqrt());
+        let idle = [0, 1, 2, 3, 4, 5].map(|i| length[i] == 0.0);
+        let g = Matrix6::from_fn(|i, j| match i == j {
+            true => 1.0,
+            false if idle[i] || idle[j] => 0.0,
+            false => g[(i, j)] / (length[i] * length[j]),
+        });
+        let (values, vectors) = eigen(&g);
+        let mut directions: Vec<_> = values
+            .into_iter()
+            .enumerate()
+            .map(|(k, value)| (value, vectors.column(k).into_owned()))
+            .collect();
+        directions.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        let mut poses = Self { length, g, directions, idle, entangled: [false; 6] };
+        for k in poses.unseen() {
+            let (_, direction) = &poses.directions[k];
+            for (i, entangled) in poses.entangled.iter_mut().enumerate() {
+                *entangled |= direction[i].abs() > 1e-2;
+            }
+        }
+        poses
+    }
+
+    fn is_unseen(&self, value: f64) -> bool {
+        value <= UNSEEN * UNSEEN * self.directions[0].0
+    }
+
+    fn unseen(&self) -> Vec<usize> {
+        (0..6).filter(|&k| self.is_unseen(self.directions[k].0)).collect()
+    }
+
+    fn condition(&self) -> f64 {
+        let (largest, smallest) = (self.directions[0].0, self.directions[5].0);
+        if self.is_unseen(smallest) || self.idle.contains(&true) {
+            return f64::INFINITY;
+        }
+        (largest / smallest).sqrt()
+    }
+
+    /// Inverse of the scaled A^T A over some joints; none where they cannot be told apart.
+    fn inverse(&self, of: &[bool; 6]) -> Option<Matrix6<f64>> {
+        nnls::restricted(&self.g, of).cholesky().map(|factor| factor.inverse())
+    }
+
+    /// `reach` is the standard deviation of a component times Student's t.
+    fn joint(&self, i: usize, solution: &nnls::Solution, h: &Vector6<f64>, reach: f64) -> Joint {
+        let compliance = solution.x[i];
+        let mixed_with = self.mixed(i);
+        let entangled = self.entangled[i];
+        if self.idle[i] || entangled {
+            let (verdict, inflation) =
+                if entangled { (Verdict::Entangled, f64::INFINITY) } else { (Verdict::Idle, 1.0) };
+            let interval = (0.0, f64::INFINITY);
+            let (shares, load_factor, at_zero) = (vec![], None, !solution.free[i]);
+            return Joint {
+                compliance,
+                interval,
+                at_zero,
+                inflation,
+                shares,
+                mixed_with,
+                load_factor,
+                verdict,
+            };
+        }
+        let distinct = [0, 1, 2, 3, 4, 5].map(|k| !self.entangled[k]);
+        // A joint at zero is judged as if all were free: how large it might be.
+        let at_zero = !solution.free[i];
+        let judged = if at_zero { distinct } else { solution.free };
+        let inverse = self.inverse(&judged).unwrap_or_else(Matrix6::identity);
+        let half = reach * inverse[(i, i)].sqrt() / self.length[i];
+        let centre = if at_zero { self.unconstrained(i, &inverse, h, &judged) } else { compliance };
+        let interval = ((centre - half).max(0.0), (centre + half).max(0.0));
+        let inflation = self.inverse(&distinct).map_or(f64::INFINITY, |inverse| inverse[(i, i)]);
+        let share = half / compliance;
+        let verdict = match interval.0 {
+            low if low <= 0.0 || at_zero => Verdict::Small,
+            _ if share <= KNOWN => Verdict::Known,
+            _ => Verdict::Rough,
+        };
+        let load_factor = (!at_zero && share > WANTED).then_some(share / WANTED);
+        Joint {
+            compliance,
+            interval,
+            at_zero,
+            inflation,
+            shares: self.shares(i),
+            mixed_with,
+            load_factor,
+            verdict,
+        }
+    }
+
+    /// What least squares without bounds would give.
+    fn unconstrained(&self, i: usize, inverse: &Matrix6<f64>, h: &Vector6<f64>, judged: &[bool; 6]) -> f64 {
+        let scaled =
+            Vector6::from_fn(|k, _| if judged[k] && !self.idle[k] { h[k] / self.length[k] } else { 0.0 });
+        (inverse * scaled)[i] / self.length[i]
+    }
+
+    /// Variance decomposition (Belsley, Kuh, Welsch 1980, eq. 3.20).
+    fn shares(&self, i: usize) -> Vec<f64> {
+        let parts = self.directions.iter().map(|(value, direction)| match self.is_unseen(*value) {
+            true => 0.0,
+            false => direction[i] * direction[i] / value,
+        });
+        let parts: Vec<f64> = parts.collect();
+        let whole: f64 = parts.iter().sum();
+        parts.into_iter().map(|part| part / whole).collect()
+    }
+
+    /// The joints that share an unseen or a weak direction with joint i.
+    fn mixed(&self, i: usize) -> Vec<usize> {
+        let (harmful, large) = HARMFUL;
+        let weak = |k: usize| self.directions[0].0 > harmful * harmful * self.directions[k].0;
+        let takes_part = |k: usize, joint: usize| match self.is_unseen(self.directions[k].0) {
+            true => self.directions[k].1[joint].abs() > 1e-2,
+            false => weak(k) && self.shares(joint)[k] > large,
+        };
+        (0..6)
+            .filter(|&other| other != i && (0..6).any(|k| takes_part(k, i) && takes_part(k, other)))
+            .collect()
+    }
+}
