@@ -51,15 +51,15 @@ pub enum Convention {
     /// As the robot's table does.
     #[default]
     Table,
-    /// As a FANUC's pendant does: J3 from the horizontal, so that it changes with J2, and J3 to J6 the other way round than a
-    /// modified DH table with twists 0, -90, 0, -90, 90, -90 deg: the table's angles are (q1, q2, -(q2 + q3), -q4, -q5, -q6).
-    FanucPendant,
+    /// As the pendants of FANUC and others do: joint 3 from the horizontal, so that it reads the same when joint 2 alone turns the
+    /// upper arm; the table's angle is q2 + q3. Which way a joint counts is the table's affair (`joint_sign`).
+    CoupledJ3,
 }
 
 impl Convention {
     /// Every convention with its key.
     pub const ALL: [(&'static str, Convention); 2] =
-        [("table", Convention::Table), ("fanuc-pendant", Convention::FanucPendant)];
+        [("table", Convention::Table), ("coupled-j3", Convention::CoupledJ3)];
 
     /// The convention with the key `id`.
     ///
@@ -78,7 +78,7 @@ impl Convention {
     pub fn joints(self, q: Joints) -> Joints {
         match self {
             Convention::Table => q,
-            Convention::FanucPendant => Joints::new(q[0], q[1], -(q[1] + q[2]), -q[3], -q[4], -q[5]),
+            Convention::CoupledJ3 => Joints::new(q[0], q[1], q[1] + q[2], q[3], q[4], q[5]),
         }
     }
 }

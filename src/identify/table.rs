@@ -51,6 +51,10 @@ impl<'a> Table<'a> {
             if table.width == 0 {
                 table.width = cells.len();
             }
+            if cells.len() + 1 == table.width && line.trim_end().ends_with([',', ';']) {
+                // A separator may end a line, but here the last cell is empty.
+                cells.push((line.trim_end().len(), ""));
+            }
             if cells.len() != table.width {
                 let expected = format!("a row has {} cells here, as the first line says", table.width);
                 let start = cells.get(table.width).or(cells.last()).map_or(0, |(start, _)| *start);
@@ -96,7 +100,7 @@ impl<'a> Table<'a> {
         let line = line.split('#').next().unwrap_or_default();
         let mut cells = Vec::new();
         separate(line, &mut cells);
-        let (start, found) = cells.get(cell).copied().unwrap_or((0, line));
+        let (start, found) = cells.get(cell).copied().unwrap_or((line.trim_end().len(), ""));
         let found = if found.is_empty() { "an empty cell".to_owned() } else { format!("\"{found}\"") };
         self.error(position(number, line, start), &found, expected)
     }

@@ -69,7 +69,7 @@ impl Job {
             return Err(invalid("version", self.version, "this Armill reads version 1"));
         }
         fields::check_ranges(self)?;
-        let robot = self.arm()?.with_tool(frame(&self.tool_frame));
+        let robot = self.robot()?;
         let base = frame(&self.base_frame);
         let workpiece = base.inverse().compose(&frame(&self.workpiece_frame));
         let (path, listing) = self.desired_path(on_read)?;
@@ -141,6 +141,14 @@ impl Job {
             goal,
             sources,
         })
+    }
+
+    /// The arm with its tool, whatever it is to do.
+    ///
+    /// # Errors
+    /// What is wrong with the robot.
+    pub fn robot(&self) -> Result<Robot, Error> {
+        Ok(self.arm()?.with_tool(frame(&self.tool_frame)))
     }
 
     fn arm(&self) -> Result<Robot, Error> {

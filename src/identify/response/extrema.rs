@@ -3,8 +3,8 @@
 use super::decay::{Decay, Samples};
 use crate::math;
 
-/// An excursion counts from this share of the largest on: noise below it makes no extrema.
-const COUNTS: f64 = 0.15;
+/// An excursion counts from this share of the largest on, so that noise below it makes no extrema; a lower one where too few count.
+const COUNTS: [f64; 3] = [0.15, 0.05, 0.02];
 /// Extrema that a guess takes: one and a half cycles.
 const FEWEST: usize = 4;
 
@@ -22,22 +22,13 @@ pub(super) fn guess(samples: &Samples<'_>) -> Option<Decay> {
     if !(height > 0.0) {
         return None;
     }
-    // One extremum for each run on one side; a run ends where the other side is clearly entered.
-    let mut extrema: Vec<(f64, f64)> = Vec::new();
-    for (t, v) in samples.time.iter().zip(samples.value) {
-        let v = v - mean;
-        match extrema.last_mut() {
-            Some(last) if last.1 * v > 0.0 => {
-                if v.abs() > last.1.abs() {
-                    *last = (*t, v);
-                }
-            }
-            _ if v.abs() > COUNTS * height => extrema.push((*t, v)),
-            _ => {}
-        }
-    }
-    if extrema.len() < FEWEST {
-        return None;
+    let mut extrema = COUNTS
+        .iter()
+        .map(|share| beyond(samples, mean, share * height))
+        .find(|extrema| extrema.len() >= FEWEST)?;
+    if extrema.len() > FEWEST && extrema[0].0 <= samples.time[0] {
+        // The signal was already falling: no extremum but the beginning.
+        extrema.remove(0);
     }
     let n = extrema.len() as f64;
     let half = (extrema.last()?.0 - extrema[0].0) / (n - 1.0);
@@ -47,4 +38,22 @@ pub(super) fn guess(samples: &Samples<'_>) -> Option<Decay> {
     let fall: f64 = logs.iter().map(|(t, l)| (t - t_mean) * (l - l_mean)).sum();
     let run: f64 = logs.iter().map(|(t, _)| (t - t_mean) * (t - t_mean)).sum();
     Some(Decay { start: samples.time[0], rate: -fall / run, damped: math::PI / half, ..Decay::default() })
+}
+
+/// One extremum for each run on one side of the mean, time and height; a run ends where the other side is entered beyond `least`.
+fn beyond(samples: &Samples<'_>, mean: f64, least: f64) -> Vec<(f64, f64)> {
+    let mut extrema: Vec<(f64, f64)> = Vec::new();
+    for (t, v) in samples.time.iter().zip(samples.value) {
+        let v = v - mean;
+        match extrema.last_mut() {
+            Some(last) if last.1 * v > 0.0 => {
+                if v.abs() > last.1.abs() {
+                    *last = (*t, v);
+                }
+            }
+            _ if v.abs() > least => extrema.push((*t, v)),
+            _ => {}
+        }
+    }
+    extrema
 }

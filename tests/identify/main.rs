@@ -1,0 +1,10 @@
+//! Identification: measured data, recovered models, errors of the texts.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod measurement;
+mod nnls;
+mod response;
+mod stiffness;
