@@ -15,7 +15,7 @@ use crate::job::fields;
 use crate::path::unit::LengthUnit;
 use crate::report::Report;
 use crate::report::format::FORMATS;
-use crate::robot::library::ROBOTS;
+use crate::robot::library;
 use crate::{Job, Stage};
 use js_sys::{Array, Float64Array, Function, Object, Reflect};
 use serde::Serialize;
@@ -38,15 +38,17 @@ export interface Summary {
   before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics }; after_mm: Statistics; budget: Budget;
   before_axis_deg: Statistics; after_axis_deg: Statistics; program?: Understood;
   passes: number; converged: boolean; tolerance_mm: number; history_max_mm: number[]; history_mean_mm: number[];
-  verdict: string; robot: string; branch: string; warnings: Warning[];
+  verdict: string; robot: string; stiffness: string; branch: string; warnings: Warning[];
 }
 export interface Field {
   path: string; group: string; label: string; unit: string; kind: "number" | "integer" | "choice" | "vector" | "table" | "text" | "set";
-  choices?: { value: string; label: string }[]; min?: number; max?: number; default: unknown; defaults?: Record<string, unknown>; help: string; when?: { path: string; is: string[] };
+  choices?: { value: string; label: string; heading?: string }[]; min?: number; max?: number; default: unknown; defaults?: Record<string, unknown>; help: string; when?: { path: string; is: string[] };
 }
 export interface Presets {
-  robots: { id: string; name: string; note: string; modified_dh: { alpha_deg: number; a_mm: number; d_mm: number; theta_offset_deg: number }[];
-            joint_limits_deg: [number, number][]; joint_compliance_rad_per_nm: number[] }[];
+  robots: { id: string; name: string; maker: string; note: string; stiffness_note: string; stiffness_assumed: boolean;
+            modified_dh: { alpha_deg: number; a_mm: number; d_mm: number; theta_offset_deg: number; joint_sign: number }[];
+            opw: { a1_mm: number; a2_mm: number; b_mm: number; c1_mm: number; c2_mm: number; c3_mm: number; c4_mm: number; joint_sign: number[]; joint_offset_deg: number[] };
+            joint_limits_deg: [number, number][] | null; joint_compliance_rad_per_nm: number[] }[];
   materials: { id: string; name: string; note: string; ktc_n_mm2: number; krc_n_mm2: number; kac_n_mm2: number; kte_n_mm: number; kre_n_mm: number; kae_n_mm: number }[];
 }
 export interface ChartEntry { name: string; title: string; view: string; figure: string; kind: "time" | "curve" | "space"; }
@@ -108,11 +110,12 @@ struct Presets {
 /// Robots and materials of the library, with the source of their numbers.
 #[wasm_bindgen(unchecked_return_type = "Presets")]
 pub fn presets() -> Result<JsValue, JsValue> {
-    let row = |[alpha, a, d, theta]: [f64; 4]| serde_json::json!({ "alpha_deg": alpha, "a_mm": a, "d_mm": d, "theta_offset_deg": theta });
-    let robots = ROBOTS.iter().map(|robot| {
+    let robots = library::robots().map(|robot| {
         serde_json::json!({
-            "id": robot.id, "name": robot.name, "note": robot.note,
-            "modified_dh": robot.modified_dh.map(row),
+            "id": robot.id, "name": robot.name(), "maker": robot.maker,
+            "note": format!("{} {} {}", robot.geometry_note, robot.stiffness_note, robot.mode_note),
+            "stiffness_note": robot.stiffness_note, "stiffness_assumed": robot.stiffness_assumed,
+            "modified_dh": fields::dh_rows(&robot), "opw": fields::opw(&robot),
             "joint_limits_deg": robot.joint_limits_deg,
             "joint_compliance_rad_per_nm": robot.joint_compliance,
         })

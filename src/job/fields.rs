@@ -78,6 +78,9 @@ pub struct Word {
     pub value: &'static str,
     /// As read.
     pub label: &'static str,
+    /// Heading that it stands under, where there are many.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub heading: Option<&'static str>,
 }
 
 /// The condition under which a field belongs to the job.
@@ -138,6 +141,14 @@ impl Row {
             "tool_frame" | "base_frame" | "workpiece_frame" | "start_branch" => "frames",
             other => other,
         };
+        let word = |&(value, label): &(&'static str, &'static str)| Word { value, label, heading: None };
+        let choices = if self.path == "robot.preset" {
+            library::names()
+                .map(|[value, maker, label]| Word { value, label, heading: Some(maker) })
+                .collect()
+        } else {
+            self.words.iter().map(word).collect()
+        };
         let defaults = self.defaults.iter().map(|&(word, text)| (word, json!(text)));
         Field {
             path: self.path,
@@ -145,7 +156,7 @@ impl Row {
             label: self.label,
             unit: self.unit,
             kind: self.kind,
-            choices: self.words.iter().map(|&(value, label)| Word { value, label }).collect(),
+            choices,
             min: self.range.map(|(min, _)| min),
             max: self.range.map(|(_, max)| max),
             default: (self.default)(),
@@ -168,31 +179,37 @@ macro_rules! words_of {
         words
     }};
 }
-static ROBOTS: [(&str, &str); library::ROBOTS.len()] = words_of!(library::ROBOTS);
 static MATERIALS: [(&str, &str); material::MATERIALS.len()] = words_of!(material::MATERIALS);
 
-/// The RX-90's table, as what a fresh table shows.
-fn rx90_rows() -> Value {
-    let row = |[alpha, a, d, theta]: [f64; 4]| json!({"alpha_deg": alpha, "a_mm": a, "d_mm": d, "theta_offset_deg": theta, "joint_sign": 1});
-    library::ROBOTS[0].modified_dh.map(row).to_vec().into()
+/// The thesis's robot, for what fresh fields show.
+fn rx90(value: fn(&library::Preset) -> Value) -> Value {
+    library::robot("staubli-rx90").map_or(Value::Null, |preset| value(&preset))
 }
 
-/// The RX-90 by ortho-parallel parameters.
-fn rx90_opw() -> Value {
-    json!({"a1_mm": 0, "a2_mm": 0, "b_mm": 0, "c1_mm": 420, "c2_mm": 450, "c3_mm": 650, "c4_mm": 85,
-        "joint_sign": [1, 1, 1, 1, 1, 1], "joint_offset_deg": [0, 0, 0, 0, 0, 0]})
+/// A robot's modified DH table as in the JSON.
+pub(crate) fn dh_rows(preset: &library::Preset) -> Value {
+    let mut signs = preset.opw.joint_sign.into_iter();
+    let row = |[alpha, a, d, theta]: [f64; 4]| json!({"alpha_deg": alpha, "a_mm": a, "d_mm": d, "theta_offset_deg": theta, "joint_sign": signs.next()});
+    preset.opw.modified_dh().map(row).to_vec().into()
+}
+
+/// A robot's ortho-parallel parameters as in the JSON.
+pub(crate) fn opw(preset: &library::Preset) -> Value {
+    let [a1, a2, b, c1, c2, c3, c4] = preset.opw.lengths_mm;
+    json!({"a1_mm": a1, "a2_mm": a2, "b_mm": b, "c1_mm": c1, "c2_mm": c2, "c3_mm": c3, "c4_mm": c4,
+        "joint_sign": preset.opw.joint_sign, "joint_offset_deg": preset.opw.joint_offset_deg})
 }
 
 /// The table, in the order of the pipeline.
 static TABLE: &[Row] = {
     use Kind::{Choice, Integer, Number, Set, Table, Text, Vector};
     &[
-        field("robot.preset", "Robot", "", Choice, || json!("staubli-rx90"), "An arm of the library, or your own as a modified Denavit-Hartenberg table.").words(&ROBOTS),
+        field("robot.preset", "Robot", "", Choice, || json!("staubli-rx90"), "An arm of the library, or your own by ortho-parallel lengths or a modified Denavit-Hartenberg table."),
         field("robot.name", "Name", "", Text, || json!("My robot"), "For the report.").when("robot", &["table", "opw"]),
-        field("robot.modified_dh", "Modified DH table", "deg, mm", Table, rx90_rows, "One row a joint: twist and length to the joint before, offset along the axis, constant part of the angle, and 1 or -1 for the way it is counted.").when("robot", &["table"]),
-        field("robot.opw", "Ortho-parallel parameters", "mm, deg", Table, rx90_opw, "Lengths a1 to c4 as robot packages list them (Brandstoetter 2014), and for each joint its sign and zero offset: the parameters' own angle is sign times joint value less the offset. KUKA: signs -1 1 1 -1 1 -1, offset of joint 2 -90; ABB: all 1, joint 3 -90.").range(-20000.0, 20000.0).when("robot", &["opw"]),
-        field("robot.joint_limits_deg", "Joint ranges", "deg", Table, || json!(library::ROBOTS[0].joint_limits_deg), "Lowest and highest angle of each joint in the robot's own zero; from the data sheet.").when("robot", &["table", "opw"]),
-        field("robot.joint_compliance_rad_per_nm", "Joint compliance", "rad/(N m)", Table, || json!(library::ROBOTS[0].joint_compliance), "How far each joint turns under 1 N m; 1 divided by its stiffness, from a load test or a paper. Measured values of one robot family scatter by a factor of two and more.").range(0.0, 1e-2),
+        field("robot.modified_dh", "Modified DH table", "deg, mm", Table, || rx90(dh_rows), "One row a joint: twist and length to the joint before, offset along the axis, constant part of the angle, and 1 or -1 for the way it is counted.").when("robot", &["table"]),
+        field("robot.opw", "Ortho-parallel parameters", "mm, deg", Table, || rx90(opw), "Lengths a1 to c4 as robot packages list them (Brandstoetter 2014), and for each joint its sign and zero offset: the parameters' own angle is sign times joint value less the offset. KUKA: signs -1 1 1 -1 1 -1, offset of joint 2 -90; ABB: all 1, joint 3 -90.").range(-20000.0, 20000.0).when("robot", &["opw"]),
+        field("robot.joint_limits_deg", "Joint ranges", "deg", Table, || rx90(|preset| json!(preset.joint_limits_deg)), "Lowest and highest angle of each joint in the robot's own zero; from the data sheet.").when("robot", &["table", "opw"]),
+        field("robot.joint_compliance_rad_per_nm", "Joint compliance", "rad/(N m)", Table, || rx90(|preset| json!(preset.joint_compliance)), "How far each joint turns under 1 N m; 1 divided by its stiffness, from a load test or a paper. Measured values of one robot family scatter by a factor of two and more.").range(0.0, 1e-2),
         field("tool_frame.xyz_mm", "Tool tip on the flange", "mm", Vector, || json!([0, 0, 0]), "Position of the tip (TCP) in the flange frame, as in the controller's tool data.").range(-5000.0, 5000.0),
         field("tool_frame.rpy_deg", "Tool orientation", "deg", Vector, || json!([0, 0, 0]), "Roll, pitch and yaw of the TCP; its z axis points out of the tool towards the part.").range(-360.0, 360.0),
         field("workpiece_frame.xyz_mm", "Workpiece position", "mm", Vector, || json!([0, 0, 0]), "Origin of the workpiece frame in the cell; with the robot's base at zero, in the base frame, as in the controller's base or work object data.").range(-20000.0, 20000.0),

@@ -23,6 +23,10 @@ const MAX_SAMPLES: f64 = 2e6;
 pub struct Setup {
     /// The arm with its tool.
     pub robot: Robot,
+    /// Where its compliance comes from and how far to trust it.
+    pub stiffness_note: String,
+    /// Whether its compliance is only an order of magnitude.
+    pub stiffness_assumed: bool,
     /// The desired path in the base frame.
     pub path: Path,
     /// The robot's base in the cell, whose z axis points up.
@@ -69,7 +73,8 @@ impl Job {
             return Err(invalid("version", self.version, "this Armill reads version 1"));
         }
         fields::check_ranges(self)?;
-        let robot = self.robot()?;
+        let (robot, stiffness_note, stiffness_assumed) = self.arm()?;
+        let robot = robot.with_tool(frame(&self.tool_frame));
         let base = frame(&self.base_frame);
         let workpiece = base.inverse().compose(&frame(&self.workpiece_frame));
         let (path, listing) = self.desired_path(on_read)?;
@@ -127,6 +132,8 @@ impl Job {
         let sources = Sources { deflection: has(Source::Deflection), shaping: has(Source::Shaping) };
         Ok(Setup {
             robot,
+            stiffness_note,
+            stiffness_assumed,
             path,
             base,
             workpiece,
@@ -148,10 +155,11 @@ impl Job {
     /// # Errors
     /// What is wrong with the robot.
     pub fn robot(&self) -> Result<Robot, Error> {
-        Ok(self.arm()?.with_tool(frame(&self.tool_frame)))
+        Ok(self.arm()?.0.with_tool(frame(&self.tool_frame)))
     }
 
-    fn arm(&self) -> Result<Robot, Error> {
+    /// The arm without its tool; where its compliance comes from, and whether that is only an order of magnitude.
+    fn arm(&self) -> Result<(Robot, String, bool), Error> {
         let given = &self.robot;
         let forms = [given.preset.is_some(), given.modified_dh.is_some(), given.opw.is_some()];
         if forms.into_iter().filter(|form| *form).count() > 1 {
@@ -162,12 +170,11 @@ impl Job {
                 "give one of preset, modified_dh and opw",
             ));
         }
+        let mut library_note = None;
         let (name, links, limits, compliance) = if let Some(id) = &given.preset {
-            let Some(preset) = library::ROBOTS.iter().find(|robot| robot.id == id) else {
-                let known = library::ROBOTS.iter().map(|robot| robot.id);
-                return Err(unknown_preset("robot.preset", id, known));
-            };
-            (preset.name, preset.links(), Some(preset.limits()), Some(preset.joint_compliance))
+            let preset = library::robot(id)?;
+            library_note = Some((preset.stiffness_note.clone(), preset.stiffness_assumed));
+            (preset.name(), preset.links(), preset.limits(), Some(preset.joint_compliance))
         } else if let Some(rows) = given.modified_dh {
             let links = rows.map(|row| Link {
                 alpha: row.alpha_deg * DEG,
@@ -176,9 +183,9 @@ impl Job {
                 theta_offset: row.theta_offset_deg * DEG,
                 sign: row.joint_sign,
             });
-            ("", links, None, None)
+            (String::new(), links, None, None)
         } else if let Some(opw) = &given.opw {
-            ("", ortho_parallel(opw)?.links(), None, None)
+            (String::new(), ortho_parallel(opw)?.links(), None, None)
         } else {
             return Err(missing("robot.preset", "name a preset, or give modified_dh or opw"));
         };
@@ -187,7 +194,12 @@ impl Job {
         let compliance = given.joint_compliance_rad_per_nm.or(compliance).ok_or_else(|| {
             missing("robot.joint_compliance_rad_per_nm", "six compliances, 0 for a rigid joint")
         })?;
-        Robot::new(given.name.clone().unwrap_or_else(|| name.to_owned()), links, limits, compliance)
+        let (note, assumed) = match (given.joint_compliance_rad_per_nm, library_note) {
+            (None, Some(note)) => note,
+            _ => ("Joint stiffness: as given in the job.".into(), false),
+        };
+        let robot = Robot::new(given.name.clone().unwrap_or(name), links, limits, compliance)?;
+        Ok((robot, note, assumed))
     }
 
     fn input_shaper(&self) -> Result<(motion::Shaper, Option<(f64, f64)>), Error> {

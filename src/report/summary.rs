@@ -83,6 +83,8 @@ pub struct Summary {
     pub program: Option<Understood>,
     /// Name of the robot.
     pub robot: String,
+    /// Where the joints' compliance comes from and how far to trust it.
+    pub stiffness: String,
     /// The arm's branch at the start, in words.
     pub branch: String,
     /// What is odd but workable.
@@ -205,6 +207,7 @@ impl Report {
             verdict: self.verdict(),
             program: self.setup.listing.as_ref().map(|listing| Understood::of(listing, &self.plan.path)),
             robot: self.plan.robot.name().to_owned(),
+            stiffness: self.setup.stiffness_note.clone(),
             branch,
             warnings: self.warnings.clone(),
         }

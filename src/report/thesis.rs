@@ -39,10 +39,10 @@ pub const TABLE_5_1: [([f64; 4], [f64; 3]); 8] = [
 
 /// The RX-90 of the thesis, with its d6 [m]: Table 3.2's 85 mm, or 0 where the thesis takes the wrist point as the tip.
 pub fn rx90(d6: f64) -> Result<Robot, Error> {
-    let preset = &library::ROBOTS[0];
+    let preset = library::robot("staubli-rx90")?;
     let mut links = preset.links();
     links[5].d = d6;
-    Robot::new(preset.name, links, Some(preset.limits()), preset.joint_compliance)
+    Robot::new(preset.name(), links, preset.limits(), preset.joint_compliance)
 }
 
 /// All rows; `report` is the default job's.

@@ -78,6 +78,10 @@ pub(crate) fn warnings(
     after_max: f64,
 ) -> Vec<Warning> {
     let mut warnings = Vec::new();
+    if setup.stiffness_assumed {
+        let message = "nobody has published the joint stiffness of this robot: deflections are an order of magnitude, off by a factor of 2 as a rule and of 8 in single joints; enter your own";
+        warnings.push(Warning::new("stiffness-assumed", message));
+    }
     limits(plan, joints, compensation, &mut warnings);
     singularities(plan, joints, &mut warnings);
     cut(setup, plan, &mut warnings);

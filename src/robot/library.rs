@@ -1,65 +1,182 @@
-//! Robots that come with Armill, each with the source of its numbers.
+//! Robots that come with Armill, each with the source of its numbers and how far to trust them. The data stand in `library/`.
 
+use crate::error::Error;
+use crate::math;
+use crate::robot::Opw;
 use crate::robot::model::Link;
-use crate::units::{DEG, MM};
+use crate::units::DEG;
+
+const ROBOTS: &str = include_str!("library/robots.csv");
+const ZEROS: &str = include_str!("library/zeros.csv");
+const STIFFNESS: &str = include_str!("library/stiffness.csv");
+const SOURCES: &str = include_str!("library/sources.txt");
 
 /// A robot of the library.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Preset {
     /// Key used in jobs.
     pub id: &'static str,
-    /// Name as read.
-    pub name: &'static str,
-    /// Where each number comes from and how far to trust it.
-    pub note: &'static str,
-    /// Modified DH table: alpha [deg], a [mm], d [mm], theta offset [deg].
-    pub modified_dh: [[f64; 4]; 6],
-    /// Joint ranges [deg].
-    pub joint_limits_deg: [[f64; 2]; 6],
+    /// Who makes it.
+    pub maker: &'static str,
+    /// The maker's name for it.
+    pub model: &'static str,
+    /// Lengths, joint signs and zero offsets.
+    pub opw: Opw,
+    /// Joint ranges [deg], where they are known.
+    pub joint_limits_deg: Option<[[f64; 2]; 6]>,
     /// Joint compliances [rad/(N m)].
     pub joint_compliance: [f64; 6],
+    /// Whether the compliance is only the order of magnitude of [`assumed_compliance`].
+    pub stiffness_assumed: bool,
+    /// Where the geometry comes from and how far to trust it.
+    pub geometry_note: String,
+    /// The same of the compliance.
+    pub stiffness_note: String,
+    /// The same of the first natural frequency.
+    pub mode_note: String,
 }
 
 impl Preset {
-    /// The DH table in SI.
-    pub fn links(&self) -> [Link; 6] {
-        self.modified_dh.map(|[alpha, a, d, theta_offset]| Link {
-            alpha: alpha * DEG,
-            a: a * MM,
-            d: d * MM,
-            theta_offset: theta_offset * DEG,
-            sign: 1.0,
-        })
+    /// Name as read.
+    pub fn name(&self) -> String {
+        format!("{} {}", self.maker, self.model)
     }
 
-    /// The joint ranges in SI.
-    pub fn limits(&self) -> [(f64, f64); 6] {
-        self.joint_limits_deg.map(|[low, high]| (low * DEG, high * DEG))
+    /// The modified DH table in SI.
+    pub fn links(&self) -> [Link; 6] {
+        self.opw.links()
+    }
+
+    /// The joint ranges in SI, where they are known.
+    pub fn limits(&self) -> Option<[(f64, f64); 6]> {
+        self.joint_limits_deg.map(|ranges| ranges.map(|[low, high]| (low * DEG, high * DEG)))
     }
 }
 
+/// Id, maker and model of every robot, in the order of the file.
+pub fn names() -> impl Iterator<Item = [&'static str; 3]> {
+    rows(ROBOTS).map(|mut row| [row(), row(), row()])
+}
+
 /// All robots of the library.
-pub const ROBOTS: [Preset; 1] = [Preset {
-    id: "staubli-rx90",
-    name: "Stäubli RX-90",
-    note: "Geometry: thesis Tables 3.1 and 3.2. Joint compliance: thesis Table 3.4, which cites static load tests; \
-           no second source was found, and joint 6, for which it has no value, is taken as rigid (with the tool on axis 6 it cannot move the tip). \
-           Joint ranges: recalled from the maker's data sheet, medium confidence.",
-    modified_dh: [
-        [0.0, 0.0, 420.0, 0.0],
-        [-90.0, 0.0, 0.0, -90.0],
-        [0.0, 450.0, 0.0, 90.0],
-        [90.0, 0.0, 650.0, 0.0],
-        [-90.0, 0.0, 0.0, 0.0],
-        [90.0, 0.0, 85.0, 0.0],
-    ],
-    joint_limits_deg: [
-        [-160.0, 160.0],
-        [-137.5, 137.5],
-        [-142.5, 142.5],
-        [-270.0, 270.0],
-        [-105.0, 120.0],
-        [-270.0, 270.0],
-    ],
-    joint_compliance: [9.03e-7, 11.17e-7, 14.74e-7, 27.65e-7, 97.58e-7, 0.0],
-}];
+pub fn robots() -> impl Iterator<Item = Preset> {
+    rows(ROBOTS).map(|row| preset(row))
+}
+
+/// The robot with this key.
+///
+/// # Errors
+/// [`Error::Invalid`] with the keys there are.
+pub fn robot(id: &str) -> Result<Preset, Error> {
+    robots().find(|preset| preset.id == id).ok_or_else(|| Error::Invalid {
+        field: "robot.preset".into(),
+        value: format!("\"{id}\""),
+        expected: format!("the library has {}", names().map(|[id, ..]| id).collect::<Vec<_>>().join(", ")),
+    })
+}
+
+/// Joint stiffness at [`RULE_PAYLOAD`] [Nm/rad]: geometric means of the measured values in `stiffness.csv`, each brought to that payload.
+pub const RULE_STIFFNESS: [f64; 6] = [2.3e6, 3.2e6, 2.1e6, 4.4e5, 3.3e5, 3.4e5];
+/// Payload that [`RULE_STIFFNESS`] is for [kg].
+pub const RULE_PAYLOAD: f64 = 200.0;
+
+/// Joint compliance [rad/(N m)] of an arm whose stiffness nobody has published, by its rated payload [kg]: an order of magnitude.
+///
+/// k_i = K_i (payload / 200 kg)^(1/3). The exponent and K_i are the least-squares fit (in logarithms; 0.29, rounded up) over the eight
+/// published sets in `stiffness.csv`, from 6 to 500 kg; single values lie off by a factor of 1.9 (one standard deviation) and of up to 8.
+pub fn assumed_compliance(payload: f64) -> [f64; 6] {
+    let scale = math::pow(payload / RULE_PAYLOAD, 1.0 / 3.0);
+    RULE_STIFFNESS.map(|k| 1.0 / (k * scale))
+}
+
+/// A published set of joint stiffnesses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Published {
+    /// Key used in `robots.csv`; empty if no robot of the library has it.
+    pub key: &'static str,
+    /// Rated payload of the robot [kg].
+    pub payload: f64,
+    /// Joint compliances [rad/(N m)], where they are given.
+    pub compliance: [Option<f64>; 6],
+    /// Which of them are measurements of the joint.
+    pub measured: [bool; 6],
+    /// First natural frequency and damping ratio in words; empty where they were not measured.
+    pub mode: &'static str,
+    /// How far to trust it.
+    pub confidence: &'static str,
+    /// Where it comes from.
+    pub source: &'static str,
+}
+
+/// All published sets.
+pub fn published() -> impl Iterator<Item = Published> {
+    rows(STIFFNESS).map(|mut row| {
+        let (key, _, payload, unit) = (row(), row(), number(row()), row());
+        let values: [&str; 6] = std::array::from_fn(|_| row());
+        let compliance = values.map(|text| {
+            let value = number(text.trim_end_matches('?'));
+            let compliance = if unit == "rad/Nm" { value } else { 1.0 / value };
+            (!text.is_empty()).then_some(compliance)
+        });
+        let measured = values.map(|text| !text.is_empty() && !text.ends_with('?'));
+        Published { key, payload, compliance, measured, mode: row(), confidence: row(), source: row() }
+    })
+}
+
+/// The data lines of a table, each as a giver of one cell after the other.
+fn rows(table: &'static str) -> impl Iterator<Item = impl FnMut() -> &'static str> {
+    table.lines().skip(1).map(|line| {
+        let mut cells = line.split(';');
+        move || cells.next().unwrap_or_default()
+    })
+}
+
+fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
+    let (id, maker, model, payload) = (row(), row(), row(), number(row()));
+    let lengths_mm = std::array::from_fn(|_| number(row()));
+    let (zero, limits, source, confidence, stiffness) = (row(), row(), row(), row(), row());
+    let mut zeros =
+        rows(ZEROS).filter_map(|mut row| (row() == zero).then(|| [numbers(row()), numbers(row())]));
+    let [joint_sign, joint_offset_deg] = zeros.next().unwrap_or([[f64::NAN; 6]; 2]);
+    let mut ranges = limits.split(' ').map(|range| match range.split_once(':') {
+        Some((low, high)) => [number(low), number(high)],
+        None => [-number(range), number(range)],
+    });
+    let limits = (!limits.is_empty()).then(|| [0; 6].map(|_| ranges.next().unwrap_or([f64::NAN; 2])));
+    let source = source.parse().ok().and_then(|line| SOURCES.lines().nth(line)).unwrap_or_default();
+    let known = published().find(|set| set.key == stiffness && !stiffness.is_empty());
+    let stiffness_note = match &known {
+        Some(set) => format!("Joint stiffness: {} ({}).", set.source, set.confidence),
+        None => format!(
+            "Joint stiffness: not known for this robot. The values are an order of magnitude for {payload} kg of payload, from eight published sets of other arms, which scatter by a factor of 2, single joints by 8: identify your own."
+        ),
+    };
+    let mode_note = match known.as_ref().map(|set| set.mode).filter(|mode| !mode.is_empty()) {
+        Some(mode) => format!("First natural frequency: {mode}."),
+        None => String::new(),
+    };
+    Preset {
+        id,
+        maker,
+        model,
+        opw: Opw { lengths_mm, joint_sign, joint_offset_deg },
+        joint_limits_deg: limits,
+        joint_compliance: match &known {
+            Some(set) => set.compliance.map(|c| c.unwrap_or(0.0)),
+            None => assumed_compliance(payload),
+        },
+        stiffness_assumed: known.is_none(),
+        geometry_note: format!("Geometry: {source} (confidence {confidence})."),
+        stiffness_note,
+        mode_note,
+    }
+}
+
+fn number(text: &str) -> f64 {
+    text.parse().unwrap_or(f64::NAN)
+}
+
+fn numbers(text: &str) -> [f64; 6] {
+    let mut values = text.split(' ').map(number);
+    [0; 6].map(|_| values.next().unwrap_or(f64::NAN))
+}

@@ -1,0 +1,201 @@
+//! The library of robots: its data are whole, its kinematics agree with another author's, its rule for unknown stiffness with its own sources.
+#![cfg(not(target_arch = "wasm32"))]
+#![allow(clippy::disallowed_types, clippy::disallowed_methods, reason = "compared within tolerances")]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(clippy::print_stdout, reason = "quantiles are worth seeing: cargo test -- --nocapture")]
+
+mod common;
+
+use armill::math::Pose;
+use armill::robot::library::{self, RULE_PAYLOAD, RULE_STIFFNESS};
+use armill::robot::{Joints, Robot, forward, inverse};
+use common::{any_joints, run};
+use nalgebra::{Matrix3, Vector3};
+use rs_opw_kinematics::kinematic_traits::Kinematics;
+use rs_opw_kinematics::kinematics_impl::OPWKinematics;
+use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
+use serde_json::json;
+use std::collections::BTreeSet;
+use std::f64::consts::TAU;
+
+fn robot(preset: &library::Preset) -> Robot {
+    Robot::new(preset.name(), preset.links(), preset.limits(), preset.joint_compliance).unwrap()
+}
+
+/// The same arm by rs-opw-kinematics.
+fn peer(preset: &library::Preset) -> OPWKinematics {
+    let [a1, a2, b, c1, c2, c3, c4] = preset.opw.lengths_mm.map(|length| length * 1e-3);
+    OPWKinematics::new(Parameters {
+        a1,
+        a2,
+        b,
+        c1,
+        c2,
+        c3,
+        c4,
+        offsets: preset.opw.joint_offset_deg.map(f64::to_radians),
+        sign_corrections: preset.opw.joint_sign.map(|sign| sign as i8),
+        dof: 6,
+    })
+}
+
+fn pose_of(peer: &rs_opw_kinematics::pose::Pose) -> Pose {
+    let rotation: Vec<f64> = glam_columns(peer);
+    Pose {
+        rotation: Matrix3::from_column_slice(&rotation),
+        position: Vector3::new(peer.translation.x, peer.translation.y, peer.translation.z),
+    }
+}
+
+/// The columns of the rotation matrix of the peer's quaternion (x, y, z, w).
+fn glam_columns(peer: &rs_opw_kinematics::pose::Pose) -> Vec<f64> {
+    let [x, y, z, w] = peer.rotation.to_array();
+    let q = nalgebra::UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z));
+    q.to_rotation_matrix().matrix().iter().copied().collect()
+}
+
+/// q75, q99 and the largest.
+fn quantiles(mut errors: Vec<f64>) -> [f64; 3] {
+    errors.sort_by(f64::total_cmp);
+    let at = |share: f64| errors[((errors.len() - 1) as f64 * share) as usize];
+    [at(0.75), at(0.99), at(1.0)]
+}
+
+#[test]
+fn every_line_is_whole() {
+    let all: Vec<_> = library::robots().collect();
+    assert!(all.len() >= 60, "{}", all.len());
+    assert_eq!(
+        all.len(),
+        all.iter().map(|preset| preset.id).collect::<BTreeSet<_>>().len(),
+        "ids are unique"
+    );
+    for preset in &all {
+        let robot = robot(preset);
+        assert!(preset.geometry_note.len() > 40, "{} names its source: {}", preset.id, preset.geometry_note);
+        assert_eq!(
+            preset.stiffness_assumed,
+            preset.stiffness_note.contains("order of magnitude"),
+            "{}",
+            preset.id
+        );
+        // Of the size for machining, or of the RX-90's family.
+        let reach = robot.reach().1 + preset.opw.lengths_mm[0] * 1e-3;
+        assert!(reach > 1.5 || preset.maker == "Stäubli", "{} reaches {reach} m", preset.id);
+        assert!(preset.joint_compliance.iter().all(|c| (0.0..2e-5).contains(c)), "{}", preset.id);
+        for [low, high] in preset.joint_limits_deg.into_iter().flatten() {
+            assert!(-500.0 < low && low < high && high < 500.0, "{}: {low} to {high}", preset.id);
+        }
+    }
+    let known = all.iter().filter(|preset| !preset.stiffness_assumed).count();
+    assert_eq!(known, 4);
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/robot/library");
+    let files = ["robots.csv", "zeros.csv", "stiffness.csv", "sources.txt"];
+    let bytes: u64 =
+        files.iter().map(|file| std::fs::metadata(format!("{folder}/{file}")).unwrap().len()).sum();
+    assert!(bytes < 12_000, "the library is {bytes} bytes");
+}
+
+#[test]
+fn forward_and_inverse_agree_with_another_authors() {
+    let mut random = fastrand::Rng::with_seed(41);
+    let (mut places, mut turns, mut angles) = (Vec::new(), Vec::new(), Vec::new());
+    for preset in library::robots() {
+        let (ours, theirs) = (robot(&preset), peer(&preset));
+        for _ in 0..150 {
+            let q = any_joints(&mut random);
+            let tcp = forward::forward(&ours, &q);
+            let joints: [f64; 6] = q.into();
+            let other = pose_of(&theirs.forward(&joints));
+            places.push((tcp.position - other.position).norm());
+            turns.push((tcp.rotation - other.rotation).norm());
+
+            let solutions = inverse::inverse(&ours, &tcp, &Joints::zeros()).unwrap();
+            let margin = solutions
+                .iter()
+                .map(|s| s.margin.elbow.min(s.margin.wrist).min(s.margin.shoulder))
+                .fold(f64::INFINITY, f64::min);
+            // Near a singularity both are right about the pose and differ in the angles.
+            if margin < 0.05 {
+                continue;
+            }
+            for solution in theirs.inverse(&theirs.forward(&joints)) {
+                let apart = |s: &inverse::Solution| {
+                    let turn = |d: f64| (d - TAU * (d / TAU).round()).abs();
+                    (s.q - Joints::from(solution)).iter().map(|d| turn(*d)).fold(0.0, f64::max)
+                };
+                angles.push(solutions.iter().map(apart).fold(f64::INFINITY, f64::min));
+            }
+        }
+    }
+    let count = angles.len();
+    let [places, turns, angles] = [places, turns, angles].map(quantiles);
+    println!("q75, q99, max: position {places:?} m, rotation {turns:?}, {count} solutions {angles:?} rad");
+    assert!(count > 20_000, "{count} solutions were compared");
+    // Both are double precision over 3 m: rounding.
+    assert!(places[2] < 1e-14 && turns[2] < 1e-14);
+    assert!(angles[0] < 1e-14 && angles[1] < 1e-13 && angles[2] < 1e-11, "{angles:?}");
+}
+
+#[test]
+fn the_rule_for_unknown_stiffness_follows_from_the_published_sets() {
+    let sets: Vec<_> = library::published().collect();
+    assert_eq!(sets.len(), 8);
+    // ln k = ln K_i + p ln(payload / 200 kg): for given p, ln K_i is a mean; p by the smallest sum of squares.
+    let fit = |p: f64| {
+        let logs = |i: usize| -> Vec<f64> {
+            let of = |set: &library::Published| {
+                set.measured[i]
+                    .then(|| -set.compliance[i].unwrap().ln() - p * (set.payload / RULE_PAYLOAD).ln())
+            };
+            sets.iter().filter_map(of).collect()
+        };
+        let means: [f64; 6] = std::array::from_fn(|i| logs(i).iter().sum::<f64>() / logs(i).len() as f64);
+        let rest: Vec<f64> = (0..6).flat_map(|i| logs(i).into_iter().map(move |l| l - means[i])).collect();
+        (means.map(f64::exp), rest)
+    };
+    let squares = |p: f64| fit(p).1.iter().map(|r| r * r).sum::<f64>();
+    let best =
+        (0..1500).map(|p| f64::from(p) / 1000.0).min_by(|a, b| squares(*a).total_cmp(&squares(*b))).unwrap();
+    assert!((best - 0.285).abs() < 0.01, "best exponent {best}");
+    let (stiffness, rest) = fit(1.0 / 3.0);
+    for (rule, fitted) in RULE_STIFFNESS.iter().zip(stiffness) {
+        assert!((rule / fitted - 1.0).abs() < 0.03, "two digits: {rule} against {fitted}");
+    }
+    let deviation = (rest.iter().map(|r| r * r).sum::<f64>() / (rest.len() - 7) as f64).sqrt().exp();
+    let worst = rest.iter().fold(0.0_f64, |a, b| a.max(b.abs())).exp();
+    assert!((1.8..2.0).contains(&deviation) && (8.0..9.0).contains(&worst), "{deviation}, {worst}");
+}
+
+#[test]
+fn assumed_stiffness_is_remarked_and_ones_own_is_not() {
+    let path = json!({"kind":"line","from_mm":[1600,-200,800],"to_mm":[1600,200,800]});
+    let codes = |robot: serde_json::Value| {
+        let report = run(&[("robot", robot), ("path", path.clone())]);
+        let remarked = report.warnings.iter().any(|warning| warning.code == "stiffness-assumed");
+        (remarked, report.summary().stiffness)
+    };
+    let (remarked, note) = codes(json!({"preset":"kuka-kr-210-r2700-2"}));
+    assert!(remarked && note.contains("order of magnitude"), "{note}");
+    let (remarked, note) = codes(json!({"preset":"kuka-kr-500-3-mt"}));
+    assert!(!remarked && note.contains("COROUSSO"), "{note}");
+    let own =
+        json!({"preset":"kuka-kr-210-r2700-2","joint_compliance_rad_per_nm":[1e-6,1e-6,1e-6,1e-6,1e-6,1e-6]});
+    assert_eq!(codes(own), (false, "Joint stiffness: as given in the job.".into()));
+}
+
+#[test]
+fn every_robot_mills_a_line_in_front_of_it() {
+    for preset in library::robots() {
+        let reach = robot(&preset).reach().1 * 1e3;
+        let x = preset.opw.lengths_mm[0] + 0.65 * reach;
+        let z = preset.opw.lengths_mm[3] - 0.2 * reach;
+        let report = run(&[
+            ("robot", json!({ "preset": preset.id })),
+            ("path", json!({"kind":"line","from_mm":[x,-50,z],"to_mm":[x,50,z]})),
+        ]);
+        assert!(report.compensation.converged, "{}: {:?}", preset.id, report.warnings);
+        let limits = report.warnings.iter().filter(|warning| warning.code == "joint-limit").count();
+        assert_eq!(limits, 0, "{}: {:?}", preset.id, report.warnings);
+    }
+}
