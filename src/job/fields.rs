@@ -77,7 +77,7 @@ pub struct Word {
     /// As in the JSON.
     pub value: &'static str,
     /// As read.
-    pub label: &'static str,
+    pub label: String,
     /// Heading that it stands under, where there are many.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub heading: Option<&'static str>,
@@ -141,10 +141,18 @@ impl Row {
             "tool_frame" | "base_frame" | "workpiece_frame" | "start_branch" => "frames",
             other => other,
         };
-        let word = |&(value, label): &(&'static str, &'static str)| Word { value, label, heading: None };
+        let word = |&(value, label): &(&'static str, &'static str)| Word {
+            value,
+            label: label.into(),
+            heading: None,
+        };
         let choices = if self.path == "robot.preset" {
             library::names()
-                .map(|[value, maker, label]| Word { value, label, heading: Some(maker) })
+                .map(|[value, maker, model]| Word {
+                    value,
+                    label: format!("{maker} {model}"),
+                    heading: Some(maker),
+                })
                 .collect()
         } else {
             self.words.iter().map(word).collect()

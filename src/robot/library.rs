@@ -84,9 +84,10 @@ pub const RULE_PAYLOAD: f64 = 200.0;
 ///
 /// k_i = K_i (payload / 200 kg)^(1/3). The exponent and K_i are the least-squares fit (in logarithms; 0.29, rounded up) over the eight
 /// published sets in `stiffness.csv`, from 6 to 500 kg; single values lie off by a factor of 1.9 (one standard deviation) and of up to 8.
+/// More than one digit of the result would mean nothing.
 pub fn assumed_compliance(payload: f64) -> [f64; 6] {
     let scale = math::pow(payload / RULE_PAYLOAD, 1.0 / 3.0);
-    RULE_STIFFNESS.map(|k| 1.0 / (k * scale))
+    RULE_STIFFNESS.map(|k| number(&format!("{:.0e}", 1.0 / (k * scale))))
 }
 
 /// A published set of joint stiffnesses.
@@ -115,7 +116,8 @@ pub fn published() -> impl Iterator<Item = Published> {
         let values: [&str; 6] = std::array::from_fn(|_| row());
         let compliance = values.map(|text| {
             let value = number(text.trim_end_matches('?'));
-            let compliance = if unit == "rad/Nm" { value } else { 1.0 / value };
+            // More than four digits are nowhere measured.
+            let compliance = if unit == "rad/Nm" { value } else { number(&format!("{:.3e}", 1.0 / value)) };
             (!text.is_empty()).then_some(compliance)
         });
         let measured = values.map(|text| !text.is_empty() && !text.ends_with('?'));

@@ -15,7 +15,7 @@ export class Mistake extends Error {
 }
 
 /** The order in which tables of the field print a row. */
-const DH_ORDER = ["alpha_deg", "a_mm", "d_mm", "theta_offset_deg"];
+const DH_ORDER = ["alpha_deg", "a_mm", "d_mm", "theta_offset_deg", "joint_sign", "offset_deg"];
 
 export const idOf = (path) => path.replaceAll(".", "-");
 
@@ -26,6 +26,7 @@ export function editorFor(field) {
   if (field.kind === "choice") return choice(field);
   if (field.kind === "set") return checkboxes(field);
   if (field.kind === "vector") return vector(field);
+  if (field.path === "robot.opw") return lengths(field);
   if (field.kind === "table") return table(field);
   if (field.path === "path.text") return program();
   if (field.kind === "text") return text(field);
@@ -86,8 +87,15 @@ function numberOrWord(field, { value: word, label }) {
 }
 
 function choice(field) {
-  const options = field.choices.map(({ value, label }) => make("option", { value }, label));
-  const input = make("select", { id: idOf(field.path) }, ...options);
+  const input = make("select", { id: idOf(field.path) });
+  const groups = new Map();
+  for (const { value, label, heading } of field.choices) {
+    if (heading && !groups.has(heading)) {
+      groups.set(heading, make("optgroup", { label: heading }));
+      input.append(groups.get(heading));
+    }
+    (groups.get(heading) ?? input).append(make("option", { value }, label));
+  }
   return single(field, input, () => input.value, (value) => (input.value = value));
 }
 
@@ -122,7 +130,7 @@ function table(field) {
   const id = idOf(field.path);
   const sample = field.default[0];
   const columns = typeof sample !== "object" ? [null] : Object.keys(sample).sort((a, b) => DH_ORDER.indexOf(a) - DH_ORDER.indexOf(b));
-  const heads = columns[0] === null ? [""] : columns.length === 2 ? ["lowest", "highest"] : columns.map(heading);
+  const heads = columns[0] === null ? [""] : Array.isArray(sample) ? ["lowest", "highest"] : columns.map(heading);
   const rowName = (row) => (field.path.startsWith("robot.") ? `J${row + 1}` : `${row + 1}`);
   const cells = field.default.map((_, row) =>
     columns.map((key, column) => {
@@ -150,6 +158,32 @@ function table(field) {
       const row = cells[indexIn(rest)] ?? cells[0];
       const column = columns.findIndex((key) => key !== null && (rest.endsWith(`.${key}`) || rest.endsWith(`][${key}]`)));
       return row[Math.max(0, column)];
+    },
+  };
+}
+
+/** Ortho-parallel parameters: seven lengths, then sign and zero offset of each joint. */
+function lengths(field) {
+  const id = idOf(field.path);
+  const scalars = Object.keys(field.default).filter((key) => key.endsWith("_mm"));
+  const inputs = scalars.map((key) => numberInput(`${id}-${key}`));
+  const parts = scalars.map((key, i) => make("label", { className: "part", for: inputs[i].id }, make("span", {}, key.replace("_mm", "")), inputs[i]));
+  const joints = table({ path: field.path, default: field.default.joint_sign.map((sign, i) => ({ joint_sign: sign, offset_deg: field.default.joint_offset_deg[i] })) });
+  return {
+    node: make("div", { id: `${id}-lengths`, role: "group" }, make("div", { className: "vector lengths" }, ...parts), joints.node),
+    inputs: [...inputs, ...joints.inputs],
+    read() {
+      const rows = joints.read();
+      const values = scalars.map((key, i) => [key, typedNumber(inputs[i])]);
+      return { ...Object.fromEntries(values), joint_sign: rows.map((row) => row.joint_sign), joint_offset_deg: rows.map((row) => row.offset_deg) };
+    },
+    write(value) {
+      scalars.forEach((key, i) => (inputs[i].value = plainNumber(value[key])));
+      joints.write(value.joint_sign.map((sign, i) => ({ joint_sign: sign, offset_deg: value.joint_offset_deg[i] })));
+    },
+    at(rest) {
+      const scalar = inputs[scalars.findIndex((key) => rest.startsWith(`.${key}`))];
+      return scalar ?? joints.at(rest.replace(/^\.joint_(sign|offset_deg)(\[\d+\])$/, (_, key, row) => `${row}.${key === "sign" ? "joint_sign" : key}`));
     },
   };
 }
@@ -184,6 +218,7 @@ const indexIn = (rest) => Number(/^\[(\d+)\]/.exec(rest)?.[1] ?? 0);
 
 /** "theta_offset_deg" as a column heading: "theta offset, deg". */
 function heading(key) {
+  if (key === "joint_sign") return "sign";
   const at = key.lastIndexOf("_");
   return `${key.slice(0, at).replaceAll("_", " ")}, ${key.slice(at + 1)}`;
 }

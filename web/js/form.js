@@ -21,6 +21,7 @@ export class Form {
   #job;
   #onchange;
   #rows = [];
+  #robots; // id -> preset
   #groups = new Map();
 
   /** Fills `parent`; `onchange` is called after every edit, with the field's path while it is typed into. */
@@ -28,6 +29,7 @@ export class Form {
     this.#job = job;
     this.#onchange = onchange;
     const notes = Object.fromEntries([...presets.robots, ...presets.materials].map(({ id, note }) => [id, note]));
+    this.#robots = Object.fromEntries(presets.robots.map((robot) => [robot.id, robot]));
     for (const field of fields.map(withOwn)) {
       if (!this.#groups.has(field.group)) this.#addGroup(parent, field.group);
       const row = this.#row(field, notes);
@@ -209,7 +211,16 @@ export class Form {
 
   #decorate(row) {
     row.reset.classList.toggle("idle", !this.#job.changed(row.field));
+    if (row.field.path === "robot.joint_compliance_rad_per_nm") return this.#sourceOfCompliance(row);
     row.note.textContent = row.field.kind === "choice" ? (row.notes[this.#job.get(row.field)] ?? "") : "";
+  }
+
+  /** Beside the numbers: an order of magnitude must not look like a measurement. */
+  #sourceOfCompliance(row) {
+    const preset = this.#robots[this.#job.get(this.#rows.find(({ field }) => field.path === "robot.preset").field)];
+    const given = this.#job.changed(row.field);
+    row.note.textContent = preset && !given ? preset.stiffness_note : "";
+    row.node.classList.toggle("assumed", Boolean(preset?.stiffness_assumed && !given));
   }
 
   /** What a folded group holds, in a few words. */

@@ -2,10 +2,11 @@
 //
 // Some parts of a job take one of several shapes: a robot or material by preset or by numbers, a path of some kind,
 // a shaper or "none". A choice ending in `.preset` or `.kind` decides; the other fields of that part name in `when`
-// what they need: a value of that choice, or the state of the part itself ("preset", "table" or "hz").
+// what they need: a value of that choice, or the state of the part itself ("preset", "table", "opw" or "hz").
 
 const TURN = 2 * Math.PI;
 export const OWN = "table"; // what a preset choice says when the numbers are one's own
+const OWN_FORMS = [OWN, "opw"]; // a robot's may be ortho-parallel parameters instead
 
 const keys = (path) => path.match(/[^.[\]]+/g);
 const parentOf = (path) => path.slice(0, Math.max(0, path.lastIndexOf(".")));
@@ -46,7 +47,7 @@ export class Job {
     if (decides(field) && part === "none") return "none";
     const value = this.#read(field.path);
     if (value !== undefined) return value;
-    if (field.path.endsWith(".preset") && part) return OWN;
+    if (field.path.endsWith(".preset") && part) return this.#stateOf(parentOf(field.path));
     return this.#presetOf(parentOf(field.path))[keyOf(field.path)] ?? field.default;
   }
 
@@ -125,6 +126,7 @@ export class Job {
   #stateOf(path) {
     const part = this.#read(path);
     if (part?.frequency_hz !== undefined) return "hz";
+    if (part?.opw !== undefined) return "opw";
     return part?.preset === undefined ? OWN : "preset";
   }
 
@@ -169,16 +171,18 @@ export class Job {
 
   /** An object with every field of a part that is needed when `decider` is `choice`. */
   #shape(path, known, decider, choice) {
-    const byPreset = decider?.path.endsWith(".preset") && choice !== OWN;
+    const own = OWN_FORMS.includes(choice);
+    const byPreset = decider?.path.endsWith(".preset") && !own;
     const shape = {};
     for (const field of this.#fields) {
       const key = keyOf(field.path);
       if (parentOf(field.path) !== path) continue;
       if (field.path === decider?.path) {
-        if (choice !== OWN) shape[key] = choice;
+        if (!own) shape[key] = choice;
         continue;
       }
-      const needless = field.when?.path === decider?.path && field.when !== undefined && !field.when.is.includes(choice);
+      const asked = field.when && (field.when.path === decider?.path || (own && field.when.path === path));
+      const needless = asked && !field.when.is.includes(choice);
       if (byPreset || needless || this.#inOtherUnit(field, known)) continue;
       const standard = field.defaults?.[choice] ?? field.default;
       shape[key] = structuredClone(known.get(key) ?? this.#drafts.get(draftKey(field, choice)) ?? standard);

@@ -4,8 +4,13 @@ import { OWN } from "./job.js";
 import { plainNumber } from "./number.js";
 
 /** A preset choice that also offers one's own numbers. */
-export const withOwn = (field) =>
-  field.path.endsWith(".preset") ? { ...field, choices: [...field.choices, { value: OWN, label: "My own numbers" }] } : field;
+export function withOwn(field) {
+  if (!field.path.endsWith(".preset")) return field;
+  const own = field.path === "robot.preset"
+    ? [{ value: "opw", label: "Ortho-parallel lengths", heading: "My own numbers" }, { value: OWN, label: "Modified DH table", heading: "My own numbers" }]
+    : [{ value: OWN, label: "My own numbers" }];
+  return { ...field, choices: [...field.choices, ...own] };
+}
 
 const choiceLabel = (field, value) => field.choices.find((choice) => choice.value === value)?.label ?? String(value);
 
