@@ -5,7 +5,7 @@ mod common;
 
 use armill::Report;
 use armill::export::arc::Arc;
-use armill::export::command::{Command, Style};
+use armill::export::command::{Command, Course, Style};
 use armill::export::{Export, Options};
 use armill::math::{pow, sin, sin_cos};
 use armill::path::{Program, Segment};
@@ -142,7 +142,8 @@ fn an_arc_that_bends_becomes_few_arcs() {
         assert!(export.deviation <= thinning);
         assert!(export.text.contains("\nN2 (was: N2 G3 I-30 J0)\nG3 X"), "{}", export.text);
         let arcs = read.moves.iter().filter(|step| matches!(step.segment, Segment::Arc { .. })).count();
-        let chords = Command::new(&oval, Some(thinning), Style::default()).unwrap().points();
+        let chords =
+            Command::new(&oval, &Course::of(&oval), Some(thinning), Style::default()).unwrap().points();
         // A chord of a radius r strays by r a^2 / 8 over the angle a, an arc of an oval by the oval's share of that.
         assert!(arcs > 1 && arcs * 5 < chords, "{arcs} arcs, {chords} chords");
         let lines = read.moves.len() - arcs;
@@ -180,10 +181,13 @@ fn arcs_keep_within_the_tolerance() {
         let thinning = pow(10.0, number(-6.5, -4.5));
         let (export, _) = read_back(&report, "gcode", &Options { thinning: Some(thinning) });
         assert!(export.deviation <= thinning, "case {case}: {} of {thinning}\n{text}", export.deviation);
-        let command = Command::new(&report, Some(thinning), Style { arcs: true, inch: false }).unwrap();
+        let command = |arcs| {
+            let style = Style { arcs, ..Style::default() };
+            Command::new(&report, &export.course, Some(thinning), style).unwrap()
+        };
+        let (command, chords) = (command(true), command(false).points());
         let arcs: Vec<Arc> =
             command.blocks.iter().flat_map(|block| &block.steps).filter_map(|step| step.arc).collect();
-        let chords = Command::new(&report, Some(thinning), Style::default()).unwrap().points();
         assert!(!arcs.is_empty() || chords < 4, "case {case}: {chords} chords\n{text}");
         assert!(command.points() <= chords, "case {case}");
         let turned: f64 = arcs.iter().map(|arc| arc.sweep).sum();

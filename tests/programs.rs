@@ -93,8 +93,8 @@ fn a_program_keeps_its_lines() {
     assert_eq!(lines[find("(was: / N45")], "(was: / N45 M7)", "what a switch decides is not run");
     assert!(find("N20 ") < find("N30 ") && find("N30 ") < find("N40 ") && find("N50 ") < find("N60 M30"));
     // Read back, it is the compensated path; the rapids are where they were.
-    let (_, read) = read_back(&report, "gcode", &Options::default());
-    assert!(largest_distance(&commanded(&report), &chain(&read)) <= 1e-6);
+    let (export, read) = read_back(&report, "gcode", &Options::default());
+    assert!(largest_distance(&commanded(&report, &export), &chain(&read)) <= 1e-6);
     for step in &read.moves {
         let cuts = (find("N30 ")..find("N50 ")).contains(&(step.line - 1));
         assert_eq!(step.pace == MovePace::Rapid, !cuts, "line {}: {}", step.line, lines[step.line - 1]);
@@ -102,6 +102,7 @@ fn a_program_keeps_its_lines() {
     }
     // A plain line that need not bend stays one block with its number.
     let mut straight = report.clone();
+    straight.setup.goal.max_passes = 0;
     straight.compensation.correction.iter_mut().for_each(|c| *c = Vector3::new(1e-4, 0.0, 0.0));
     let text = written(&straight, "gcode").text;
     assert!(text.contains("\nN30 G1 X60.1 Y0.0 Z0.0 F6000.0 (side)\n"), "{text}");
@@ -109,7 +110,7 @@ fn a_program_keeps_its_lines() {
 
     let (inches, read) = read_back(&from_gcode(text_in_inches(), "inch"), "gcode", &Options::default());
     assert!(inches.text.contains("\nG20 G17") && inches.text.contains(" F23"), "{}", inches.text);
-    assert!(largest_distance(&commanded(&report), &chain(&read)) <= 1e-6);
+    assert!(largest_distance(&commanded(&report, &inches), &chain(&read)) <= 1e-6);
 }
 
 fn text_in_inches() -> &'static str {
@@ -123,7 +124,8 @@ fn a_tilted_axis_goes_to_apt_not_to_gcode() {
     report.compensation.axis.iter_mut().for_each(|axis| *axis = tilt * *axis);
     let error = export(&report, "gcode", &Options::default()).unwrap_err();
     assert!(error.to_string().contains("use apt"), "{error}");
-    let apt = written(&report, "apt").text;
+    let export = written(&report, "apt");
+    let apt = &export.text;
     assert!(apt.contains("\nMULTAX/ON\n") && apt.ends_with("FINI\n"));
     let back = report.setup.workpiece.inverse();
     let wanted: Vec<_> = report.compensation.axis.iter().map(|axis| back.direction(axis)).collect();
@@ -134,7 +136,7 @@ fn a_tilted_axis_goes_to_apt_not_to_gcode() {
         chain.push(Vector3::new(numbers[0], numbers[1], numbers[2]) * 1e-3);
         assert!((Vector3::new(numbers[3], numbers[4], numbers[5]) - wanted[0]).norm() < 1e-8);
     }
-    assert!(largest_distance(&commanded(&report), &chain) <= 1e-6);
+    assert!(largest_distance(&commanded(&report, &export), &chain) <= 1e-6);
     let upright = written(&run(&small_jobs()[0].1), "apt").text;
     assert!(
         !upright.contains("MULTAX")

@@ -7,7 +7,7 @@ mod common;
 use armill::Report;
 use armill::export::Options;
 use armill::export::arc::Step;
-use armill::export::command::{Block, Command, Style};
+use armill::export::command::{Block, Command, Course, Style};
 use armill::export::thin::LEVER;
 use armill::path::{Move, MovePace, Path, Program, Segment};
 use common::program::{example, examples, read_back, small_jobs};
@@ -36,10 +36,10 @@ fn follow<'a>(name: &str, points: impl Iterator<Item = &'a Vector3<f64>>, path: 
 }
 
 /// Commanded poses in the workpiece frame, as many lists as the path has moves.
-fn samples(report: &Report) -> Vec<Vec<Pose>> {
+fn samples(report: &Report, course: &Course) -> Vec<Vec<Pose>> {
     let back = report.setup.workpiece.inverse();
-    let axes = report.compensation.axis.iter().map(|axis| back.direction(axis));
-    let mut samples = report.commanded().into_iter().map(|p| back.point(&p)).zip(axes);
+    let axes = course.axis.iter().map(|axis| back.direction(axis));
+    let mut samples = course.positions(report).into_iter().map(|p| back.point(&p)).zip(axes);
     let arc_length = &report.plan.trajectory.pace.arc_length;
     let path = &report.plan.path;
     let moves = path.moves().len();
@@ -59,11 +59,11 @@ fn is_the_compensated_path(name: &str, report: &Report, id: &str, thinning: f64)
     let (export, program) = read_back(report, id, &Options { thinning: Some(thinning) });
     let name = format!("{name} as {id}, thinned to {thinning}");
     assert!(export.deviation <= thinning, "{name}: {}", export.deviation);
-    let style = Style { arcs: id == "gcode", inch: program.unit == "inch" };
-    let command = Command::new(report, Some(thinning), style).unwrap();
+    let style = Style { arcs: id == "gcode", inch: program.unit == "inch", points_only: id == "path-csv" };
+    let command = Command::new(report, &export.course, Some(thinning), style).unwrap();
     assert_eq!(program.moves.len() + 1, command.points(), "{name}");
     let mut moves = program.moves.as_slice();
-    for (block, commanded) in command.blocks.iter().zip(samples(report)) {
+    for (block, commanded) in command.blocks.iter().zip(samples(report, &export.course)) {
         let own;
         (own, moves) = moves.split_at(block.steps.len());
         let name = format!("{name}, line {}", block.line);
@@ -81,7 +81,8 @@ fn is_the_compensated_path(name: &str, report: &Report, id: &str, thinning: f64)
                 export.deviation
             );
         }
-        // What was read is on what was commanded: no move goes elsewhere. Between two samples, an arc may bulge from their chord.
+        // What was read is on what was commanded: no move goes elsewhere. Between two samples, 0.1 mm apart, an arc may
+        // bulge from their chord; the sharpest that undo a slow shaper have radii of 0.3 mm.
         let ends = [path.point(0.0), path.point(path.length())];
         let tips = commanded.iter().map(|(tip, _)| *tip);
         let points: Vec<_> = [ends[0]].into_iter().chain(tips).chain([ends[1]]).collect();
@@ -91,7 +92,7 @@ fn is_the_compensated_path(name: &str, report: &Report, id: &str, thinning: f64)
         let read: Vec<_> =
             (0..=steps as usize).map(|i| path.point(path.length() * i as f64 / steps)).collect();
         for (distance, _) in follow(&name, read.iter(), &chain) {
-            assert!(distance <= thinning + 3e-7, "{name}: a move strays by {distance}");
+            assert!(distance <= thinning + 5e-6, "{name}: a move strays by {distance}");
         }
     }
 }

@@ -3,4 +3,4 @@
 pub mod contour;
 pub mod source;
 
-pub use source::{Deviation, Plan, Source, Sources, deviate};
+pub use source::{Deviation, Plan, Source, Sources, deviate, deviate_under};

@@ -89,12 +89,23 @@ impl Plan {
 /// Eq. 5.3 subtracts the displacement; a force pushes the tip its own way, so it is added here.
 /// Force and compliance are taken where the shaped command puts the arm. `q` has one row for each sample of the trajectory.
 pub fn deviate(plan: &Plan, pace: &Pace, q: &[Joints], acting: Sources) -> Deviation {
-    let q = if acting.shaping { plan.shaper.joints(q, plan.trajectory.sample_time) } else { q.to_vec() };
     let force = if acting.deflection {
         along::forces(&plan.path, pace, &plan.mean_force, &plan.chip)
     } else {
         vec![Vector3::zeros(); q.len()]
     };
+    deviate_under(plan, pace, q, force, acting.shaping)
+}
+
+/// The same under forces that are known [N], one a sample, base frame.
+pub fn deviate_under(
+    plan: &Plan,
+    pace: &Pace,
+    q: &[Joints],
+    force: Vec<Vector3<f64>>,
+    shaping: bool,
+) -> Deviation {
+    let q = if shaping { plan.shaper.joints(q, plan.trajectory.sample_time) } else { q.to_vec() };
     let mut deflection = Vec::with_capacity(q.len());
     let mut actual = Vec::with_capacity(q.len());
     let mut axis = Vec::with_capacity(q.len());

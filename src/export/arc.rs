@@ -7,6 +7,7 @@
 
 use crate::export::thin::{LEVER, Point};
 use crate::math::{self, FRAC_PI_2, TAU};
+use crate::path::Segment;
 use nalgebra::{Matrix2, Vector2, Vector3};
 
 /// Ends of an arc are at least this far apart, or the same point: between, a control's rounding decides between nothing and a full turn [m].
@@ -39,6 +40,22 @@ impl Arc {
     pub fn turns(&self) -> f64 {
         // A full circle is a whole number of turns.
         (self.sweep.abs() / TAU - 1e-9).ceil()
+    }
+}
+
+impl Step {
+    /// The move from where the tool is.
+    pub fn segment(&self, from: &Point) -> Segment {
+        let Some(Arc { normal, center, sweep }) = self.arc else {
+            return Segment::Line { from: from.position, to: self.to.position };
+        };
+        let mut spoke = from.position - center;
+        spoke[normal] = 0.0;
+        let (radius, u) = (spoke.norm(), spoke.normalize());
+        let up = Vector3::ith(normal, sweep.signum());
+        let rise = (self.to.position - from.position).dot(&up);
+        let center = center + up * (from.position - center).dot(&up);
+        Segment::Arc { center, u, v: up.cross(&u), radius, sweep: sweep.abs(), rise }
     }
 }
 

@@ -4,11 +4,13 @@
 //! A sample belongs to the move that holds its arc length; a block ends where the correction at the move's own end puts it. Samples
 //! at rest in a corner belong to the move that follows: while the tool waits, the correction goes over from one direction of feed to the next.
 
+use crate::compensation::Compensation;
 use crate::error::Error;
 use crate::export::arc::{self, Step, rounded};
 use crate::export::thin::{self, Point};
 use crate::math::Pose;
-use crate::path::{MovePace, Path, Segment};
+use crate::path::program::Dwell;
+use crate::path::{Move, MovePace, Path, Program, Segment};
 use crate::report::{Report, millimetres};
 use crate::units::{INCH, MM, RPM};
 use nalgebra::{Matrix3, Vector3};
@@ -19,6 +21,8 @@ pub const FINEST: f64 = 1e-7;
 pub const COARSEST: f64 = 1e-2;
 /// A commanded move's feed is at most this many times the desired one's.
 const STRETCH: f64 = 2.0;
+/// A smooth move is written in straight moves that turn by at most this share of the angle at which the tool would stop.
+const SMOOTH: f64 = 0.8;
 
 /// How a language says a path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -27,12 +31,36 @@ pub struct Style {
     pub arcs: bool,
     /// Whether lengths are in inches, with six decimals, instead of in mm with five.
     pub inch: bool,
+    /// Whether it says no more than points and feeds: no waits, no rapids.
+    pub points_only: bool,
 }
 
 impl Style {
     /// Positions are written in steps of this size [m].
     pub fn resolution(self) -> f64 {
         if self.inch { INCH * 1e-6 } else { MM * 1e-5 }
+    }
+}
+
+/// Where the tool is sent at each of the report's samples: what is added to the desired positions [m], and the tool axis, base frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Course {
+    /// Correction of the desired position [m].
+    pub correction: Vec<Vector3<f64>>,
+    /// Tool axis from tip to spindle.
+    pub axis: Vec<Vector3<f64>>,
+}
+
+impl Course {
+    /// The one that the report found.
+    pub fn of(report: &Report) -> Self {
+        let Compensation { correction, axis, .. } = &report.compensation;
+        Self { correction: correction.clone(), axis: axis.clone() }
+    }
+
+    /// Its positions, base frame [m].
+    pub fn positions(&self, report: &Report) -> Vec<Vector3<f64>> {
+        report.plan.trajectory.position.iter().zip(&self.correction).map(|(p, c)| p + c).collect()
     }
 }
 
@@ -51,6 +79,8 @@ pub struct Command {
     pub samples: usize,
     /// How it is to be said.
     pub style: Style,
+    /// Largest contour error that comes out of it, run with its own timing [m], once it has been [rehearsed](super::rehearsal).
+    pub reached: Option<f64>,
     /// The desired path in the workpiece frame.
     path: Path,
 }
@@ -75,12 +105,12 @@ pub struct Block {
 }
 
 impl Command {
-    /// The compensated path of a report, thinned to `thinning` [m]: a tenth of the job's tolerance, but not below [`FINEST`], if none is stated.
+    /// A report's path as `course` has it, thinned to `thinning` [m]: a tenth of the job's tolerance, but not below [`FINEST`], if none is stated.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a tolerance that is not from [`FINEST`] to [`COARSEST`]; [`Error::Invalid`] if what is left strays
     /// further from the samples than that.
-    pub fn new(report: &Report, thinning: Option<f64>, style: Style) -> Result<Self, Error> {
+    pub fn new(report: &Report, course: &Course, thinning: Option<f64>, style: Style) -> Result<Self, Error> {
         let thinning = thinning.unwrap_or((report.setup.goal.tolerance / 10.0).clamp(FINEST, COARSEST));
         if !(FINEST..=COARSEST).contains(&thinning) {
             return Err(Error::OutOfRange {
@@ -93,16 +123,17 @@ impl Command {
         }
         let back = report.setup.workpiece.inverse();
         let path = report.plan.path.placed(&back);
+        let turn = SMOOTH * report.setup.tempo.corner_angle;
         let mut start = None;
         let mut end: Option<Point> = None;
         let mut deviation = 0.0_f64;
         let mut blocks = Vec::with_capacity(path.moves().len());
-        for (step, mut piece) in path.moves().iter().zip(pieces(report, &path, &back)) {
+        for (step, mut piece) in path.moves().iter().zip(pieces(report, course, &path, &back)) {
             // A move starts where the one before ends as written.
             let first = end.unwrap_or_else(|| rounded(&piece.points[0], style.resolution()));
             piece.points[0] = first;
             start.get_or_insert(first);
-            let (steps, strayed) = steps(&piece.points, &step.segment, thinning, style);
+            let (steps, strayed) = steps(&piece, &step.segment, (thinning, turn), style);
             end = Some(steps.last().map_or(first, |last| last.to));
             deviation = deviation.max(strayed);
             let feed = match step.pace {
@@ -138,7 +169,34 @@ impl Command {
             });
         }
         let start = start.unwrap_or(Point { position: path.point(0.0), axis: path.axis(0.0) });
-        Ok(Self { start, blocks, thinning, deviation, samples: report.samples(), style, path })
+        Ok(Self { start, blocks, thinning, deviation, samples: report.samples(), style, reached: None, path })
+    }
+
+    /// What a reader makes of it.
+    pub fn program(&self) -> Program {
+        let mut program = Program { unit: "mm", ..Program::default() };
+        let mut at = self.start;
+        for block in &self.blocks {
+            if block.wait > 0.0 && !self.style.points_only {
+                program.dwells.push(Dwell { after: program.moves.len(), time: block.wait, line: block.line });
+            }
+            let pace = match block.rapid && !self.style.points_only {
+                true => MovePace::Rapid,
+                false => MovePace::Feed(block.feed),
+            };
+            for step in &block.steps {
+                program.moves.push(Move {
+                    segment: step.segment(&at),
+                    axis_from: at.axis,
+                    axis_to: step.to.axis,
+                    pace,
+                    spindle: (!self.style.points_only).then_some(block.spindle),
+                    line: block.line,
+                });
+                at = step.to;
+            }
+        }
+        program
     }
 
     /// Number of points, the start included.
@@ -174,17 +232,19 @@ impl Block {
 struct Piece {
     points: Vec<Point>,
     wait: f64,
+    /// How many of them are at rest in a corner.
+    resting: usize,
     /// Length of the commanded move by the length of the desired one.
     stretch: f64,
 }
 
-fn pieces(report: &Report, path: &Path, back: &Pose) -> Vec<Piece> {
+fn pieces(report: &Report, course: &Course, path: &Path, back: &Pose) -> Vec<Piece> {
     let trajectory = &report.plan.trajectory;
     let arc_length = &trajectory.pace.arc_length;
-    let correction = &report.compensation.correction;
+    let correction = &course.correction;
     let sample = |k: usize| Point {
         position: back.point(&(trajectory.position[k] + correction[k])),
-        axis: back.direction(&report.compensation.axis[k]),
+        axis: back.direction(&course.axis[k]),
     };
     let last = arc_length.len() - 1;
     let mut k = 0;
@@ -225,7 +285,7 @@ fn pieces(report: &Report, path: &Path, back: &Pose) -> Vec<Piece> {
         let desired = length(desired[travelled..].iter().copied()).max(f64::MIN_POSITIVE);
         // A move that is shorter than its correction changes along it says nothing about speed.
         let stretch = (commanded / desired).clamp(1.0 / STRETCH, STRETCH);
-        pieces.push(Piece { points, wait, stretch });
+        pieces.push(Piece { points, wait, resting: travelled, stretch });
     }
     pieces
 }
@@ -236,12 +296,13 @@ fn length(mut points: impl Iterator<Item = Vector3<f64>>) -> f64 {
     points.map(|point| (point - std::mem::replace(&mut last, point)).norm()).sum()
 }
 
-/// A move's samples as few moves, and how far they are from these at most [m].
-fn steps(points: &[Point], segment: &Segment, thinning: f64, style: Style) -> (Vec<Step>, f64) {
+/// A move's samples as few moves that do not turn by more than `turn` [rad] without need, and how far they are from these at most [m].
+fn steps(piece: &Piece, segment: &Segment, (thinning, turn): (f64, f64), style: Style) -> (Vec<Step>, f64) {
+    let points = piece.points.as_slice();
     let resolution = style.resolution();
     // Rounding moves the ends of straight moves, and what a control makes of a rounded centre the arcs.
     let tolerance = thinning - resolution;
-    let kept = thin::thin(points, tolerance);
+    let kept = thin::smooth(points, tolerance, piece.resting, turn);
     let mut written: Vec<Point> = kept.iter().map(|&k| rounded(&points[k], resolution)).collect();
     let deviation = thin::deviation(points, &kept, &written);
     written.dedup();

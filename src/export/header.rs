@@ -10,7 +10,7 @@ use crate::units::{DEG, MM};
 /// The lines of the header, plain ASCII without brackets, for any language's comments. No date: the same run gives the same text.
 pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
     let setup = &report.setup;
-    let (_, reached) = contour::mean_and_max(&report.after.contour_error);
+    let reached = report.after_max();
     let (_, before) = contour::mean_and_max(&report.before.contour_error);
     let sources = match (setup.sources.deflection, setup.sources.shaping) {
         _ if report.compensation.passes == 0 => "not compensated",
@@ -53,11 +53,18 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
             "These are commands before the input shaper, {frequency} rad/s, damping {damping}: it must act on them"
         ));
     }
-    if command.is_some() && setup.sources.shaping && report.compensation.passes > 0 {
-        lines.push(
-            "The correction for shaping holds for this run's own timing; points that are timed otherwise keep less of it, joint commands at the sample time keep all"
-                .into(),
-        );
+    if let Some(reached) = command.and_then(|command| command.reached) {
+        let met = if reached <= setup.goal.tolerance { "met" } else { "not met" };
+        lines.push(format!(
+            "Run from this file, timed by its own moves, feeds and stops: largest contour error {} mm, tolerance {met}, simulated",
+            millimetres(reached)
+        ));
+        if reached > setup.goal.tolerance && report.after_max() <= setup.goal.tolerance {
+            lines.push(
+                "The joint commands at the sample time keep the run's timing and reach the figure above"
+                    .into(),
+            );
+        }
     }
     lines.push(
         "Warning: a controller's own blending or absolute-accuracy option adds its own error to these figures".into(),

@@ -13,12 +13,14 @@ pub mod rapid;
 pub mod val3;
 pub mod fanuc;
 pub mod replay;
+pub mod rehearsal;
 
 pub use crate::report::format::{FORMATS, Format};
 
 use crate::error::Error;
 use crate::report::Report;
-use command::{Command, Style};
+use command::{Course, Style};
+use rehearsal::rehearse;
 
 /// What a person may choose.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -38,12 +40,14 @@ pub struct Export {
     pub points: usize,
     /// Largest distance of a commanded sample from the moves written [m], measured; 0 where nothing is thinned.
     pub deviation: f64,
+    /// Where it sends the tool at each of the report's samples.
+    pub course: Course,
 }
 
 /// Writes the file of the format `id`.
 ///
 /// # Errors
-/// [`Error::Invalid`] for a format that is not in [`FORMATS`] or cannot say the path; else see [`Command::new`].
+/// [`Error::Invalid`] for a format that is not in [`FORMATS`] or cannot say the path; else see [`rehearse`].
 pub fn export(report: &Report, id: &str, options: &Options) -> Result<Export, Error> {
     let Some(format) = FORMATS.iter().find(|format| format.id == id) else {
         let known: Vec<_> = FORMATS.iter().map(|format| format.id).collect();
@@ -54,8 +58,10 @@ pub fn export(report: &Report, id: &str, options: &Options) -> Result<Export, Er
         });
     };
     let file_name = format!("armill-{id}.{}", format.extension);
-    let table =
-        |text| Ok(Export { text, file_name: file_name.clone(), points: report.samples(), deviation: 0.0 });
+    let table = |text| {
+        let (file_name, course) = (file_name.clone(), Course::of(report));
+        Ok(Export { text, file_name, points: report.samples(), deviation: 0.0, course })
+    };
     match id {
         "columns-csv" => return table(csv::columns(report)),
         "compensated-csv" => return table(csv::compensated(report)),
@@ -63,8 +69,12 @@ pub fn export(report: &Report, id: &str, options: &Options) -> Result<Export, Er
         _ => {}
     }
     let inches = report.setup.listing.as_ref().is_some_and(|listing| listing.program.unit == "inch");
-    let style = Style { arcs: id == "gcode", inch: inches && ["gcode", "apt"].contains(&id) };
-    let command = Command::new(report, options.thinning, style)?;
+    let style = Style {
+        arcs: id == "gcode",
+        inch: inches && ["gcode", "apt"].contains(&id),
+        points_only: id == "path-csv",
+    };
+    let (course, command) = rehearse(report, options.thinning, style)?;
     let text = match id {
         "gcode" => gcode::program(report, &command)?,
         "apt" => apt::program(report, &command),
@@ -74,5 +84,5 @@ pub fn export(report: &Report, id: &str, options: &Options) -> Result<Export, Er
         "fanuc" => fanuc::program(report, &command),
         _ => csv::path(report, &command),
     };
-    Ok(Export { text, file_name, points: command.points(), deviation: command.deviation })
+    Ok(Export { text, file_name, points: command.points(), deviation: command.deviation, course })
 }

@@ -1,13 +1,15 @@
-//! What comes out of a program, not of the samples it was made from: the file is read back and sent through the whole model.
+//! What comes out of a program, not of the samples it was made from: it is sent through the whole model.
 //!
-//! The second run has its own timing: the program's moves, feeds, corners and waits, under the job's acceleration. The cut is the
+//! This run has its own timing: the program's moves, feeds, corners and waits, under the job's acceleration. The cut is the
 //! part's, though, not the command's: force follows the desired path's direction where the run has come to, as in the run that made the
 //! program. Each point of the program stands for the instant of that run at which the same point was commanded; thinned moves
 //! never stray further from those points than they may be thinned.
 
-use crate::deviation::{Deviation, Plan, Sources, deviate};
+use crate::cutting::along;
+use crate::deviation::{Deviation, Plan, Sources, contour, deviate_under};
 use crate::error::Error;
-use crate::export::{Options, export};
+use crate::export::command::Course;
+use crate::export::{Export, Options, export};
 use crate::motion::joints::joint_trajectory;
 use crate::motion::{Pace, Trajectory};
 use crate::path::{self, Path, Program, Segment, unit};
@@ -17,13 +19,22 @@ use nalgebra::Vector3;
 /// The outcome of a program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replay {
+    /// The desired motion that its samples stand for.
+    pub trajectory: Trajectory,
+    /// Where along the desired path the shaped motion is.
+    pub pace: Pace,
     /// What becomes of its commands, every source acting, judged against the path first desired.
     pub deviation: Deviation,
-    /// Desired positions that its samples stand for, base frame [m].
-    pub desired: Vec<Vector3<f64>>,
+    /// For each sample the instant of the report's run that it stands for, in samples; it never goes back.
+    pub instants: Vec<f64>,
 }
 
 impl Replay {
+    /// Largest contour error [m].
+    pub fn largest(&self) -> f64 {
+        contour::mean_and_max(&self.deviation.contour_error).1
+    }
+
     /// Mean and largest contour error [mm].
     pub fn statistics(&self) -> Statistics {
         Statistics::of(&self.deviation.contour_error)
@@ -35,36 +46,36 @@ impl Replay {
 /// # Errors
 /// [`Error::Invalid`] for a format that has no reader; else see [`export`], the readers and [`joint_trajectory`].
 pub fn replay(report: &Report, id: &str, options: &Options) -> Result<Replay, Error> {
-    let text = |id| export(report, id, options).map(|export| export.text);
-    let program = match id {
-        "gcode" => path::gcode::program(
-            &text(id)?,
-            &path::gcode::Options { field: id.into(), ..Default::default() },
-            |_| {},
-        ),
-        "apt" => path::apt::program(
-            &text(id)?,
-            &path::apt::Options { field: id, unit: unit::LengthUnit::Mm },
-            |_| {},
-        ),
-        "path-csv" => {
-            let (unit, feed_unit) = (unit::LengthUnit::Mm, unit::FeedUnit::MmPerS);
-            path::csv::program(&text(id)?, &path::csv::Options { field: id, unit, feed_unit }, |_| {})
-        }
-        _ => Err(Error::Invalid {
+    if !["gcode", "apt", "path-csv"].contains(&id) {
+        return Err(Error::Invalid {
             field: "format".into(),
             value: format!("\"{id}\""),
             expected: "gcode, apt and path-csv can be read back".into(),
-        }),
+        });
+    }
+    let Export { text, course, .. } = export(report, id, options)?;
+    let program = match id {
+        "gcode" => {
+            let options = path::gcode::Options { field: id.into(), ..Default::default() };
+            path::gcode::program(&text, &options, |_| {})
+        }
+        "apt" => {
+            let options = path::apt::Options { field: id, unit: unit::LengthUnit::Mm };
+            path::apt::program(&text, &options, |_| {})
+        }
+        _ => {
+            let (unit, feed_unit) = (unit::LengthUnit::Mm, unit::FeedUnit::MmPerS);
+            path::csv::program(&text, &path::csv::Options { field: id, unit, feed_unit }, |_| {})
+        }
     }?;
-    run(report, &program)
+    run(report, &course, &program)
 }
 
-/// Runs a program that commands the report's compensated path.
+/// Runs a program that sends the tool along `course`.
 ///
 /// # Errors
 /// [`Error::Missing`] for a program without a move; [`Error::Unreachable`] where it is out of reach.
-pub fn run(report: &Report, program: &Program) -> Result<Replay, Error> {
+pub fn run(report: &Report, course: &Course, program: &Program) -> Result<Replay, Error> {
     let empty = || Error::Missing { field: "program".into(), expected: "a move".into() };
     let commanded = Path::of_program(program).ok_or_else(empty)?.placed(&report.setup.workpiece);
     let own = Trajectory::new(&commanded, &report.setup.tempo);
@@ -76,17 +87,23 @@ pub fn run(report: &Report, program: &Program) -> Result<Replay, Error> {
         report.setup.start,
     )?
     .q;
-    let instants = instants(report, &own).ok_or_else(empty)?;
-    let trajectory = standing_for(report, &own, &instants);
-    let desired = trajectory.position.clone();
+    let instants = instants(&course.positions(report), &own).ok_or_else(empty)?;
+    let (trajectory, share) = standing_for(report, &own, &instants);
     let plan = Plan { trajectory, ..report.plan.clone() };
-    let deviation = deviate(&plan, &plan.pace(Sources::ALL), &q, Sources::ALL);
-    Ok(Replay { deviation, desired })
+    let pace = plan.pace(Sources::ALL);
+    let share = plan.shaper.apply(&share, own.sample_time);
+    let mut force = along::forces(&plan.path, &pace, &plan.mean_force, &plan.chip);
+    for ((force, share), &s) in force.iter_mut().zip(share).zip(&pace.arc_length) {
+        let axis = plan.path.axis(s);
+        let along = axis * axis.dot(force);
+        *force = along + (*force - along) * share;
+    }
+    let deviation = deviate_under(&plan, &pace, &q, force, true);
+    Ok(Replay { trajectory: plan.trajectory, pace, deviation, instants })
 }
 
 /// For each sample of the program's own motion the instant of the report's, in samples.
-fn instants(report: &Report, own: &Trajectory) -> Option<Vec<f64>> {
-    let told = report.commanded();
+fn instants(told: &[Vector3<f64>], own: &Trajectory) -> Option<Vec<f64>> {
     let mut along = Vec::with_capacity(told.len());
     let mut segments = Vec::with_capacity(told.len());
     let mut length = 0.0;
@@ -118,7 +135,12 @@ fn instants(report: &Report, own: &Trajectory) -> Option<Vec<f64>> {
             (first - 1) as f64 + (near - before) / (after - before)
         }
     };
-    Some(own.position.iter().enumerate().map(instant).collect())
+    let mut latest = 0.0_f64;
+    let forward = |instant: f64| {
+        latest = latest.max(instant);
+        latest
+    };
+    Some(own.position.iter().enumerate().map(instant).map(forward).collect())
 }
 
 /// For each sample at rest the share of the rest that is over; 0 for samples that move.
@@ -136,8 +158,10 @@ fn rests(own: &Trajectory) -> Vec<f64> {
     rests
 }
 
-/// The desired motion that a run of the program stands for.
-fn standing_for(report: &Report, own: &Trajectory, instants: &[f64]) -> Trajectory {
+/// The desired motion that a run of the program stands for, and the share of its force across the tool axis.
+///
+/// Where the direction jumps from one instant to the next, the force goes over evenly: the mean of the two, not one of their size in between.
+fn standing_for(report: &Report, own: &Trajectory, instants: &[f64]) -> (Trajectory, Vec<f64>) {
     let original = &report.plan.trajectory;
     let last = original.len() - 1;
     let between = |values: &[f64], t: f64| {
@@ -146,7 +170,6 @@ fn standing_for(report: &Report, own: &Trajectory, instants: &[f64]) -> Trajecto
         values[i] + (values[next] - values[i]) * (t - i as f64)
     };
     let arc_length: Vec<f64> = instants.iter().map(|&t| between(&original.pace.arc_length, t)).collect();
-    // Where the direction jumps from one instant to the next, the force goes over evenly: the mean of the two, not one of their size in between.
     let turned = |&t: &f64| {
         let i = (t.floor() as usize).min(last);
         let (from, to) = (original.pace.heading[i], original.pace.heading[(i + 1).min(last)]);
@@ -154,19 +177,23 @@ fn standing_for(report: &Report, own: &Trajectory, instants: &[f64]) -> Trajecto
         let size = from.norm() + (to.norm() - from.norm()) * (t - i as f64);
         (heading, if size > 0.0 { heading.norm() / size } else { 1.0 })
     };
-    let (heading, share): (Vec<_>, Vec<_>) = instants.iter().map(turned).unzip();
-    let engaged = own.pace.engaged.iter().zip(share).map(|(engaged, share)| engaged * share);
+    let (heading, share) = instants.iter().map(turned).unzip();
     let end = arc_length.len() - 1;
     let speed = (0..=end).map(|k| {
         let (from, to) = (k.saturating_sub(1), (k + 1).min(end));
         (arc_length[to] - arc_length[from]) / ((to - from).max(1) as f64 * own.sample_time)
     });
-    let pace =
-        Pace { speed: speed.collect(), engaged: engaged.collect(), heading, arc_length: arc_length.clone() };
-    Trajectory {
+    let pace = Pace {
+        speed: speed.collect(),
+        engaged: own.pace.engaged.clone(),
+        heading,
+        arc_length: arc_length.clone(),
+    };
+    let trajectory = Trajectory {
         pace,
         position: arc_length.iter().map(|&s| report.plan.path.point(s)).collect(),
         axis: arc_length.iter().map(|&s| report.plan.path.axis(s)).collect(),
         ..own.clone()
-    }
+    };
+    (trajectory, share)
 }

@@ -4,6 +4,7 @@
 //! to represent a digitized line or its caricature", Cartographica 10(2), 1973), with a list of open spans instead of recursion.
 //! How far the samples really are from what is left is then measured, not assumed.
 
+use crate::math;
 use nalgebra::Vector3;
 
 /// A tool position: tip and axis.
@@ -68,6 +69,36 @@ pub fn thin(points: &[Point], tolerance: f64) -> Vec<usize> {
         }
     }
     kept
+}
+
+/// As [`thin`], with as many points more that no straight move turns from the one before it by more than `limit` [rad] where the points
+/// themselves do not: what travels the moves would stop there. Among the first `resting` points it may turn.
+pub fn smooth(points: &[Point], tolerance: f64, resting: usize, limit: f64) -> Vec<usize> {
+    let turn = |a: usize, b: usize, c: usize| {
+        let at = |index: usize| points[index].position;
+        math::angle_between(&(at(b) - at(a)), &(at(c) - at(b)))
+    };
+    let mut kept = thin(points, tolerance);
+    loop {
+        let mut wanted = kept.clone();
+        for corner in kept.windows(3) {
+            let [a, b, c] = [corner[0], corner[1], corner[2]];
+            if a >= resting && turn(a, b, c) > limit && turn(b - 1, b, b + 1) <= limit {
+                wanted.extend([usize::midpoint(a, b), usize::midpoint(b, c)]);
+            }
+        }
+        wanted.sort_unstable();
+        wanted.dedup();
+        if wanted.len() == kept.len() {
+            return kept;
+        }
+        // A point in between may leave others further from the shorter moves than they were from the long one.
+        let between = |ends: &[usize]| {
+            let part = thin(&points[ends[0]..=ends[1]], tolerance);
+            part.into_iter().skip(1).map(|index| ends[0] + index).collect::<Vec<_>>()
+        };
+        kept = [0].into_iter().chain(wanted.windows(2).flat_map(between)).collect();
+    }
 }
 
 /// Largest distance [m] of `points` from the moves between the points `kept`, as they are written: `written[i]` stands for `points[kept[i]]`.

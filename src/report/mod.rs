@@ -69,6 +69,11 @@ impl Report {
         })
     }
 
+    /// Largest contour error with the compensated path commanded, every source acting [m].
+    pub fn after_max(&self) -> f64 {
+        contour::mean_and_max(&self.after.contour_error).1
+    }
+
     /// The path to command: the desired positions with their correction, base frame [m].
     pub fn commanded(&self) -> Vec<Vector3<f64>> {
         self.plan.trajectory.position.iter().zip(&self.compensation.correction).map(|(p, c)| p + c).collect()

@@ -46,10 +46,10 @@ pub(crate) fn written(report: &Report, id: &str) -> Export {
     export(report, id, &Options::default()).unwrap()
 }
 
-/// Commanded tips in the workpiece frame [m].
-pub(crate) fn commanded(report: &Report) -> Vec<Vector3<f64>> {
+/// Tips in the workpiece frame [m] that a file sends the tool to.
+pub(crate) fn commanded(report: &Report, export: &Export) -> Vec<Vector3<f64>> {
     let back = report.setup.workpiece.inverse();
-    report.commanded().iter().map(|p| back.point(p)).collect()
+    export.course.positions(report).iter().map(|p| back.point(p)).collect()
 }
 
 /// Distance [m] of a point from a chain of straight moves.

@@ -1,7 +1,7 @@
 //! What must hold for any text: nothing panics or hangs, no number is NaN, what is refused has a place and words, what is written is read.
 
 use armill::chart::{self, CATALOG};
-use armill::export::{FORMATS, Options, export};
+use armill::export::{Export, FORMATS, Options, export};
 use armill::path::program::{MovePace, Program};
 use armill::path::unit::{FeedUnit, LengthUnit};
 use armill::path::{Path, Segment, apt, csv, gcode};
@@ -269,7 +269,7 @@ fn check_exports(report: &Report) {
         match export(report, format.id, &Options::default()) {
             Ok(export) => {
                 assert!(!export.text.contains("NaN"), "{}", format.id);
-                check_written(report, format.id, &export.text, export.deviation);
+                check_written(report, format.id, &export);
             }
             Err(error) => check_error(&error, "", ""),
         }
@@ -277,7 +277,8 @@ fn check_exports(report: &Report) {
 }
 
 /// What is written is read again, and runs past every commanded tip.
-fn check_written(report: &Report, id: &str, text: &str, deviation: f64) {
+fn check_written(report: &Report, id: &str, export: &Export) {
+    let text = export.text.as_str();
     let read = match id {
         "gcode" => gcode::program(text, &gcode::Options::default(), |_| {}),
         "apt" => apt::program(text, &apt::Options { field: TEXT, unit: LengthUnit::Mm }, |_| {}),
@@ -291,12 +292,15 @@ fn check_written(report: &Report, id: &str, text: &str, deviation: f64) {
     let program = read.unwrap_or_else(|error| panic!("{id}: {error}\n{text}"));
     check_program(&program);
     let back = report.setup.workpiece.inverse();
-    for tip in report.commanded().iter().map(|tip| back.point(tip)) {
+    for tip in export.course.positions(report).iter().map(|tip| back.point(tip)) {
         let distance =
             |segment: &Segment| (segment.point(segment.closest(&tip, 0.0, segment.length())) - tip).norm();
         let distances = program.moves.iter().map(|step| distance(&step.segment));
         let nearest = distances.fold(f64::INFINITY, f64::min);
         // Texts are written to 1e-5 mm or 1e-6 inch.
-        assert!(nearest <= deviation + 1e-4 * MM, "{id}: a tip is {nearest} m beside the path\n{text}");
+        assert!(
+            nearest <= export.deviation + 1e-4 * MM,
+            "{id}: a tip is {nearest} m beside the path\n{text}"
+        );
     }
 }

@@ -1,0 +1,89 @@
+//! The course of a program, tuned to the program's own timing.
+//!
+//! The report's correction belongs to the clock of the desired path. A program tells positions and feeds; what runs it plans the
+//! motion anew along the commanded path, which bends and is longer, so it comes a little earlier or later to each place, and a shaper or a force
+//! that follows the feed makes an error of that. Each pass runs the program as it would be written and adds what is missing, as
+//! [`compensate`](crate::compensation::compensate) does, filed under the instants that its samples stand for.
+
+use crate::error::Error;
+use crate::export::command::{Command, Course, Style};
+use crate::export::replay::{self, Replay};
+use crate::report::Report;
+use nalgebra::Vector3;
+
+/// A pass that leaves more than this share of the error is no improvement.
+const IMPROVEMENT: f64 = 0.99;
+
+/// The course and what is written for it, with the largest contour error it reaches: the report's own, if that keeps the job's tolerance as a
+/// program or nothing was compensated; else the best of as many passes as the job allows.
+///
+/// # Errors
+/// See [`Command::new`] and [`replay::run`].
+pub fn rehearse(report: &Report, thinning: Option<f64>, style: Style) -> Result<(Course, Command), Error> {
+    let attempt = |course: Course| {
+        let mut command = Command::new(report, &course, thinning, style)?;
+        let outcome = replay::run(report, &course, &command.program())?;
+        let reached = outcome.largest();
+        command.reached = Some(reached);
+        Ok::<_, Error>((course, command, outcome, reached))
+    };
+    let mut best = attempt(Course::of(report))?;
+    let goal = report.setup.goal;
+    let passes = if report.compensation.passes > 0 { goal.max_passes } else { 0 };
+    for _ in 0..passes {
+        let (course, _, outcome, least) = &best;
+        if *least <= goal.tolerance {
+            break;
+        }
+        // A pass that bends the path too far to be reached or written is no improvement either.
+        let Ok(next) = attempt(corrected(report, course, outcome)) else { break };
+        if next.3 >= least * IMPROVEMENT {
+            break;
+        }
+        best = next;
+    }
+    Ok((best.0, best.1))
+}
+
+/// The course with what was missing when its program was run.
+fn corrected(report: &Report, course: &Course, outcome: &Replay) -> Course {
+    let path = &report.plan.path;
+    let undone = |missing: Vec<Vector3<f64>>| {
+        let trajectory = &outcome.trajectory;
+        let change = report.plan.shaper.undo(&missing, trajectory.sample_time, trajectory.moving);
+        filed(&change, &outcome.instants, report)
+    };
+    let whereto = || outcome.pace.arc_length.iter();
+    let missing = whereto().zip(&outcome.deviation.actual).map(|(&s, actual)| path.point(s) - actual);
+    let more = undone(missing.collect());
+    let correction = course.correction.iter().zip(&more).map(|(c, more)| c + more).collect();
+    let axis = if path.is_multi_axis() {
+        let missing = whereto().zip(&outcome.deviation.axis).map(|(&s, actual)| actual.cross(&path.axis(s)));
+        let turns = undone(missing.collect());
+        course.axis.iter().zip(&turns).map(|(axis, turn)| (axis + turn.cross(axis)).normalize()).collect()
+    } else {
+        course.axis.clone()
+    };
+    Course { correction, axis }
+}
+
+/// Values at a program's samples as values at the report's; from the end of its motion on they rest.
+fn filed(values: &[Vector3<f64>], instants: &[f64], report: &Report) -> Vec<Vector3<f64>> {
+    let last = values.len() - 1;
+    let mut k = 0;
+    let at = |instant: usize| {
+        let t = instant as f64;
+        while k < last && instants[k + 1] < t {
+            k += 1;
+        }
+        let next = (k + 1).min(last);
+        let span = instants[next] - instants[k];
+        let part = if span > 0.0 { ((t - instants[k]) / span).clamp(0.0, 1.0) } else { 0.0 };
+        values[k].lerp(&values[next], part)
+    };
+    let mut filed: Vec<_> = (0..report.samples()).map(at).collect();
+    let moving = report.plan.trajectory.moving;
+    let arrived = filed[moving - 1];
+    filed[moving..].fill(arrived);
+    filed
+}
