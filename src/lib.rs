@@ -36,6 +36,7 @@ pub mod error;
 pub mod column;
 pub mod robot;
 pub mod path;
+#[cfg(feature = "full")]
 pub mod identify;
 pub mod motion;
 pub mod cutting;

@@ -5,7 +5,7 @@
 #[cfg(feature = "full")]
 mod full;
 #[cfg(feature = "full")]
-pub use full::thesis_recomputed;
+pub use full::{identify_response, identify_stiffness, thesis_recomputed};
 
 use crate::chart::{self, ForceUnit, Options, Units};
 use crate::column::Column;
@@ -62,6 +62,7 @@ export interface Chart {
   camera?: [[number, number, number], [number, number, number]];
 }
 export interface Format { id: string; name: string; extension: string; note: string; }
+export interface Identification { sentence: string; [key: string]: unknown; }
 export interface ThesisRow { quantity: string; source: string; printed: string; ours: string; agrees: boolean; reason: string; }
 "#;
 
@@ -229,21 +230,7 @@ impl Run {
         name: &str,
         #[wasm_bindgen(unchecked_param_type = "ChartOptions")] options: JsValue,
     ) -> Result<JsValue, JsValue> {
-        let number = |value: JsValue| value.as_f64().unwrap_or(f64::NAN);
-        let range = |key: &str| {
-            let pair = get(&options, key);
-            pair.is_object().then(|| (number(get(&pair, "0")), number(get(&pair, "1"))))
-        };
-        let hidden = get(&options, "hidden");
-        let keys = if hidden.is_object() { Array::from(&hidden) } else { Array::new() };
-        let options = Options {
-            width: number(get(&options, "width")),
-            height: number(get(&options, "height")),
-            x_range: range("x_range"),
-            y_range: range("y_range"),
-            hidden: keys.iter().filter_map(|key| key.as_string()).collect(),
-            units: units(&options)?,
-        };
+        let options = chart_options(&options)?;
         object(&chart::chart(&self.report, name, &options).map_err(|error| thrown(&error))?)
     }
 
@@ -255,27 +242,51 @@ impl Run {
         #[wasm_bindgen(unchecked_param_type = "ChartUnits")] options: JsValue,
     ) -> Result<Array, JsValue> {
         let columns = chart::data(&self.report, name, units(&options)?).map_err(|error| thrown(&error))?;
-        let plain = |column: Column| {
-            let object = Object::new();
-            let values: JsValue = Float64Array::from(column.values.as_slice()).into();
-            for (key, value) in [
-                ("key", column.key.into()),
-                ("label", column.label.into()),
-                ("unit", column.unit.into()),
-                ("values", values),
-            ] {
-                // Setting a property of a fresh object cannot fail.
-                let _ = Reflect::set(&object, &key.into(), &value);
-            }
-            object
-        };
-        Ok(columns.into_iter().map(plain).collect())
+        Ok(columns_of(columns))
     }
 
     /// Hash over the bits of all columns.
     pub fn fingerprint(&self) -> String {
         self.report.fingerprint()
     }
+}
+
+/// How a chart is to be drawn.
+fn chart_options(options: &JsValue) -> Result<Options, JsValue> {
+    let number = |value: JsValue| value.as_f64().unwrap_or(f64::NAN);
+    let range = |key: &str| {
+        let pair = get(options, key);
+        pair.is_object().then(|| (number(get(&pair, "0")), number(get(&pair, "1"))))
+    };
+    let hidden = get(options, "hidden");
+    let keys = if hidden.is_object() { Array::from(&hidden) } else { Array::new() };
+    Ok(Options {
+        width: number(get(options, "width")),
+        height: number(get(options, "height")),
+        x_range: range("x_range"),
+        y_range: range("y_range"),
+        hidden: keys.iter().filter_map(|key| key.as_string()).collect(),
+        units: units(options)?,
+    })
+}
+
+/// Columns as objects with a `Float64Array` each.
+fn columns_of(columns: Vec<Column>) -> Array {
+    let plain = |column: Column| {
+        let object = Object::new();
+        let values: JsValue = Float64Array::from(column.values.as_slice()).into();
+        for (key, value) in [
+            ("key", column.key.into()),
+            ("label", column.label.into()),
+            ("unit", column.unit.into()),
+            ("values", values),
+        ] {
+            // Setting a property of a fresh object cannot fail.
+            let _ = Reflect::set(&object, &key.into(), &value);
+        }
+        object
+    };
+    columns.into_iter().map(plain).collect()
 }
 
 /// A property; undefined where there is none.

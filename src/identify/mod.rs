@@ -8,6 +8,7 @@ pub mod nnls;
 pub mod stiffness;
 pub mod response;
 pub mod student;
+pub mod summary;
 mod eigen;
 mod table;
 

@@ -4,10 +4,13 @@
 //! To place code here: `#[cfg(feature = "full")]` before its module, its wasm-bindgen function in this file, and its name in `FULL` of
 //! `web/js/answers.js`. What `Run` holds is computed again in the full core, with the same bits.
 
-use super::{Run, object, thrown};
+use super::{Run, chart_options, columns_of, object, thrown, units};
+use crate::chart::identified;
+use crate::identify::{Convention, Fit, Mode, measurement, response, stiffness, summary};
 use crate::report::thesis;
 use crate::units::MM;
 use crate::{Job, export};
+use js_sys::Array;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -36,5 +39,80 @@ impl Run {
     pub fn replay(&self, format: &str) -> Result<JsValue, JsValue> {
         let outcome = export::replay::replay(&self.report, format, &export::Options::default());
         object(&outcome.map_err(|error| thrown(&error))?.statistics())
+    }
+}
+
+/// Something identified from measurements.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Identified {
+    found: Found,
+    summary: serde_json::Value,
+}
+
+#[derive(Debug)]
+enum Found {
+    Stiffness(Box<Fit>),
+    Response(response::Signal, Box<Mode>),
+}
+
+/// Joint compliances of a job's robot from rows of joint angles, force and displacement; `convention` is `table` or `coupled-j3`.
+#[wasm_bindgen]
+pub fn identify_stiffness(job: &str, text: &str, convention: &str) -> Result<Identified, JsValue> {
+    let identify = || {
+        let robot = Job::from_json(job)?.robot()?;
+        let measurements = measurement::read(text, Convention::of(convention)?)?;
+        let fit = stiffness::fit(&robot, &measurements.rows)?;
+        let summary = summary::stiffness(&robot, &measurements, &fit);
+        Ok(Identified { found: Found::Stiffness(Box::new(fit)), summary })
+    };
+    identify().map_err(|error| thrown(&error))
+}
+
+/// Frequency and damping from rows of time and signal, from the instant `from_s` on (from the largest excursion, if it is not given).
+#[wasm_bindgen]
+pub fn identify_response(text: &str, from_s: Option<f64>) -> Result<Identified, JsValue> {
+    let identify = || {
+        let signal = response::Signal::read(text)?;
+        let mode = response::mode(&signal, from_s)?;
+        let summary = summary::response(&mode);
+        Ok(Identified { found: Found::Response(signal, Box::new(mode)), summary })
+    };
+    identify().map_err(|error| thrown(&error))
+}
+
+#[wasm_bindgen]
+impl Identified {
+    /// What was found.
+    #[wasm_bindgen(unchecked_return_type = "Identification")]
+    pub fn summary(&self) -> Result<JsValue, JsValue> {
+        object(&self.summary)
+    }
+
+    /// Measurements and fit, drawn in the size asked for.
+    #[wasm_bindgen(unchecked_return_type = "Chart")]
+    pub fn chart(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "ChartOptions")] options: JsValue,
+    ) -> Result<JsValue, JsValue> {
+        object(&self.found.drawn().chart(&chart_options(&options)?).map_err(|error| thrown(&error))?)
+    }
+
+    /// The values that the chart shows.
+    #[wasm_bindgen(unchecked_return_type = "ChartColumn[]")]
+    pub fn chart_data(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "ChartUnits")] options: JsValue,
+    ) -> Result<Array, JsValue> {
+        Ok(columns_of(self.found.drawn().data(units(&options)?)))
+    }
+}
+
+impl Found {
+    fn drawn(&self) -> identified::Identified<'_> {
+        match self {
+            Found::Stiffness(fit) => identified::Identified::Stiffness(fit),
+            Found::Response(signal, mode) => identified::Identified::Response(signal, mode),
+        }
     }
 }

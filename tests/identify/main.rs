@@ -7,4 +7,5 @@ mod common;
 mod measurement;
 mod nnls;
 mod response;
+mod script;
 mod stiffness;

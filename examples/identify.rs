@@ -1,0 +1,93 @@
+//! Identifies joint compliances from measured loads, or frequency and damping from a measured response, and prints one JSON object.
+//!
+//! `cargo run --release --example identify -- data.csv [--robot preset|job.json] [--joints table|coupled-j3]`
+//! `cargo run --release --example identify -- data.csv --response [--from seconds]`
+
+use armill::identify::{Convention, measurement, response, stiffness, summary};
+use armill::{Error, Job};
+use std::process::ExitCode;
+
+const USAGE: &str = "identify data.csv [--robot preset|job.json] [--joints table|coupled-j3], or identify data.csv --response [--from seconds]";
+
+/// Why there is nothing to print.
+enum Refusal {
+    Usage(String),
+    Identify(Error),
+}
+
+impl From<Error> for Refusal {
+    fn from(error: Error) -> Self {
+        Refusal::Identify(error)
+    }
+}
+
+fn main() -> ExitCode {
+    match identify() {
+        Ok(found) => {
+            use std::io::Write;
+            // A reader that hung up early (`| head`) is no error.
+            let _ = writeln!(std::io::stdout(), "{found:#}");
+            ExitCode::SUCCESS
+        }
+        Err(Refusal::Usage(message)) => {
+            eprintln!("{}", serde_json::json!({ "code": "usage", "message": message, "usage": USAGE }));
+            ExitCode::FAILURE
+        }
+        Err(Refusal::Identify(error)) => {
+            let mut object = serde_json::json!({ "code": error.code(), "message": error.to_string() });
+            if let Some(field) = error.field() {
+                object["field"] = field.into();
+            }
+            if let Some((line, column)) = error.place() {
+                object["line"] = line.into();
+                object["column"] = column.into();
+            }
+            eprintln!("{object}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn identify() -> Result<serde_json::Value, Refusal> {
+    let mut arguments = std::env::args().skip(1);
+    let (mut data, mut robot, mut convention) = (None, None, Convention::Table);
+    let (mut is_response, mut from) = (false, None);
+    while let Some(argument) = arguments.next() {
+        let mut value =
+            || arguments.next().ok_or_else(|| Refusal::Usage(format!("{argument} needs a value")));
+        match argument.as_str() {
+            "--robot" => robot = Some(value()?),
+            "--joints" => convention = Convention::of(&value()?)?,
+            "--response" => is_response = true,
+            "--from" => {
+                let text = value()?;
+                let seconds = text.parse::<f64>().ok().filter(|seconds| seconds.is_finite());
+                from = Some(
+                    seconds.ok_or_else(|| Refusal::Usage(format!("--from {text} is no time in seconds")))?,
+                );
+            }
+            other if other.starts_with('-') => return Err(Refusal::Usage(format!("unknown option {other}"))),
+            _ if data.is_some() => return Err(Refusal::Usage("one file at a time".into())),
+            _ => data = Some(argument),
+        }
+    }
+    let text = read(&data.ok_or_else(|| Refusal::Usage("which file?".into()))?)?;
+    if is_response {
+        return Ok(summary::response(&response::mode(&response::Signal::read(&text)?, from)?));
+    }
+    let job = match robot.as_deref() {
+        None => Job::default(),
+        Some(file) if file.ends_with(".json") => Job::from_json(&read(file)?)?,
+        Some(preset) => {
+            Job::from_json(&serde_json::json!({ "version": 1, "robot": { "preset": preset } }).to_string())?
+        }
+    };
+    let robot = job.robot()?;
+    let measurements = measurement::read(&text, convention)?;
+    let fit = stiffness::fit(&robot, &measurements.rows)?;
+    Ok(summary::stiffness(&robot, &measurements, &fit))
+}
+
+fn read(file: &str) -> Result<String, Refusal> {
+    std::fs::read_to_string(file).map_err(|error| Refusal::Usage(format!("{file}: {error}")))
+}

@@ -1,0 +1,97 @@
+//! What measurements and the model fitted to them look like.
+
+use crate::chart::content::{Content, Curve, Shape, TIME};
+use crate::chart::plot::{Axis, Chart, Options};
+use crate::chart::unit::Units;
+use crate::column::Column;
+use crate::error::Error;
+use crate::identify::response::{Mode, Signal};
+use crate::identify::stiffness::Fit;
+
+/// What can be drawn.
+#[derive(Debug, Clone, Copy)]
+pub enum Identified<'a> {
+    /// Displacement and residual, row by row.
+    Stiffness(&'a Fit),
+    /// Signal and fitted vibration over time.
+    Response(&'a Signal, &'a Mode),
+}
+
+impl Identified<'_> {
+    /// Draws it.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for options that cannot be drawn.
+    pub fn chart(&self, options: &Options) -> Result<Chart, Error> {
+        let (name, title) = match self {
+            Identified::Stiffness(_) => {
+                ("stiffness", "Displacement of each row, and what the fit leaves of it")
+            }
+            Identified::Response(..) => ("response", "Measured response and fitted vibration"),
+        };
+        let drawn = self.content(options.units).draw(name, title, options);
+        drawn.map_err(|expected| Error::Invalid {
+            field: "chart".into(),
+            value: format!("\"{name}\""),
+            expected,
+        })
+    }
+
+    /// The values drawn.
+    pub fn data(&self, units: Units) -> Vec<Column> {
+        self.content(units).columns()
+    }
+
+    fn content(&self, units: Units) -> Content {
+        match self {
+            Identified::Stiffness(fit) => stiffness(fit, units),
+            Identified::Response(signal, mode) => response(signal, mode),
+        }
+    }
+}
+
+fn stiffness(fit: &Fit, units: Units) -> Content {
+    let (size, unit) = (units.length.in_m(), units.length.name());
+    let values = |of: fn(&crate::identify::stiffness::Residual) -> f64| {
+        fit.rows.iter().map(|row| of(row) / size).collect()
+    };
+    let curves = vec![
+        Curve { key: "measured", label: "Measured", class: "desired", values: values(|row| row.measured) },
+        Curve {
+            key: "residual",
+            label: "Left by the fit",
+            class: "before",
+            values: values(|row| row.residual),
+        },
+        Curve {
+            key: "left-out",
+            label: "Left by a fit to the other rows",
+            class: "shaping",
+            values: values(|row| row.left_out),
+        },
+    ];
+    let worst = fit.worst().first().map_or(String::new(), |row| {
+        format!(
+            " Line {} is missed most: {:.4} {unit} of {:.4} {unit}.",
+            row.line,
+            row.residual / size,
+            row.measured / size
+        )
+    });
+    let at: Vec<f64> = (1..=fit.rows.len()).map(|row| row as f64).collect();
+    let x = Axis { label: "Row", whole: true, range: Some((1.0, at.len().max(2) as f64)), ..Axis::default() };
+    let y = Axis { label: "Displacement", unit, zero: true, ..Axis::default() };
+    let description = format!("Lengths of vectors, in the order of the text.{worst}");
+    Content { description, at, shape: Shape::Curves { x, y, curves, markers: true, bands: vec![] } }
+}
+
+fn response(signal: &Signal, mode: &Mode) -> Content {
+    let curves = vec![
+        Curve { key: "signal", label: "Measured", class: "desired", values: signal.value.clone() },
+        Curve { key: "fit", label: "Fitted", class: "before", values: mode.fitted.clone() },
+    ];
+    let y = Axis { label: "Signal", ..Axis::default() };
+    let description = format!("The fit runs from {:.3} s to {:.3} s.", mode.window.0, mode.window.1);
+    let shape = Shape::Curves { x: TIME, y, curves, markers: false, bands: vec![] };
+    Content { description, at: signal.time.clone(), shape }
+}
