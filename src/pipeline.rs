@@ -58,6 +58,7 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
         shaper: setup.shaper.clone(),
         mean_force: setup.cut.mean_force(),
         chip: setup.chip,
+        bending: setup.bending,
     };
     let desired = (plan.trajectory.position.as_slice(), plan.trajectory.axis.as_slice());
     let joints = joint_trajectory(&plan.robot, &plan.path, &plan.trajectory, desired, setup.start)?;
@@ -89,7 +90,7 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
     };
     let (_, after_max) = contour::mean_and_max(&after.contour_error);
     let warnings = warning::warnings(&setup, &plan, &joints, &shaping_only, &compensation, after_max);
-    Ok(Report {
+    let mut report = Report {
         setup,
         plan,
         joints,
@@ -100,7 +101,9 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
         after,
         warnings,
         alone: Default::default(),
-    })
+    };
+    report.warnings.extend(warning::spindle(&report));
+    Ok(report)
 }
 
 /// The sources that act while the correction is sought: those to be compensated; all, if none is.

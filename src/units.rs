@@ -18,3 +18,7 @@ pub const N_PER_MM: f64 = 1e3;
 pub const HZ: f64 = std::f64::consts::TAU;
 /// One pound-force [N]: 0.45359237 kg at standard gravity, 9.80665 m/s^2.
 pub const POUND_FORCE: f64 = 4.448_221_615_260_5;
+/// One kilowatt [W].
+pub const KILOWATT: f64 = 1e3;
+/// One gigapascal [N/m^2].
+pub const GPA: f64 = 1e9;

@@ -9,13 +9,14 @@ pub use full::{identify_response, identify_stiffness, thesis_recomputed};
 
 use crate::chart::{self, ForceUnit, Options, Units};
 use crate::column::Column;
-use crate::cutting::material::MATERIALS;
+use crate::cutting::material::{self, Model};
 use crate::error::Error;
 use crate::job::fields;
 use crate::path::unit::LengthUnit;
 use crate::report::Report;
 use crate::report::format::FORMATS;
 use crate::robot::library;
+use crate::units::{N_PER_MM, N_PER_MM2};
 use crate::{Job, Stage};
 use js_sys::{Array, Float64Array, Function, Object, Reflect};
 use serde::Serialize;
@@ -27,7 +28,7 @@ const TYPES: &'static str = r#"
 export interface ArmillError extends Error { code: string; field?: string; line?: number; column?: number; }
 export interface Statistics { mean: number; max: number; }
 export interface Warning { code: string; message: string; from_sample?: number; to_sample?: number; from_s?: number; to_s?: number; }
-export interface Parts { joints: number[]; shaping: number; total: number; }
+export interface Parts { joints: number[]; tool: number; shaping: number; total: number; }
 export interface Budget { sample: number; time_s: number; worst_mm: Parts; mean_mm: Parts; sentence: string; }
 export interface Understood {
   language: "gcode" | "apt" | "csv"; unit: string; lines: number; cutting_moves: number; rapid_moves: number; multi_axis: boolean;
@@ -35,6 +36,7 @@ export interface Understood {
 }
 export interface Summary {
   fingerprint: string; samples: number; duration_s: number; path_length_mm: number; mean_force_n: [number, number, number];
+  material: string; material_note: string; cut: Record<string, number>; walls: Record<string, number>[];
   before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics }; after_mm: Statistics; budget: Budget;
   before_axis_deg: Statistics; after_axis_deg: Statistics; program?: Understood;
   passes: number; converged: boolean; tolerance_mm: number; history_max_mm: number[]; history_mean_mm: number[];
@@ -49,7 +51,8 @@ export interface Presets {
             modified_dh: { alpha_deg: number; a_mm: number; d_mm: number; theta_offset_deg: number; joint_sign: number }[];
             opw: { a1_mm: number; a2_mm: number; b_mm: number; c1_mm: number; c2_mm: number; c3_mm: number; c4_mm: number; joint_sign: number[]; joint_offset_deg: number[] };
             joint_limits_deg: [number, number][] | null; joint_compliance_rad_per_nm: number[] }[];
-  materials: { id: string; name: string; note: string; ktc_n_mm2: number; krc_n_mm2: number; kac_n_mm2: number; kte_n_mm: number; kre_n_mm: number; kae_n_mm: number }[];
+  materials: { id: string; name: string; note: string; ktc_n_mm2?: number; krc_n_mm2?: number; kac_n_mm2?: number; kte_n_mm?: number; kre_n_mm?: number;
+               kae_n_mm?: number; kc11_n_mm2?: number; mc?: number; orthogonal?: boolean }[];
 }
 export interface ChartEntry { name: string; title: string; view: string; figure: string; kind: "time" | "curve" | "space"; }
 export interface ChartUnits { length?: "mm" | "inch"; force?: "N" | "lbf"; }
@@ -121,12 +124,27 @@ pub fn presets() -> Result<JsValue, JsValue> {
             "joint_compliance_rad_per_nm": robot.joint_compliance,
         })
     });
-    let materials = MATERIALS.iter().map(|material| {
-        let [ktc, krc, kac, kte, kre, kae] = material.coefficients;
-        serde_json::json!({
-            "id": material.id, "name": material.name, "note": material.note,
-            "ktc_n_mm2": ktc, "krc_n_mm2": krc, "kac_n_mm2": kac, "kte_n_mm": kte, "kre_n_mm": kre, "kae_n_mm": kae,
-        })
+    let materials = material::library().iter().map(|material| {
+        let mut preset =
+            serde_json::json!({ "id": material.id, "name": material.name, "note": material.note() });
+        // Back from SI: without the last bits, which the table does not have.
+        let mut put = |key: &str, value: f64| preset[key] = ((value * 1e9).round() / 1e9).into();
+        match &material.model {
+            Model::Linear(k) => {
+                for (key, value) in [("ktc_n_mm2", k.ktc), ("krc_n_mm2", k.krc), ("kac_n_mm2", k.kac)] {
+                    put(key, value / N_PER_MM2);
+                }
+                for (key, value) in [("kte_n_mm", k.kte), ("kre_n_mm", k.kre), ("kae_n_mm", k.kae)] {
+                    put(key, value / N_PER_MM);
+                }
+            }
+            Model::Kienzle(kienzle) => {
+                put("kc11_n_mm2", kienzle.kc11 / N_PER_MM2);
+                put("mc", kienzle.mc);
+            }
+            Model::Orthogonal(_) => preset["orthogonal"] = true.into(),
+        }
+        preset
     });
     object(&Presets { robots: robots.collect(), materials: materials.collect() })
 }

@@ -1,6 +1,6 @@
 //! Milling force along the path, in the base frame (thesis eq. 4.11, Fig. 4.6).
 
-use crate::cutting::MeanForce;
+use crate::cutting::LinearForce;
 use crate::motion::Pace;
 use crate::path::Path;
 use nalgebra::Vector3;
@@ -33,20 +33,27 @@ impl ChipLoad {
 ///
 /// {T} is turned with the local feed: x = feed across the tool axis, z = tool axis, y = z x x (eq. 4.11). Where the tool moves
 /// along its own axis x is undefined; the last direction holds (at the start: the first one that follows), and the report warns.
-pub fn forces(path: &Path, pace: &Pace, mean: &MeanForce, chip: &ChipLoad) -> Vec<Vector3<f64>> {
+pub fn forces(path: &Path, pace: &Pace, mean: &LinearForce, chip: &ChipLoad) -> Vec<Vector3<f64>> {
+    let mut forces = Vec::with_capacity(pace.heading.len());
+    each(path, pace, |k, x, axis| {
+        let (index, _) = path.locate(pace.arc_length[k]);
+        let f = mean.at(chip.at(pace.speed[k], path.moves()[index].spindle)) * pace.engaged[k];
+        forces.push(x * f.x + axis.cross(&x) * f.y + axis * f.z);
+    });
+    forces
+}
+
+/// Calls `at` for every sample with its number and the directions x and z of {T} there, in the base frame.
+pub fn each(path: &Path, pace: &Pace, mut at: impl FnMut(usize, Vector3<f64>, Vector3<f64>)) {
     let across = |heading: &Vector3<f64>, axis: &Vector3<f64>| {
         (heading - axis * axis.dot(heading)).try_normalize(1e-6)
     };
     let samples = || pace.heading.iter().zip(&pace.arc_length);
     let first = samples().find_map(|(heading, &s)| across(heading, &path.axis(s)));
     let mut x = first.unwrap_or_else(|| path.orientation(&path.axis(0.0)).column(0).into_owned());
-    let mut forces = Vec::with_capacity(pace.heading.len());
-    for ((heading, &s), (&speed, &engaged)) in samples().zip(pace.speed.iter().zip(&pace.engaged)) {
+    for (k, (heading, &s)) in samples().enumerate() {
         let axis = path.axis(s);
         x = across(heading, &axis).or_else(|| across(&x, &axis)).unwrap_or(x);
-        let (index, _) = path.locate(s);
-        let f = mean.at(chip.at(speed, path.moves()[index].spindle)) * engaged;
-        forces.push(x * f.x + axis.cross(&x) * f.y + axis * f.z);
+        at(k, x, axis);
     }
-    forces
 }

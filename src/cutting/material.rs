@@ -1,7 +1,13 @@
-//! Cutting coefficients: how much force a chip of a given size costs.
+//! Materials: how much force a chip of a given size costs.
 //!
 //! dF_t = (k_tc h + k_te) dz, likewise radial and axial (eq. 4.1 with the edge terms of
-//! Y. Altintas, Manufacturing Automation, 2nd ed. 2012, section 2.8).
+//! Y. Altintas, Manufacturing Automation, 2nd ed. 2012, section 2.8). Kienzle's and orthogonal-cutting materials become such
+//! coefficients for one thickness of chip.
+
+use crate::cutting::kienzle::Kienzle;
+use crate::cutting::oblique::Orthogonal;
+use crate::units::{N_PER_MM, N_PER_MM2};
+use std::sync::OnceLock;
 
 /// Coefficients of the linear edge-force model.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -20,61 +26,125 @@ pub struct Coefficients {
     pub kae: f64,
 }
 
-/// A material of the library, in the units of its source: N/mm^2 and N/mm.
+impl Coefficients {
+    /// From ktc, krc, kac [N/mm^2], kte, kre, kae [N/mm], the units of tables.
+    pub fn of_table([ktc, krc, kac, kte, kre, kae]: [f64; 6]) -> Self {
+        Self {
+            ktc: ktc * N_PER_MM2,
+            krc: krc * N_PER_MM2,
+            kac: kac * N_PER_MM2,
+            kte: kte * N_PER_MM,
+            kre: kre * N_PER_MM,
+            kae: kae * N_PER_MM,
+        }
+    }
+}
+
+/// How a material's numbers are to be read.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Preset {
+pub enum Model {
+    /// Coefficients as identified with a tool like the one they are used for.
+    Linear(Coefficients),
+    /// Specific cutting force over the thickness of chip.
+    Kienzle(Kienzle),
+    /// Shear stress, friction and shear angle, for any helix and rake.
+    Orthogonal(Orthogonal),
+}
+
+impl Model {
+    /// What materials of this kind have in common, for lists.
+    pub fn heading(&self) -> &'static str {
+        match self {
+            Model::Linear(_) => "Identified in milling",
+            Model::Kienzle(_) => "Catalogue, k_c1.1 and m_c",
+            Model::Orthogonal(_) => "Orthogonal cutting data",
+        }
+    }
+
+    /// Whether the coefficients depend on the thickness of chip they are made for.
+    pub fn needs_chip(&self) -> bool {
+        !matches!(self, Model::Linear(_))
+    }
+}
+
+/// A material of the library.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Material {
     /// Key used in jobs.
     pub id: &'static str,
     /// Name as read.
     pub name: &'static str,
-    /// Where the numbers come from and how far to trust them.
-    pub note: &'static str,
-    /// ktc, krc, kac [N/mm^2], kte, kre, kae [N/mm].
-    pub coefficients: [f64; 6],
+    /// Its numbers.
+    pub model: Model,
+    /// How far a force may be off, either way [%].
+    pub spread: f64,
+    /// How far to trust the record: high, medium or low.
+    pub confidence: &'static str,
+    /// Where the numbers come from.
+    pub source: &'static str,
+    /// What else to know.
+    pub remark: &'static str,
 }
 
-/// Review table of identified coefficients that several presets come from.
-macro_rules! review {
-    ($row:literal) => {
-        concat!(
-            "Chinese Journal of Mechanical Engineering 2021, doi 10.1186/s10033-021-00536-9, table 5 (its ref. ",
-            $row,
-            "). Published values of one alloy differ by a factor of two: take any as +-30 %."
-        )
+impl Material {
+    /// Source, spread and confidence in a few sentences.
+    pub fn note(&self) -> String {
+        let Self { source, remark, spread, confidence, .. } = self;
+        let gap = if remark.is_empty() { "" } else { " " };
+        format!("{source}. {remark}{gap}Take it as ±{spread} %; confidence: {confidence}.")
+    }
+}
+
+/// All materials, in the order of the data file.
+pub fn library() -> &'static [Material] {
+    static LIBRARY: OnceLock<Vec<Material>> = OnceLock::new();
+    LIBRARY.get_or_init(|| {
+        let text = include_str!("materials.txt");
+        let mut sources = Vec::new();
+        let mut materials = Vec::new();
+        for line in text.lines() {
+            if let Some(source) = line.strip_prefix('@') {
+                sources.extend(source.split_once("; "));
+            } else {
+                materials.extend(material(line, &sources));
+            }
+        }
+        materials
+    })
+}
+
+/// One line of the data file; a comment is none.
+fn material(line: &'static str, sources: &[(&'static str, &'static str)]) -> Option<Material> {
+    let mut parts = line.split(';').map(str::trim);
+    let (id, name, model) = (parts.next()?, parts.next()?, parts.next()?);
+    let numbers: Vec<f64> = parts.next()?.split(' ').map_while(|number| number.parse().ok()).collect();
+    let model = match model {
+        "linear" => Model::Linear(Coefficients::of_table(numbers.try_into().ok()?)),
+        "kienzle" => Model::Kienzle(Kienzle::of_table(*numbers.first()?, *numbers.get(1)?)),
+        _ => Model::Orthogonal(Orthogonal { numbers: numbers.try_into().ok()? }),
     };
+    let spread = parts.next()?.parse().ok()?;
+    let confidence = parts.next()?;
+    let key = parts.next()?;
+    let (_, source) = *sources.iter().find(|(name, _)| *name == key)?;
+    Some(Material { id, name, model, spread, confidence, source, remark: parts.next()? })
 }
 
-/// All materials of the library.
-pub const MATERIALS: [Preset; 5] = [
-    Preset {
-        id: "thesis",
-        name: "Thesis example (material not named)",
-        note: "Thesis section 4.2, below Fig. 4.1; without edge terms. Close to a steel's.",
-        coefficients: [1800.0, 540.0, 800.0, 0.0, 0.0, 0.0],
-    },
-    Preset {
-        id: "al-6082-t6",
-        name: "Aluminium 6082-T6, carbide, dry",
-        note: review!("189"),
-        coefficients: [631.0, 99.0, 273.0, 13.0, 10.0, 2.8],
-    },
-    Preset {
-        id: "al-7075-t6",
-        name: "Aluminium 7075-T6, carbide, dry",
-        note: review!("190"),
-        coefficients: [767.01, 168.8, 222.0, 27.7, 26.6, 0.7],
-    },
-    Preset {
-        id: "al-7075-hss",
-        name: "Aluminium 7075, HSS end mill",
-        note: review!("156"),
-        coefficients: [951.365, 262.597, 323.33, 11.115, 11.314, 1.105],
-    },
-    Preset {
-        id: "steel-unnamed",
-        name: "Steel (grade not stated; no axial values)",
-        note: "After T. Schmitz, K. S. Smith, Machining Dynamics; medium confidence. \
-               The source has no axial coefficients: the axial force is taken as zero and will in truth not be.",
-        coefficients: [1738.0, 584.0, 0.0, 62.0, 87.0, 0.0],
-    },
-];
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_line_of_the_data_file_is_a_material_or_says_what_it_is() {
+        let lines = include_str!("materials.txt").lines();
+        let materials = lines.filter(|line| !line.starts_with(['#', '@'])).count();
+        let library = library();
+        assert_eq!(library.len(), materials);
+        assert!(materials >= 25);
+        for (k, material) in library.iter().enumerate() {
+            assert!(["high", "medium", "low"].contains(&material.confidence), "{}", material.id);
+            assert!((30.0..=100.0).contains(&material.spread), "{}", material.id);
+            assert!(library[..k].iter().all(|other| other.id != material.id), "{} twice", material.id);
+        }
+    }
+}

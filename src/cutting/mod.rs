@@ -1,8 +1,17 @@
 //! What pushes: milling forces from tool, material and engagement (thesis section 4.2), and their direction along the path (eq. 4.11).
 
 pub mod material;
+pub mod kienzle;
+pub mod oblique;
+pub mod engagement;
+pub mod tool;
 pub mod force;
+pub mod spindle;
+pub mod surface;
 pub mod along;
 
-pub use force::{Cut, MeanForce};
+pub use engagement::Engagement;
+pub use force::{Cut, LinearForce};
+pub use kienzle::Kienzle;
 pub use material::Coefficients;
+pub use tool::Bending;

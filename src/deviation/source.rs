@@ -1,7 +1,7 @@
 //! The actual path under each source of error, alone or together (thesis sections 4.3-4.5, 5.2).
 
-use crate::cutting::MeanForce;
 use crate::cutting::along::{self, ChipLoad};
+use crate::cutting::{Bending, LinearForce};
 use crate::deviation::contour;
 use crate::math;
 use crate::motion::{Pace, Shaper, Trajectory};
@@ -49,9 +49,11 @@ pub struct Plan {
     /// The shaper of the joint commands.
     pub shaper: Shaper,
     /// Mean milling force in {T}.
-    pub mean_force: MeanForce,
+    pub mean_force: LinearForce,
     /// What sets the chip.
     pub chip: ChipLoad,
+    /// How the tool bends, if it does.
+    pub bending: Option<Bending>,
 }
 
 /// What becomes of joint commands.
@@ -112,8 +114,14 @@ pub fn deviate_under(
     for (q, force) in q.iter().zip(&force) {
         let frames = forward::frames(&plan.robot, q);
         let tcp = frames[5].compose(plan.robot.tool());
-        let (displacement, rotation) = compliance::deflection(&plan.robot, &frames, &tcp.position, force);
+        let (mut displacement, mut rotation) =
+            compliance::deflection(&plan.robot, &frames, &tcp.position, force);
         let shaped: Vector3<f64> = -tcp.rotation.column(2);
+        if let Some(bending) = &plan.bending {
+            let (moved, turned) = bending.deflection(&shaped, force);
+            displacement += moved;
+            rotation += turned;
+        }
         deflection.push(displacement);
         actual.push(tcp.position + displacement);
         axis.push((shaped + rotation.cross(&shaped)).normalize());

@@ -32,10 +32,34 @@ impl Word for FromFeed {
     const WORD: &'static str = "from_feed";
 }
 
+/// `"ball"`: half the tool's diameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Ball;
+impl Word for Ball {
+    const WORD: &'static str = "ball";
+}
+/// `"mean"`: the cut's own mean thickness of chip.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Mean;
+impl Word for Mean {
+    const WORD: &'static str = "mean";
+}
+
 /// Time at rest in a corner [s], or `"settle"`.
 pub type Dwell = Choice<Settle>;
 /// Feed per tooth [mm], or `"from_feed"`.
 pub type FeedPerTooth = Choice<FromFeed>;
+
+/// Radius of a tool's corner [mm], or `"ball"`.
+pub type CornerRadius = Choice<Ball>;
+/// Thickness of chip [mm], or `"mean"`.
+pub type ChipThickness = Choice<Mean>;
+
+impl<W> Default for Choice<W> {
+    fn default() -> Self {
+        Self::value(0.0)
+    }
+}
 
 impl<W> Choice<W> {
     /// A number.

@@ -2,7 +2,8 @@
 //!
 //! The page builds its form from this table and the job is checked against it: one range, written once.
 
-use crate::cutting::material;
+use crate::cutting::kienzle::{AXIAL, RADIAL};
+use crate::cutting::material::{self, Material};
 use crate::error::Error;
 use crate::job::Job;
 use crate::robot::library;
@@ -146,7 +147,14 @@ impl Row {
             label: label.into(),
             heading: None,
         };
-        let choices = if self.path == "robot.preset" {
+        let choices = if self.path == "material.preset" {
+            let word = |material: &Material| Word {
+                value: material.id,
+                label: material.name.into(),
+                heading: Some(material.model.heading()),
+            };
+            material::library().iter().map(word).collect()
+        } else if self.path == "robot.preset" {
             library::names()
                 .map(|[value, maker, model]| Word {
                     value,
@@ -174,20 +182,6 @@ impl Row {
         }
     }
 }
-
-/// What the library offers, as words.
-macro_rules! words_of {
-    ($library:expr) => {{
-        let mut words = [("", ""); $library.len()];
-        let mut k = 0;
-        while k < words.len() {
-            words[k] = ($library[k].id, $library[k].name);
-            k += 1;
-        }
-        words
-    }};
-}
-static MATERIALS: [(&str, &str); material::MATERIALS.len()] = words_of!(material::MATERIALS);
 
 /// The thesis's robot, for what fresh fields show.
 fn rx90(value: fn(&library::Preset) -> Value) -> Value {
@@ -255,17 +249,34 @@ static TABLE: &[Row] = {
         field("tool.diameter_mm", "Diameter", "mm", Number, || json!(10), "Of the end mill; in its catalogue or on its shank.").range(0.01, 500.0),
         field("tool.flutes", "Flutes", "", Integer, || json!(4), "Number of cutting edges; count them.").range(1.0, 100.0),
         field("tool.helix_deg", "Helix angle", "deg", Number, || json!(30), "Angle between edge and tool axis; it smooths the force but does not change its mean. In the tool's catalogue.").range(0.0, 80.0),
-        field("material.preset", "Material", "", Choice, || json!("thesis"), "Cutting coefficients of the library, or your own. Take any table value as ±30 %.").words(&MATERIALS),
+        field("tool.corner_radius_mm", "Corner radius", "mm", Number, || json!(0), "Of the bottom corner: 0 is a flat end mill, half the diameter a ball nose, between them a bull nose.").range(0.0, 250.0).words(&[("ball", "ball nose")]),
+        field("tool.rake_deg", "Rake angle", "deg", Number, || json!(0), "Normal rake. It enters with k_c1.1 (1 % less force a degree) and with orthogonal data (oblique cutting); identified coefficients hold for the rake they were measured with.").range(-30.0, 40.0),
+        field("tool.runout_mm", "Runout", "mm", Number, || json!(0), "How far the tool's axis is off the spindle's: half of what a dial gauge swings. Teeth then cut unevenly; the mean force stays.").range(0.0, 5.0),
+        field("tool.bending", "Tool in its holder", "", Choice, || json!("rigid"), "A long tool bends too, in addition to the arm.").words(&[("rigid", "rigid"), ("cantilever", "bends as a cantilever")]),
+        field("tool.stickout_mm", "Stickout", "mm", Number, || json!(40), "Length out of the holder.").range(0.1, 1000.0).when("tool.bending", &["cantilever"]),
+        field("tool.flute_length_mm", "Flute length", "mm", Number, || json!(20), "From the tip; there the tool bends like a bar of 0.8 of its diameter (Kops and Vo 1990).").range(0.0, 1000.0).when("tool.bending", &["cantilever"]),
+        field("tool.shank_diameter_mm", "Shank diameter", "mm", Number, || json!(10), "Behind the flutes.").range(0.01, 500.0).when("tool.bending", &["cantilever"]),
+        field("tool.modulus_gpa", "Young's modulus", "GPa", Number, || json!(600), "Carbide 550 to 650, high-speed steel 210.").range(1.0, 2000.0).when("tool.bending", &["cantilever"]),
+        field("material.preset", "Material", "", Choice, || json!("thesis"), "Cutting coefficients of the library, or your own. Take any table value as ±30 %."),
         field("material.ktc_n_mm2", "k_tc, tangential", "N/mm²", Number, || json!(1800), "Tangential force for each mm² of chip section; from a table of the alloy, or fitted to measured forces.").range(0.0, 1e5).when("material", &["table"]),
         field("material.krc_n_mm2", "k_rc, radial", "N/mm²", Number, || json!(540), "Radial force for each mm² of chip section.").range(-1e5, 1e5).when("material", &["table"]),
         field("material.kac_n_mm2", "k_ac, axial", "N/mm²", Number, || json!(800), "Axial force for each mm² of chip section.").range(-1e5, 1e5).when("material", &["table"]),
         field("material.kte_n_mm", "k_te, tangential edge", "N/mm", Number, || json!(0), "Tangential force for each mm of edge, whatever the chip.").range(-1e4, 1e4).when("material", &["table"]),
         field("material.kre_n_mm", "k_re, radial edge", "N/mm", Number, || json!(0), "Radial force for each mm of edge.").range(-1e4, 1e4).when("material", &["table"]),
         field("material.kae_n_mm", "k_ae, axial edge", "N/mm", Number, || json!(0), "Axial force for each mm of edge.").range(-1e4, 1e4).when("material", &["table"]),
+        field("material.kc11_n_mm2", "k_c1.1, specific force", "N/mm²", Number, || json!(1500), "Cutting force of a chip of 1 mm by 1 mm, from the tool maker's catalogue.").range(1.0, 1e5).when("material", &["kienzle"]),
+        field("material.mc", "m_c, exponent", "", Number, || json!(0.25), "How fast thin chips become dear; in the same table, mostly 0.17 to 0.3.").range(0.0, 0.95).when("material", &["kienzle"]),
+        field("material.radial_ratio", "Radial to tangential force", "", Number, || json!(RADIAL), "No catalogue gives it: 0.2 to 0.4 is typical, 0.16 to 0.6 was measured; worn edges have more.").range(-5.0, 5.0).when("material", &["kienzle", "kienzle-preset"]),
+        field("material.axial_ratio", "Axial to tangential force", "", Number, || json!(AXIAL), "No catalogue gives it; it grows with the helix: 0.1 to 0.45 at 30 deg.").range(-5.0, 5.0).when("material", &["kienzle", "kienzle-preset"]),
+        field("material.line", "Straight line", "", Choice, || json!("tangent"), "The force model is linear in the chip. Tangent: force and its slope are right at the chip thickness below; secant: the force is, and it is zero without a chip.").words(&[("tangent", "tangent, with edge forces"), ("secant", "secant, without")]).when("material", &["kienzle", "kienzle-preset"]),
+        field("material.chip_thickness_mm", "Made at chip thickness", "mm", Number, || json!("mean"), "Where the line touches the curve; the mean is that of this cut.").range(0.001, 10.0).words(&[("mean", "mean of the cut")]).when("material", &["kienzle", "kienzle-preset", "orthogonal-preset"]),
         field("cutting.axial_depth_mm", "Axial depth", "mm", Number, || json!(10), "Depth of cut along the tool axis, as in the CAM operation; 0 is air.").range(0.0, 1000.0),
-        field("cutting.entry_deg", "Entry angle", "deg", Number, || json!(90), "Immersion angle at which a tooth enters, clockwise from the side the feed's left hand points to. Down milling at half immersion: 90 to 180; slot: 0 to 180.").range(0.0, 180.0),
-        field("cutting.exit_deg", "Exit angle", "deg", Number, || json!(180), "Immersion angle at which a tooth leaves.").range(0.0, 180.0),
+        field("cutting.engagement", "Engagement", "", Choice, || json!("angles"), "Climb (down) milling has the part right of the feed, conventional (up) milling left of it; the spindle turns clockwise.").words(&[("angles", "by entry and exit angle"), ("climb", "climb, by radial depth"), ("conventional", "conventional, by radial depth"), ("slot", "slot")]),
+        field("cutting.radial_depth_mm", "Radial depth", "mm", Number, || json!(5), "How far the tool reaches into the part across the feed, at most its diameter; the width of cut or stepover of the CAM operation.").range(0.0001, 500.0).when("cutting.engagement", &["climb", "conventional"]),
+        field("cutting.entry_deg", "Entry angle", "deg", Number, || json!(90), "Immersion angle at which a tooth enters, clockwise from the side the feed's left hand points to. Down milling at half immersion: 90 to 180; slot: 0 to 180.").range(0.0, 180.0).when("cutting.engagement", &["angles"]),
+        field("cutting.exit_deg", "Exit angle", "deg", Number, || json!(180), "Immersion angle at which a tooth leaves.").range(0.0, 180.0).when("cutting.engagement", &["angles"]),
         field("cutting.spindle_rpm", "Spindle speed", "1/min", Number, || json!(4000), "The S word of the program; clockwise, seen from the spindle.").range(1.0, 1e6),
+        field("cutting.spindle_power_kw", "Spindle power", "kW", Number, || json!(10), "What the spindle can give, from its data sheet; above it the report warns.").range(0.001, 1000.0),
         field("cutting.feed_per_tooth_mm", "Feed per tooth", "mm", Number, || json!(0.1), "Chip load; from feed means the local speed divided by flutes and spindle speed.").range(0.0, 10.0).words(&[("from_feed", "from feed")]),
         field("shaper.kind", "Input shaper", "", Choice, || json!("zvd"), "Filter that keeps the arm from shaking; the more robust, the longer its delay.").words(&[("none", "none"), ("zv", "ZV"), ("zvd", "ZVD"), ("zvdd", "ZVDD"), ("ei", "EI")]),
         field("shaper.frequency_rad_s", "Natural frequency", "rad/s", Number, || json!(18), "Of the mode to be left at rest, from a tap test at the tool. 1 Hz is 6.283 rad/s; heavy milling robots have 45 to 125 rad/s (7 to 20 Hz).").range(0.1, 10000.0).when("shaper.kind", &["zv", "zvd", "zvdd", "ei"]),

@@ -11,12 +11,14 @@ mod path;
 mod program;
 mod read;
 mod setup;
+mod cut;
 pub mod fields;
 
-pub use choice::{Choice, Dwell, FeedPerTooth};
+pub use choice::{ChipThickness, Choice, CornerRadius, Dwell, FeedPerTooth};
+pub use cut::Stock;
 pub use input::{
-    Branch, Compensation, Cutting, DhRow, Elbow, Frame, Job, Material, Motion, Opw, Robot, Shaper,
-    ShaperKind, ShaperSpec, Shoulder, Source, Tool, Wrist,
+    Branch, Compensation, Cutting, DhRow, Elbow, Engaged, Frame, Job, Line, Material, Motion, Opw, Robot,
+    Shaper, ShaperKind, ShaperSpec, Shoulder, Source, Tool, ToolBending, Wrist,
 };
 pub use path::{FeedUnit, Path, PathKind, Unit};
 pub use setup::Setup;

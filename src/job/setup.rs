@@ -2,9 +2,10 @@
 
 use crate::compensation::Goal;
 use crate::cutting::along::ChipLoad;
-use crate::cutting::{Coefficients, Cut, material};
+use crate::cutting::{Bending, Cut};
 use crate::deviation::Sources;
 use crate::error::Error;
+use crate::job::cut::Stock;
 use crate::job::{Choice, Elbow, Frame, Job, Opw, Shaper, ShaperSpec, Shoulder, Source, Wrist, fields};
 use crate::math::Pose;
 use crate::motion::joints::StartBranch;
@@ -12,7 +13,7 @@ use crate::motion::trajectory::Tempo;
 use crate::motion::{self, shaper};
 use crate::path::{Listing, Path};
 use crate::robot::{self, Link, Robot, library};
-use crate::units::{DEG, HZ, MM, N_PER_MM, N_PER_MM2, RPM};
+use crate::units::{DEG, HZ, KILOWATT, MM, RPM};
 use nalgebra::Vector3;
 
 /// Most samples a job may have; a 1 ms trajectory of half an hour.
@@ -43,6 +44,14 @@ pub struct Setup {
     pub mode: Option<(f64, f64)>,
     /// The cut.
     pub cut: Cut,
+    /// What is cut, and how its coefficients were made.
+    pub stock: Stock,
+    /// Normal rake of the tool [rad].
+    pub rake: f64,
+    /// How the tool bends, if it does.
+    pub bending: Option<Bending>,
+    /// What the spindle can give [W], if it is known.
+    pub spindle_power: Option<f64>,
     /// What sets the chip.
     pub chip: ChipLoad,
     /// Teeth that pass in a second [1/s].
@@ -80,15 +89,11 @@ impl Job {
         let (path, listing) = self.desired_path(on_read)?;
         let path = path.placed(&workpiece);
         let (shaper, mode) = self.input_shaper()?;
-        let cut = self.cut()?;
+        let (cut, stock) = self.cut()?;
+        let bending = self.bending()?;
+        let spindle_power = self.cutting.spindle_power_kw.map(|power| power * KILOWATT);
         let teeth_per_second = self.cutting.spindle_rpm * RPM * f64::from(self.tool.flutes);
-        let chip = match self.cutting.feed_per_tooth_mm {
-            Choice::Value(c, _) => ChipLoad::Fixed(c * MM),
-            Choice::Word => ChipLoad::FromFeed {
-                flutes: f64::from(self.tool.flutes),
-                spindle: self.cutting.spindle_rpm * RPM,
-            },
-        };
+        let chip = self.chip_load();
         let motion = &self.motion;
         let tempo = Tempo {
             feed: motion.feed_mm_s * MM,
@@ -142,6 +147,10 @@ impl Job {
             shaper,
             mode,
             cut,
+            stock,
+            rake: self.tool.rake_deg.unwrap_or(0.0) * DEG,
+            bending,
+            spindle_power,
             chip,
             teeth_per_second,
             start,
@@ -231,67 +240,6 @@ impl Job {
         }
         Ok((motion::Shaper::new(kind, frequency, damping), Some((frequency, damping))))
     }
-
-    fn cut(&self) -> Result<Cut, Error> {
-        if self.cutting.entry_deg >= self.cutting.exit_deg {
-            let expected =
-                format!("a tooth leaves after it enters: more than entry_deg = {}", self.cutting.entry_deg);
-            return Err(invalid("cutting.exit_deg", self.cutting.exit_deg, expected));
-        }
-        let given = &self.material;
-        let numbers = [
-            given.ktc_n_mm2,
-            given.krc_n_mm2,
-            given.kac_n_mm2,
-            given.kte_n_mm,
-            given.kre_n_mm,
-            given.kae_n_mm,
-        ];
-        let [ktc, krc, kac, kte, kre, kae] = match &given.preset {
-            Some(_) if numbers.iter().any(Option::is_some) => {
-                return Err(invalid(
-                    "material.preset",
-                    "given together with coefficients",
-                    "give one of the two",
-                ));
-            }
-            Some(id) => match material::MATERIALS.iter().find(|material| material.id == id) {
-                Some(preset) => preset.coefficients,
-                None => {
-                    return Err(unknown_preset(
-                        "material.preset",
-                        id,
-                        material::MATERIALS.iter().map(|m| m.id),
-                    ));
-                }
-            },
-            None => {
-                for (value, key) in numbers.iter().zip(["ktc_n_mm2", "krc_n_mm2", "kac_n_mm2"]) {
-                    value.ok_or_else(|| {
-                        missing(&format!("material.{key}"), "name a preset, or give ktc, krc and kac")
-                    })?;
-                }
-                numbers.map(|value| value.unwrap_or(0.0))
-            }
-        };
-        let coefficients = Coefficients {
-            ktc: ktc * N_PER_MM2,
-            krc: krc * N_PER_MM2,
-            kac: kac * N_PER_MM2,
-            kte: kte * N_PER_MM,
-            kre: kre * N_PER_MM,
-            kae: kae * N_PER_MM,
-        };
-        Ok(Cut {
-            diameter: self.tool.diameter_mm * MM,
-            flutes: self.tool.flutes,
-            helix: self.tool.helix_deg * DEG,
-            coefficients,
-            axial_depth: self.cutting.axial_depth_mm * MM,
-            entry: self.cutting.entry_deg * DEG,
-            exit: self.cutting.exit_deg * DEG,
-        })
-    }
 }
 
 /// The parameters, checked for what a table of links could not name.
@@ -322,6 +270,6 @@ pub(super) fn missing(field: &str, expected: &str) -> Error {
     Error::Missing { field: field.into(), expected: expected.into() }
 }
 
-fn unknown_preset<'a>(field: &str, id: &str, known: impl Iterator<Item = &'a str>) -> Error {
+pub(super) fn unknown_preset<'a>(field: &str, id: &str, known: impl Iterator<Item = &'a str>) -> Error {
     invalid(field, format!("\"{id}\""), format!("the library has {}", known.collect::<Vec<_>>().join(", ")))
 }

@@ -1,8 +1,8 @@
 //! The error budget: which joint and which source gives how much of the contour error.
 //!
 //! The actual tip is the shaped pose plus the deflection, and the deflection is a sum over the joints of J_i c_i J_i^T F (eqs. 3.48, 4.8).
-//! So the way from the closest point of the path to the tip is a sum of seven vectors: one for each joint, and the shaped pose's own distance
-//! from that point. Each is projected on the direction of the sum, from the path to the tip; the seven lengths then add up to the
+//! So the way from the closest point of the path to the tip is a sum of eight vectors: one for each joint, one for a tool that bends, and the shaped pose's own distance
+//! from that point. Each is projected on the direction of the sum, from the path to the tip; the eight lengths then add up to the
 //! contour error. A length is negative where that part alone would pull the tip back.
 
 use crate::deviation::Deviation;
@@ -27,11 +27,13 @@ pub struct Budget {
     pub sentence: String,
 }
 
-/// Parts of a contour error [mm]; those of the joints and of shaping add up to the whole.
+/// Parts of a contour error [mm]; those of the joints, the tool and shaping add up to the whole.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Parts {
     /// What each joint's spring gives.
     pub joints: [f64; 6],
+    /// What the tool's own bending gives; 0 for a rigid tool.
+    pub tool: f64,
     /// What shaping gives, with the little by which the path bends away between the two.
     pub shaping: f64,
     /// The contour error.
@@ -64,6 +66,7 @@ impl Report {
             for (sum, part) in mean.joints.iter_mut().zip(parts.joints) {
                 *sum += part;
             }
+            mean.tool += parts.tool;
             mean.shaping += parts.shaping;
             mean.total += parts.total;
             if parts.total > worst.total {
@@ -73,6 +76,7 @@ impl Report {
         let count = self.samples() as f64;
         let mean_mm = Parts {
             joints: mean.joints.map(|sum| sum / count),
+            tool: mean.tool / count,
             shaping: mean.shaping / count,
             total: mean.total / count,
         };
@@ -86,14 +90,20 @@ impl Report {
         let Some(away) = (-error).try_normalize(0.0) else { return Parts::default() };
         let joints = self.deflection_by_joint(k).map(|moved| moved.dot(&away) / MM);
         let shaping = (-error - self.before.deflection[k]).dot(&away) / MM;
-        Parts { joints, shaping, total: total / MM }
+        let tool = match self.plan.bending {
+            Some(_) => self.before.deflection[k].dot(&away) / MM - joints.iter().sum::<f64>(),
+            None => 0.0,
+        };
+        Parts { joints, tool, shaping, total: total / MM }
     }
 }
 
 /// The largest part in words.
 fn sentence(worst: &Parts) -> String {
     let names = (1..=6).map(|joint| format!("Joint {joint}"));
-    let parts = names.zip(worst.joints).chain([("Shaping".to_owned(), worst.shaping)]);
+    let parts = names
+        .zip(worst.joints)
+        .chain([("Tool bending".to_owned(), worst.tool), ("Shaping".to_owned(), worst.shaping)]);
     match parts.max_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((name, part)) if worst.total > 0.0 => {
             format!(

@@ -7,9 +7,11 @@ pub mod thesis;
 pub mod scene;
 pub mod format;
 mod budget;
+mod cut;
 mod summary;
 
 pub use budget::{Budget, Parts};
+pub use cut::Figures;
 pub use summary::{Statistics, Summary};
 pub use warning::Warning;
 

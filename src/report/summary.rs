@@ -1,8 +1,9 @@
 //! The figures of a report that a person reads first, as one small object.
 
+use crate::cutting::material::Material;
 use crate::deviation::{Deviation, contour};
 use crate::path::{Listing, MovePace, Path};
-use crate::report::{Budget, Report, Warning};
+use crate::report::{Budget, Figures, Report, Warning};
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -56,6 +57,14 @@ pub struct Summary {
     pub path_length_mm: f64,
     /// Mean milling force in {T} at full feed [N].
     pub mean_force_n: [f64; 3],
+    /// Name of the material.
+    pub material: String,
+    /// Where its numbers come from, and how far to trust them.
+    pub material_note: String,
+    /// The cut: coefficients, engagement, spindle.
+    pub cut: Figures,
+    /// The walls that it leaves, by the mean force and at the instant of their making.
+    pub walls: Vec<Figures>,
     /// Contour error before compensation [mm].
     pub before_mm: Before,
     /// What the contour error before compensation is made of.
@@ -184,12 +193,17 @@ impl Report {
             if start.elbow_positive { "positive" } else { "negative" },
             self.joints.q.first().map_or(0.0, |q| q[3] / DEG)
         );
+        let material = self.setup.stock.material;
         Summary {
             fingerprint: self.fingerprint(),
             samples: self.samples(),
             duration_s: self.duration(),
             path_length_mm: self.plan.path.length() / MM,
             mean_force_n: self.mean_force().into(),
+            material: material.map_or("Own numbers", |material| material.name).to_owned(),
+            material_note: material.map_or(String::new(), Material::note),
+            cut: self.cut_figures(),
+            walls: self.walls(),
             before_mm: Before {
                 deflection: statistics(&self.deflection_only),
                 shaping: statistics(&self.shaping_only),

@@ -2,14 +2,16 @@
 
 use crate::compensation::Compensation;
 use crate::cutting::along::ChipLoad;
+use crate::cutting::material::Model;
 use crate::deviation::{Deviation, Plan, Sources};
 use crate::job::Setup;
 use crate::math;
 use crate::motion::joints::JointTrajectory;
 use crate::path::{Move, MovePace, Tool};
+use crate::report::Report;
 use crate::robot::Joints;
 use crate::robot::inverse::Margin;
-use crate::units::{DEG, MM};
+use crate::units::{DEG, KILOWATT, MM};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -239,6 +241,19 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
             warnings.push(Warning::new("chip-load", message));
         }
     }
+    if setup.cut.axial_depth > 0.0 && setup.cut.section() == 0.0 {
+        let message = "the tool does not reach the part: at this axial depth its corner is narrower than the gap the radial depth leaves";
+        warnings.push(Warning::new("no-contact", message));
+    }
+    if matches!(setup.stock.model, Model::Linear(_)) && setup.rake != 0.0 {
+        let message =
+            "the rake angle is not used: these coefficients hold for the tool they were measured with";
+        warnings.push(Warning::new("rake-unused", message));
+    }
+    if setup.cut.runout > 0.0 {
+        let message = "runout changes the force within a revolution and its peak; the mean force and the deviation of the path stay";
+        warnings.push(Warning::new("runout", message));
+    }
     // At rest in a corner the heading only turns.
     let slope = |k: usize| {
         if trajectory.pace.speed[k] == 0.0 && k > 0 && k + 1 < trajectory.moving {
@@ -268,6 +283,17 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
         );
         warnings.push(Warning::new("centripetal", message));
     }
+}
+
+/// The cut asks for more than the spindle has.
+pub(crate) fn spindle(report: &Report) -> Option<Warning> {
+    let (power, rated) = (report.spindle_power(), report.setup.spindle_power?);
+    let message = format!(
+        "the cut takes {:.2} kW on average, more than the spindle's {:.2} kW; coefficients are known to ±30 %",
+        power / KILOWATT,
+        rated / KILOWATT
+    );
+    (power > rated).then(|| Warning::new("spindle-power", message))
 }
 
 /// Without the wait, shaping rounds corners: what that costs within half a shaper's way of a stop.

@@ -2,11 +2,12 @@
 //
 // Some parts of a job take one of several shapes: a robot or material by preset or by numbers, a path of some kind,
 // a shaper or "none". A choice ending in `.preset` or `.kind` decides; the other fields of that part name in `when`
-// what they need: a value of that choice, or the state of the part itself ("preset", "table", "opw" or "hz").
+// what they need: a value of that choice, or the state of the part itself ("preset", "table", "opw", "kienzle" or "hz").
 
 const TURN = 2 * Math.PI;
 export const OWN = "table"; // what a preset choice says when the numbers are one's own
-const OWN_FORMS = [OWN, "opw"]; // a robot's may be ortho-parallel parameters instead
+export const KIENZLE = "kienzle"; // the same for a material by k_c1.1 and m_c
+const OWN_FORMS = [OWN, "opw", KIENZLE]; // a robot's may be ortho-parallel parameters instead
 
 const keys = (path) => path.match(/[^.[\]]+/g);
 const parentOf = (path) => path.slice(0, Math.max(0, path.lastIndexOf(".")));
@@ -127,7 +128,10 @@ export class Job {
     const part = this.#read(path);
     if (part?.frequency_hz !== undefined) return "hz";
     if (part?.opw !== undefined) return "opw";
-    return part?.preset === undefined ? OWN : "preset";
+    if (part?.kc11_n_mm2 !== undefined || part?.mc !== undefined) return KIENZLE;
+    if (part?.preset === undefined) return OWN;
+    const preset = this.#presetOf(path);
+    return preset.kc11_n_mm2 !== undefined ? `${KIENZLE}-preset` : preset.orthogonal ? "orthogonal-preset" : "preset";
   }
 
   /** Whether the quantity is given by this field's twin. */

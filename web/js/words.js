@@ -1,6 +1,6 @@
 // Fields and their values in words.
 
-import { OWN } from "./job.js";
+import { KIENZLE, OWN } from "./job.js";
 import { plainNumber } from "./number.js";
 
 /** A preset choice that also offers one's own numbers. */
@@ -8,7 +8,8 @@ export function withOwn(field) {
   if (!field.path.endsWith(".preset")) return field;
   const own = field.path === "robot.preset"
     ? [{ value: "opw", label: "Ortho-parallel lengths", heading: "My own numbers" }, { value: OWN, label: "Modified DH table", heading: "My own numbers" }]
-    : [{ value: OWN, label: "My own numbers" }];
+    : [{ value: OWN, label: "My own coefficients", heading: "My own numbers" }];
+  if (field.path === "material.preset") own.push({ value: KIENZLE, label: "My own k_c1.1 and m_c", heading: "My own numbers" });
   return { ...field, choices: [...field.choices, ...own] };
 }
 

@@ -1,0 +1,153 @@
+//! The cut in figures: coefficients, engagement, spindle, and the wall that the mean force and the instant of its making leave.
+
+use crate::cutting::along;
+use crate::cutting::material::Model;
+use crate::deviation::Sources;
+use crate::report::Report;
+use crate::robot::{compliance, forward};
+use crate::units::{DEG, KILOWATT, MINUTE, MM, N_PER_MM, N_PER_MM2};
+use nalgebra::Vector3;
+use std::collections::BTreeMap;
+
+/// Figures by key, the unit in the key.
+pub type Figures = BTreeMap<&'static str, f64>;
+
+impl Report {
+    /// Feed per tooth of the job [m]; of the full feed, if the chip follows it.
+    pub fn feed_per_tooth(&self) -> f64 {
+        self.plan.chip.at(self.setup.tempo.feed, None)
+    }
+
+    /// Mean power of the cut [W] at that feed per tooth and the job's spindle speed: torque times speed.
+    pub fn spindle_power(&self) -> f64 {
+        let turns = self.setup.teeth_per_second / f64::from(self.setup.cut.flutes);
+        self.setup.cut.torque(self.feed_per_tooth()) * turns * crate::math::TAU
+    }
+
+    /// The cut in figures.
+    pub fn cut_figures(&self) -> Figures {
+        let cut = &self.setup.cut;
+        let k = &cut.coefficients;
+        let c = self.feed_per_tooth();
+        let feed = c * self.setup.teeth_per_second;
+        let mut figures = Figures::from([
+            ("ktc_n_mm2", k.ktc / N_PER_MM2),
+            ("krc_n_mm2", k.krc / N_PER_MM2),
+            ("kac_n_mm2", k.kac / N_PER_MM2),
+            ("kte_n_mm", k.kte / N_PER_MM),
+            ("kre_n_mm", k.kre / N_PER_MM),
+            ("kae_n_mm", k.kae / N_PER_MM),
+            ("diameter_mm", cut.diameter / MM),
+            ("corner_radius_mm", cut.corner_radius / MM),
+            ("axial_depth_mm", cut.axial_depth / MM),
+            ("feed_per_tooth_mm", c / MM),
+            ("mean_chip_mm", cut.mean_chip(c) / MM),
+            ("section_mm2", cut.section() / (MM * MM)),
+            ("removal_cm3_min", cut.section() * feed * MINUTE * 1e6),
+            ("peak_force_n", cut.peak_force(c)),
+            ("torque_nm", cut.torque(c)),
+            ("power_kw", self.spindle_power() / KILOWATT),
+        ]);
+        // On the cylinder: exact at the full radius, which a corner does not reach.
+        let radius = cut.radius();
+        if let Some((entry, exit)) = cut.engagement.at(radius, radius) {
+            let radial = radius * (crate::math::cos(entry) - crate::math::cos(exit));
+            figures.extend([
+                ("entry_deg", entry / DEG),
+                ("exit_deg", exit / DEG),
+                ("radial_depth_mm", radial / MM),
+            ]);
+        }
+        if let Some(power) = self.setup.spindle_power {
+            figures.insert("spindle_power_kw", power / KILOWATT);
+        }
+        if let Some(bending) = &self.setup.bending {
+            figures.insert("tool_bending_um_n", bending.displacement / (1e-3 * MM));
+        }
+        if let Some(chip) = self.setup.stock.chip {
+            figures.insert("made_at_chip_mm", chip / MM);
+        }
+        if let Some(material) = self.setup.stock.material {
+            figures.insert("spread_percent", material.spread);
+        }
+        if let Model::Kienzle(kienzle) = &self.setup.stock.model {
+            figures.extend([("kc11_n_mm2", kienzle.kc11 / N_PER_MM2), ("mc", kienzle.mc)]);
+        }
+        figures
+    }
+
+    /// The walls that the cut leaves, with the deviation into the part (negative: material is left standing) by the mean force and at the instants
+    /// when the edge makes the wall, both taken as static: mean over all samples that cut and all heights, and the largest.
+    pub fn walls(&self) -> Vec<Figures> {
+        let pace = self.plan.pace(Sources::ALL);
+        let path = &self.plan.path;
+        let robot = &self.plan.robot;
+        let walls = self.setup.cut.walls();
+        let (mut mean, mut instant) =
+            (vec![Spread::default(); walls.len()], vec![Spread::default(); walls.len()]);
+        let (mut mean_force, mut instant_force) = (mean.clone(), mean.clone());
+        if walls.is_empty() {
+            return Vec::new();
+        }
+        along::each(path, &pace, |k, x, axis| {
+            if pace.engaged[k] < 0.5 {
+                return;
+            }
+            let y = axis.cross(&x);
+            let frames = forward::frames(robot, &self.before.q[k]);
+            let tip = frames[5].compose(robot.tool());
+            // The compliance is symmetric: what a unit force across the wall moves along F is what F moves across the wall.
+            let (mut moved, _) = compliance::deflection(robot, &frames, &tip.position, &y);
+            if let Some(bending) = &self.plan.bending {
+                moved += bending.deflection(&-tip.rotation.column(2), &y).0;
+            }
+            let moved = Vector3::new(moved.dot(&x), moved.dot(&y), moved.dot(&axis));
+            let (index, _) = path.locate(pace.arc_length[k]);
+            let c = self.plan.chip.at(pace.speed[k], path.moves()[index].spindle);
+            for (at, wall) in walls.iter().enumerate() {
+                let force = self.plan.mean_force.at(c);
+                mean_force[at].take(wall.side * force.y);
+                mean[at].take(wall.side * moved.dot(&force));
+                for force in wall.instants.iter().map(|force| force.at(c)) {
+                    instant_force[at].take(wall.side * force.y);
+                    instant[at].take(wall.side * moved.dot(&force));
+                }
+            }
+        });
+        let figures = |at: usize| {
+            Figures::from([
+                ("side", walls[at].side),
+                ("mean_force_n", mean_force[at].mean()),
+                ("instant_force_n", instant_force[at].mean()),
+                ("instant_force_max_n", instant_force[at].largest),
+                ("by_mean_force_mm", mean[at].mean() / MM),
+                ("by_mean_force_max_mm", mean[at].largest / MM),
+                ("at_instant_mm", instant[at].mean() / MM),
+                ("at_instant_max_mm", instant[at].largest / MM),
+            ])
+        };
+        (0..walls.len()).map(figures).collect()
+    }
+}
+
+/// Mean of signed values and the one of the largest size.
+#[derive(Clone, Copy, Default)]
+struct Spread {
+    sum: f64,
+    count: f64,
+    largest: f64,
+}
+
+impl Spread {
+    fn take(&mut self, value: f64) {
+        self.sum += value;
+        self.count += 1.0;
+        if value.abs() > self.largest.abs() {
+            self.largest = value;
+        }
+    }
+
+    fn mean(&self) -> f64 {
+        self.sum / self.count.max(1.0)
+    }
+}
