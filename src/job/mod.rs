@@ -6,6 +6,7 @@
 mod json;
 mod choice;
 mod input;
+mod milling;
 mod path;
 #[cfg(feature = "full")]
 mod program;
@@ -17,8 +18,9 @@ pub mod fields;
 pub use choice::{ChipThickness, Choice, CornerRadius, Dwell, FeedPerTooth};
 pub use cut::Stock;
 pub use input::{
-    Branch, Compensation, Cutting, DhRow, Elbow, Engaged, Frame, Job, Line, Material, Motion, Opw, Robot,
-    Shaper, ShaperKind, ShaperSpec, Shoulder, Source, Tool, ToolBending, Wrist,
+    Branch, Compensation, DhRow, Elbow, Frame, Job, Motion, Opw, Robot, Shaper, ShaperKind, ShaperSpec,
+    Shoulder, Source, Wrist,
 };
+pub use milling::{Cutting, Engaged, Line, Material, Tool, ToolBending};
 pub use path::{FeedUnit, Path, PathKind, Unit};
 pub use setup::Setup;

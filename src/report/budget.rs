@@ -41,9 +41,9 @@ pub struct Parts {
 }
 
 impl Parts {
-    /// What all joints give [mm].
+    /// What all joints and the tool give [mm].
     pub fn deflection(&self) -> f64 {
-        self.joints.iter().sum()
+        self.joints.iter().sum::<f64>() + self.tool
     }
 }
 

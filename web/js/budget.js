@@ -3,7 +3,8 @@
 import { byId, make } from "./dom.js";
 import { inLength, lengthUnit } from "./units.js";
 
-const NAMES = ["Joint 1", "Joint 2", "Joint 3", "Joint 4", "Joint 5", "Joint 6", "Shaping"];
+const NAMES = ["Joint 1", "Joint 2", "Joint 3", "Joint 4", "Joint 5", "Joint 6", "Tool", "Shaping"];
+const KEYS = ["s1", "s2", "s3", "s4", "s5", "s6", "tool", "shaping"];
 const NAMED = 0.24; // share of a bar from which a part carries its name, and its short one
 const SHORT = 0.1;
 
@@ -15,6 +16,7 @@ export function showBudget({ worst_mm, mean_mm, time_s, sentence }) {
   byId("budget-time").textContent = `at ${time_s.toFixed(2)} s`;
   const rows = [
     ...NAMES.slice(0, 6).map((name, i) => row(name, `s${i + 1}`, worst_mm.joints[i], mean_mm.joints[i], worst_mm, mean_mm)),
+    ...(worst_mm.tool || mean_mm.tool ? [row("Tool", "tool", worst_mm.tool, mean_mm.tool, worst_mm, mean_mm)] : []),
     row("Deflection", "sum", sumOf(worst_mm), sumOf(mean_mm), worst_mm, mean_mm),
     row("Shaping", "shaping", worst_mm.shaping, mean_mm.shaping, worst_mm, mean_mm),
     row("Contour error", "total", worst_mm.total, mean_mm.total, worst_mm, mean_mm),
@@ -22,7 +24,7 @@ export function showBudget({ worst_mm, mean_mm, time_s, sentence }) {
   byId("budget-table").tBodies[0].replaceChildren(...rows);
 }
 
-const sumOf = ({ joints }) => joints.reduce((sum, joint) => sum + joint, 0);
+const sumOf = ({ joints, tool }) => joints.reduce((sum, joint) => sum + joint, tool);
 const percent = (part, total) => (total > 0 ? signed((100 * part) / total, 0) : "–");
 const signed = (value, digits) => value.toFixed(digits).replace(/^-(0(\.0+)?)$/, "$1").replace("-", "\u2212");
 
@@ -39,7 +41,7 @@ function row(name, key, worst, mean, worsts, means) {
 
 /** Parts that pull the tip back stand left of the line, the others right of it; all on one scale. */
 function barOf(parts) {
-  const all = [...parts.joints, parts.shaping].map((value, i) => ({ value, name: NAMES[i], key: i < 6 ? `s${i + 1}` : "shaping" }));
+  const all = [...parts.joints, parts.tool, parts.shaping].map((value, i) => ({ value, name: NAMES[i], key: KEYS[i] }));
   const whole = all.reduce((sum, { value }) => sum + Math.abs(value), 0);
   if (!whole) return [];
   const back = all.filter(({ value }) => value < 0);

@@ -62,8 +62,12 @@ export class Job {
   }
 
   set(field, value) {
-    if (decides(field)) this.#reshape(field, value);
-    else this.#write(field.path, value);
+    if (decides(field)) return this.#reshape(field, value);
+    this.#write(field.path, value);
+    // What the choice asks for starts as the form shows it.
+    for (const { path, when, default: standard } of this.#fields) {
+      if (when?.path === field.path && when.is.includes(value) && this.#read(path) === undefined) this.#write(path, structuredClone(standard));
+    }
   }
 
   /** Takes the field back to its default. */

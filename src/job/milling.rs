@@ -1,0 +1,193 @@
+//! The job's tool, material and cutting, one to one as in the JSON. Values are as typed, not yet checked.
+
+use crate::job::choice::{ChipThickness, Choice, CornerRadius, FeedPerTooth, choice};
+use crate::job::json::keys;
+use serde::Serialize;
+
+choice! {
+    /// How the tool sits in its holder.
+    ToolBending { #[default] /** It does not bend. */ Rigid = "rigid", /** It bends as a bar clamped at one end. */ Cantilever = "cantilever" }
+}
+choice! {
+    /// How the engagement is given.
+    Engaged { #[default] /** By entry and exit. */ Angles = "angles", /** Down milling. */ Climb = "climb", /** Up milling. */ Conventional = "conventional", /** Material on both sides. */ Slot = "slot" }
+}
+choice! {
+    /// The straight line that stands for Kienzle's curve.
+    Line { #[default] /** Right in force and slope. */ Tangent = "tangent", /** Right in force, zero without a chip. */ Secant = "secant" }
+}
+
+/// The end mill.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Tool {
+    /// Diameter.
+    pub diameter_mm: f64,
+    /// Number of flutes.
+    pub flutes: u32,
+    /// Helix angle.
+    pub helix_deg: f64,
+    /// Radius of the corner between side and bottom; default 0, a flat end mill.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub corner_radius_mm: Option<CornerRadius>,
+    /// Normal rake angle; default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rake_deg: Option<f64>,
+    /// How far the tool's axis is off the spindle's; default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub runout_mm: Option<f64>,
+    /// Whether the tool bends; default rigid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bending: Option<ToolBending>,
+    /// Length out of the holder.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stickout_mm: Option<f64>,
+    /// Length of the flutes from the tip; default: all of the stickout.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flute_length_mm: Option<f64>,
+    /// Diameter behind the flutes; default: the tool's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shank_diameter_mm: Option<f64>,
+    /// Young's modulus; default 600, carbide.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub modulus_gpa: Option<f64>,
+}
+
+impl Default for Tool {
+    fn default() -> Self {
+        Self {
+            diameter_mm: 10.0,
+            flutes: 4,
+            helix_deg: 30.0,
+            corner_radius_mm: None,
+            rake_deg: None,
+            runout_mm: None,
+            bending: None,
+            stickout_mm: None,
+            flute_length_mm: None,
+            shank_diameter_mm: None,
+            modulus_gpa: None,
+        }
+    }
+}
+
+/// Cutting coefficients: a preset, numbers, or Kienzle's constants (whose last four keys may overrule a preset's).
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Material {
+    /// Key of a material in the library.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub preset: Option<String>,
+    /// Tangential cutting coefficient.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ktc_n_mm2: Option<f64>,
+    /// Radial cutting coefficient.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub krc_n_mm2: Option<f64>,
+    /// Axial cutting coefficient.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kac_n_mm2: Option<f64>,
+    /// Tangential edge coefficient; default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kte_n_mm: Option<f64>,
+    /// Radial edge coefficient; default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kre_n_mm: Option<f64>,
+    /// Axial edge coefficient; default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kae_n_mm: Option<f64>,
+    /// Kienzle's specific cutting force of a chip of 1 mm by 1 mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kc11_n_mm2: Option<f64>,
+    /// Kienzle's exponent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mc: Option<f64>,
+    /// Radial to tangential force; default 0.3.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radial_ratio: Option<f64>,
+    /// Axial to tangential force; default 0.3.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axial_ratio: Option<f64>,
+    /// The line that stands for the curve; default tangent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<Line>,
+    /// Thickness of chip that the line is made for; default the cut's mean.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub chip_thickness_mm: Option<ChipThickness>,
+}
+
+/// Engagement.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Cutting {
+    /// Axial depth of cut.
+    pub axial_depth_mm: f64,
+    /// How the engagement is given; default by entry and exit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub engagement: Option<Engaged>,
+    /// Radial depth of cut, for climb and conventional milling.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radial_depth_mm: Option<f64>,
+    /// Immersion angle at which a tooth enters.
+    pub entry_deg: f64,
+    /// Immersion angle at which it leaves.
+    pub exit_deg: f64,
+    /// Spindle speed.
+    pub spindle_rpm: f64,
+    /// What the spindle can give; not checked if it is not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spindle_power_kw: Option<f64>,
+    /// Feed per tooth.
+    pub feed_per_tooth_mm: FeedPerTooth,
+}
+
+impl Default for Cutting {
+    fn default() -> Self {
+        Self {
+            axial_depth_mm: 10.0,
+            engagement: None,
+            radial_depth_mm: None,
+            entry_deg: 90.0,
+            exit_deg: 180.0,
+            spindle_rpm: 4000.0,
+            spindle_power_kw: None,
+            feed_per_tooth_mm: Choice::value(0.1),
+        }
+    }
+}
+
+keys!(Tool {
+    diameter_mm,
+    flutes,
+    helix_deg,
+    corner_radius_mm,
+    rake_deg,
+    runout_mm,
+    bending,
+    stickout_mm,
+    flute_length_mm,
+    shank_diameter_mm,
+    modulus_gpa
+});
+keys!(new Material {
+    preset,
+    ktc_n_mm2,
+    krc_n_mm2,
+    kac_n_mm2,
+    kte_n_mm,
+    kre_n_mm,
+    kae_n_mm,
+    kc11_n_mm2,
+    mc,
+    radial_ratio,
+    axial_ratio,
+    line,
+    chip_thickness_mm
+});
+keys!(Cutting {
+    axial_depth_mm,
+    engagement,
+    radial_depth_mm,
+    entry_deg,
+    exit_deg,
+    spindle_rpm,
+    spindle_power_kw,
+    feed_per_tooth_mm
+});
