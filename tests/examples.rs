@@ -160,7 +160,7 @@ fn the_index_names_the_files_that_are_there() {
         .unwrap()
         .map(|file| file.unwrap().file_name().into_string().unwrap())
         // Measurements are the panel Identify's.
-        .filter(|name| !name.starts_with("measured-"))
+        .filter(|name| !name.starts_with("identify-"))
         .collect();
     assert!(present.remove("index.json"));
     assert_eq!(listed, present);

@@ -10,12 +10,12 @@ use armill::{Error, Job};
 use nalgebra::{DMatrix, DVector, Vector6};
 use serde_json::Value;
 
-const FANUC: &str = include_str!("../../web/examples/measured-fanuc-r2000ic.csv");
+const FANUC: &str = include_str!("../../web/examples/identify-fanuc-r2000ic.csv");
 
 /// The robot of the measured example, with its tool.
 pub(crate) fn fanuc() -> Robot {
     let example: Value =
-        serde_json::from_str(include_str!("../../web/examples/measured-fanuc-r2000ic.json")).unwrap();
+        serde_json::from_str(include_str!("../../web/examples/identify-fanuc-r2000ic.json")).unwrap();
     let changes = ["robot", "tool_frame"].map(|key| (key, example[key].clone()));
     Job::from_json(&job_text(&changes)).unwrap().robot().unwrap()
 }

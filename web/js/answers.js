@@ -1,13 +1,14 @@
 // The Worker's side of core.js: owns one Run of the WebAssembly core and answers questions about it.
 
 const PROGRESS_MS = 40;
-const FULL = new Set(["export", "replay", "thesis"]); // questions that only the full core answers
+const FULL = new Set(["export", "replay", "thesis", "identify"]); // questions that only the full core answers
 
 let armill; // the core in use: the small or the full one, behind the same interface
 let isFull = false;
 let run = null;
 let shown; // the job of the run, as JSON text
 let upgrading; // promise of the full core, from when it is first needed
+const identified = {}; // what was identified last, `stiffness` and `response`
 const arrival = {}; // takes the core that is waited for
 
 const answers = {
@@ -40,6 +41,14 @@ const answers = {
   replay: (format) => run.replay(format),
   release,
   thesis: () => armill.thesis_recomputed(),
+  identify(kind, ...args) {
+    const fresh = armill[`identify_${kind}`](...args);
+    identified[kind]?.free();
+    identified[kind] = fresh;
+    return fresh.summary();
+  },
+  identified_chart: (kind, options) => identified[kind].chart(options),
+  identified_data: (kind, units) => identified[kind].chart_data(units),
   trap: () => armill.trap(),
 };
 

@@ -46,6 +46,9 @@ export const check = (json) => (spare ??= spawn()).ask("check", json);
 /** The thesis's printed figures beside ours; they are the default job's, whatever is shown. */
 export const thesis = () => (spare ??= spawn()).ask("thesis");
 
+/** A Worker of its own, `{ ask(kind, ...args) }`, for what has nothing to do with the shown result. */
+export const helper = () => spawn();
+
 /** One chart of the shown result, drawn at `options.width` pixels. */
 export const chart = (name, options) => askShown("chart", name, options);
 

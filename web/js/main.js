@@ -8,6 +8,7 @@ import { byId, debounced, make, sentence } from "./dom.js";
 import { download } from "./download.js";
 import { Form } from "./form.js";
 import { Job } from "./job.js";
+import { makeIdentify } from "./identify/panel.js";
 import { formatLength, formatNumber } from "./number.js";
 import { openPanels, rememberPanels, restoreGroups } from "./panels.js";
 import { followCaret, openProgram, programTools, setLines, showProgram } from "./program.js";
@@ -25,6 +26,7 @@ const PATIENCE_MS = 150; // a run that takes longer shows its progress
 
 const results = byId("results");
 const scene = makeScene(byId("scene"));
+const identify = makeIdentify(byId("identify"), { job: () => JSON.parse(job.json), use: (changed) => session.load(changed) });
 let job;
 let form;
 let session;
@@ -99,6 +101,7 @@ const events = {
     takeLines(summary);
     setCharts(charts);
     scene.show(summary);
+    identify.look();
     for (const id of ["download-compensated", "download-columns", "download-program", "export-format", "share", "pin"]) byId(id).disabled = false;
     if (form.flawed) return stale();
     if (typing) return; // shown, but of an earlier edit
@@ -245,6 +248,7 @@ function wire() {
     showPanel(panel);
     rememberPanels({ tab: panel.getAttribute("aria-labelledby") });
     if (panel.id === "panel-thesis") recomputeThesis();
+    if (panel.id === "panel-identify") identify.look();
   });
   if (!tabs.show(openPanels().tab)) showPanel(tabs.current());
 }

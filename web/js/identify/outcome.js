@@ -1,0 +1,83 @@
+// What both parts of the view do with a text: compute when it changes, latest wins; show the result and its chart, or what is wrong.
+
+import { Figure } from "../chart/figure.js";
+import { debounced, make } from "../dom.js";
+import { onSetting } from "../settings.js";
+
+export class Outcome {
+  #ask;
+  #kind;
+  #source;
+  #show;
+  #result = make("div", { className: "result", hidden: true });
+  #figure;
+  #turn = 0;
+  #asked = ""; // what was asked last
+  #found = null;
+
+  /** `source` is the text, `show(found)` gives the nodes of a result; `chart` is { name, title }. */
+  constructor({ ask, kind, source, chart, show }) {
+    this.#ask = ask;
+    this.#kind = kind;
+    this.#source = source;
+    this.#show = show;
+    const drawn = { chart: (_, options) => ask("identified_chart", kind, options), chartData: (_, units) => ask("identified_data", kind, units) };
+    this.#figure = new Figure({ ...chart, figure: "", kind: "curve" }, () => {}, drawn);
+    this.node = make("div", { className: "outcome", "aria-live": "polite" }, this.#result);
+    const redraw = debounced(() => this.#figure.fits || this.#draw(), 120);
+    new ResizeObserver(() => this.#found && redraw()).observe(this.node);
+    onSetting((key) => {
+      if (!this.#found || key === "theme") return;
+      this.#fill();
+      this.#figure.forget();
+      this.#figure.zoom(null, null, true);
+    });
+  }
+
+  /** Computes with the text and `args` (plain data), unless that is what is shown. */
+  async compute(...args) {
+    const { text } = this.#source;
+    const asked = JSON.stringify([text, args]);
+    if (asked === this.#asked) return void (this.#found && !this.#figure.fits && this.#draw());
+    this.#asked = asked;
+    const mine = ++this.#turn;
+    if (!text.trim()) {
+      this.#found = null;
+      this.#result.hidden = true;
+      return this.#source.fail(null);
+    }
+    try {
+      const found = await this.#ask("identify", this.#kind, ...this.#order(text, args));
+      if (mine !== this.#turn) return;
+      this.#source.fail(null);
+      this.#found = found;
+      this.#result.hidden = false;
+      this.#result.classList.remove("stale");
+      this.#fill();
+      this.#figure.forget();
+      this.#figure.zoom(null, null, true);
+      this.#draw();
+    } catch (error) {
+      if (mine !== this.#turn) return;
+      if (error.fatal) this.#asked = "";
+      this.#source.fail(error);
+      this.#result.classList.add("stale");
+    }
+  }
+
+  /** The core takes the job before the text where there is one. */
+  #order(text, args) {
+    return this.#kind === "stiffness" ? [args[0], text, args[1]] : [text, ...args];
+  }
+
+  #fill() {
+    this.#result.replaceChildren(...this.#show(this.#found), this.#figure.node);
+  }
+
+  #draw() {
+    this.#figure.draw().catch(() => {}); // the next look draws again
+  }
+}
+
+/** Sentences that make a result doubtful. */
+export const remarks = (texts) => (texts.length ? [make("ul", { className: "remarks" }, ...texts.map((text) => make("li", {}, text)))] : []);
