@@ -26,7 +26,7 @@ export class Figure {
   #legend;
   #title;
   #link;
-  #source;
+  #values;
   #svg = null;
   #chart = null; // as drawn last
   #data = null; // its values, fetched when first needed
@@ -40,9 +40,9 @@ export class Figure {
   #width = 0; // that was drawn at
 
 
-  /** `link(figure, range)` is called when the range of time changes, to take the other charts along. `source` draws: the shown result. */
-  constructor({ name, title, figure, kind }, link, source = core) {
-    this.#source = source;
+  /** `link(figure, range)` is called when the range of time changes, to take the other charts along. `values` draws it and has its values: the shown result. */
+  constructor({ name, title, figure, kind }, link, values = core) {
+    this.#values = values;
     this.name = name;
     this.kind = kind;
     this.overRun = kind !== "curve";
@@ -83,7 +83,7 @@ export class Figure {
       this.#plot.style.setProperty("min-height", `${size.height}px`);
       const { x, y } = this.#view;
       const options = { ...size, ...units(), hidden: this.#legend.hidden, ...(x && { x_range: x }), ...(y && { y_range: y }) };
-      this.#show(await this.#source.chart(this.name, options));
+      this.#show(await this.#values.chart(this.name, options));
     }
   }
 
@@ -345,7 +345,7 @@ export class Figure {
 
   /** Fetches the values; resolves to whether they are there, and still those of what is shown. */
   #fetch() {
-    this.#fetching ??= this.#source.chartData(this.name, units()).catch(() => null);
+    this.#fetching ??= this.#values.chartData(this.name, units()).catch(() => null);
     const mine = this.#fetching;
     return mine.then((data) => {
       if (mine !== this.#fetching) return false;
