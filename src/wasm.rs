@@ -40,7 +40,7 @@ export interface Summary {
   before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics }; after_mm: Statistics; budget: Budget;
   before_axis_deg: Statistics; after_axis_deg: Statistics; program?: Understood;
   passes: number; converged: boolean; tolerance_mm: number; history_max_mm: number[]; history_mean_mm: number[];
-  verdict: string; robot: string; stiffness: string; branch: string; warnings: Warning[];
+  verdict: string; robot: string; inverse: "closed form" | "numerically"; stiffness: string; branch: string; warnings: Warning[];
 }
 export interface Field {
   path: string; group: string; label: string; unit: string; kind: "number" | "integer" | "choice" | "vector" | "table" | "text" | "set";

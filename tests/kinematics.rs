@@ -259,13 +259,15 @@ fn out_of_reach_is_refused_with_distance_and_reach() {
 }
 
 #[test]
-fn tables_outside_the_family_are_refused_by_row() {
+fn tables_outside_the_family_are_named_by_row() {
     let rx90 = *common::rx90().links();
-    let field = |row: usize, change: &dyn Fn(&mut Link)| {
+    let bent = |row: usize, change: &dyn Fn(&mut Link)| {
         let mut links = rx90;
         change(&mut links[row]);
-        let error = Robot::new("bent", links, None, [0.0; 6]).unwrap_err();
-        error.field().unwrap().to_owned()
+        Robot::new("bent", links, None, [0.0; 6])
+    };
+    let field = |row: usize, change: &dyn Fn(&mut Link)| {
+        bent(row, change).unwrap().closed_form().unwrap_err().field().unwrap().to_owned()
     };
     assert_eq!(field(1, &|l| l.alpha = 1.0), "robot.modified_dh[1].alpha_deg");
     assert_eq!(field(2, &|l| l.alpha = PI / 2.0), "robot.modified_dh[2].alpha_deg");
@@ -274,8 +276,10 @@ fn tables_outside_the_family_are_refused_by_row() {
     assert_eq!(field(5, &|l| l.a = -0.1), "robot.modified_dh[5].a_mm");
     assert_eq!(field(2, &|l| l.a = 0.0), "robot.modified_dh[2].a_mm");
     assert_eq!(field(3, &|l| l.d = 0.0), "robot.modified_dh[3].d_mm");
-    assert_eq!(field(3, &|l| l.sign = 0.5), "robot.modified_dh[3].joint_sign");
-    assert_eq!(field(0, &|l| l.d = f64::NAN), "robot.modified_dh[0].d_mm");
+    let refused =
+        |row: usize, change: &dyn Fn(&mut Link)| bent(row, change).unwrap_err().field().unwrap().to_owned();
+    assert_eq!(refused(3, &|l| l.sign = 0.5), "robot.modified_dh[3].joint_sign");
+    assert_eq!(refused(0, &|l| l.d = f64::NAN), "robot.modified_dh[0].d_mm");
 }
 
 #[test]

@@ -94,6 +94,8 @@ pub struct Summary {
     pub robot: String,
     /// Where the joints' compliance comes from and how far to trust it.
     pub stiffness: String,
+    /// How its inverse kinematics is solved: `closed form` or `numerically`.
+    pub inverse: &'static str,
     /// The arm's branch at the start, in words.
     pub branch: String,
     /// What is odd but workable.
@@ -221,6 +223,7 @@ impl Report {
             verdict: self.verdict(),
             program: self.setup.listing.as_ref().map(|listing| Understood::of(listing, &self.plan.path)),
             robot: self.plan.robot.name().to_owned(),
+            inverse: if self.plan.robot.closed_form().is_ok() { "closed form" } else { "numerically" },
             stiffness: self.setup.stiffness_note.clone(),
             branch,
             warnings: self.warnings.clone(),

@@ -84,6 +84,12 @@ pub(crate) fn warnings(
         let message = "nobody has published the joint stiffness of this robot: deflections are an order of magnitude, off by a factor of 2 as a rule and of 8 in single joints; enter your own";
         warnings.push(Warning::new("stiffness-assumed", message));
     }
+    if let Err(reason) = plan.robot.closed_form() {
+        warnings.push(Warning::new(
+            "inverse-numerical",
+            format!("the joint values are solved numerically: {reason}"),
+        ));
+    }
     limits(plan, joints, compensation, &mut warnings);
     singularities(plan, joints, &mut warnings);
     cut(setup, plan, &mut warnings);

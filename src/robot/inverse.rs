@@ -2,11 +2,12 @@
 //!
 //! Two shoulders (the arm faces the point or turns its back), two elbows and two wrists give up to eight solutions.
 //! The thesis's eqs. 3.13-3.21 have misprinted arc tangents; the derivation here follows the same steps
-//! with the twist signs and the offsets a_1, a_3 and b kept as parameters.
+//! with the twist signs and the offsets a_1, a_3 and b kept as parameters. Other arms are solved numerically, with the same answers.
 
 use crate::error::Error;
 use crate::math::{self, Pose};
-use crate::robot::{Joints, Robot, forward};
+use crate::robot::model::Geometry;
+use crate::robot::{Joints, Robot, forward, numerical};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::FRAC_PI_4;
 
@@ -50,6 +51,21 @@ pub struct Solutions {
 }
 
 impl Solutions {
+    pub(crate) fn none() -> Self {
+        Self { all: [None; 8] }
+    }
+
+    /// Whether there was room for another one.
+    pub(crate) fn add(&mut self, solution: Solution) -> bool {
+        match self.all.iter_mut().find(|slot| slot.is_none()) {
+            Some(slot) => {
+                *slot = Some(solution);
+                true
+            }
+            None => false,
+        }
+    }
+
     /// The solutions, in the order front/back, elbow +/-, wrist +/-.
     pub fn iter(&self) -> impl Iterator<Item = &Solution> {
         self.all.iter().flatten()
@@ -96,8 +112,9 @@ pub(crate) fn closes(robot: &Robot, tcp: &Pose, q: &Joints) -> bool {
 /// Another wrist turns q4 by half a turn; another elbow turns q3 by twice the elbow angle; another shoulder turns q1 by more than a
 /// quarter turn where the wrist centre is further ahead than beside. What is less than half as far from `last` is the nearest.
 pub(crate) fn continued(robot: &Robot, tcp: &Pose, last: &Solution) -> Option<Solution> {
+    let Ok(geometry) = robot.geometry() else { return numerical::continued(robot, tcp, last) };
     let solution = *candidates(robot, tcp, &last.q, Some(last.branch)).ok()?.iter().next()?;
-    let certain = solution.margin.shoulder >= robot.geometry.lateral.abs()
+    let certain = solution.margin.shoulder >= geometry.lateral.abs()
         && (solution.q - last.q).norm() < solution.margin.elbow.min(FRAC_PI_4);
     certain.then_some(solution)
 }
@@ -109,7 +126,7 @@ pub(crate) fn candidates(
     near: &Joints,
     only: Option<Branch>,
 ) -> Result<Solutions, Error> {
-    let g = &robot.geometry;
+    let Ok(g) = robot.geometry() else { return numerical::solutions(robot, tcp, near) };
     let links = robot.links();
     let flange = tcp.compose(&robot.tool().inverse());
 
@@ -162,7 +179,7 @@ pub(crate) fn candidates(
             let theta_2 =
                 math::atan2(py, px) - math::atan2(g.cos_2 * g.fore * sin_elbow, g.upper + g.fore * cos_elbow);
             let arm = arm_rotation(robot, [theta_1, theta_2, theta_3]);
-            let wrist = wrist_angles(robot, &(arm.transpose() * flange.rotation), near);
+            let wrist = wrist_angles(robot, g, &(arm.transpose() * flange.rotation), near);
             for (positive, [theta_4, theta_5, theta_6], sin_wrist) in wrist {
                 if only.is_some_and(|branch| branch.wrist_positive != positive) {
                     continue;
@@ -202,8 +219,7 @@ fn about_x((cos, sin): (f64, f64)) -> Matrix3<f64> {
 ///
 /// With alpha_5 = -alpha_4 the middle is Ry(b), b = -sin(alpha_4) theta_5, and M are Euler angles ZYZ;
 /// with equal twists a half turn about x follows, which also turns theta_6 round.
-fn wrist_angles(robot: &Robot, m: &Matrix3<f64>, near: &Joints) -> [(bool, [f64; 3], f64); 2] {
-    let g = &robot.geometry;
+fn wrist_angles(robot: &Robot, g: &Geometry, m: &Matrix3<f64>, near: &Joints) -> [(bool, [f64; 3], f64); 2] {
     let equal = g.sin_4 == g.sin_5;
     let m = if equal { m * Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0)) } else { *m };
     let sin_b = math::hypot(m[(0, 2)], m[(1, 2)]);
@@ -225,15 +241,20 @@ fn wrist_angles(robot: &Robot, m: &Matrix3<f64>, near: &Joints) -> [(bool, [f64;
 
 /// The pose is within reach, but rounding keeps every branch from it.
 pub(crate) fn unclosed(tcp: &Pose) -> Error {
-    let [x, y, z] = [tcp.position.x, tcp.position.y, tcp.position.z].map(|v| v / crate::units::MM);
     Error::Invalid {
         field: "path".into(),
-        value: format!("at ({x:.1}, {y:.1}, {z:.1}) mm in the base frame"),
+        value: place_mm(tcp),
         expected: "no solution of the inverse model closes there; move the path a little".into(),
     }
 }
 
-fn unreachable(tcp: &Pose, distance: f64, (reach_min, reach_max): (f64, f64)) -> Error {
+/// A place in words.
+pub(crate) fn place_mm(tcp: &Pose) -> String {
+    let [x, y, z] = [tcp.position.x, tcp.position.y, tcp.position.z].map(|v| v / crate::units::MM);
+    format!("at ({x:.1}, {y:.1}, {z:.1}) mm in the base frame")
+}
+
+pub(crate) fn unreachable(tcp: &Pose, distance: f64, (reach_min, reach_max): (f64, f64)) -> Error {
     let position = [tcp.position.x, tcp.position.y, tcp.position.z];
     Error::Unreachable { sample: None, arc_length: None, position, distance, reach_min, reach_max }
 }

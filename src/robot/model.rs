@@ -2,7 +2,7 @@
 //!
 //! Armill solves arms of the RX-90's family in closed form: an ortho-parallel base (axes 1 and 2 at right angles,
 //! crossing or offset; axes 2 and 3 parallel) and a spherical wrist (axes 4, 5, 6 meet in one point).
-//! [`Robot::new`] refuses other arms and names the row that breaks the rule.
+//! Other six-joint arms are solved by iteration; [`Robot::closed_form`] names the row that breaks the rule.
 
 use crate::error::Error;
 use crate::math::{self, Pose};
@@ -84,7 +84,7 @@ pub struct Robot {
     compliance: Joints,
     tool: Pose,
     pub(crate) twists: [(f64, f64); 6],
-    pub(crate) geometry: Geometry,
+    geometry: Result<Geometry, Error>,
 }
 
 impl Robot {
@@ -93,7 +93,7 @@ impl Robot {
     /// `limits` are the joints' ranges [rad], `compliance` the joints' compliances C_theta [rad/(N m)] (eq. 3.43).
     ///
     /// # Errors
-    /// [`Error::Invalid`] naming the row and the value if the table is not of the family, or a limit or compliance
+    /// [`Error::Invalid`] naming the row and the value if a number of the table, a limit or a compliance
     /// is not legal. Field names are those of the job (`robot.modified_dh[1].alpha_deg`).
     pub fn new(
         name: impl Into<String>,
@@ -119,7 +119,26 @@ impl Robot {
                 });
             }
         }
-        let geometry = Geometry::of(&links)?;
+        for (i, link) in links.iter().enumerate() {
+            for (key, value, unit) in [
+                ("alpha_deg", link.alpha, crate::units::DEG),
+                ("a_mm", link.a, crate::units::MM),
+                ("d_mm", link.d, crate::units::MM),
+                ("theta_offset_deg", link.theta_offset, crate::units::DEG),
+            ] {
+                if !value.is_finite() {
+                    return Err(broken(i, key, value / unit, "a finite number is needed"));
+                }
+            }
+            if link.sign.abs() != 1.0 {
+                return Err(broken(
+                    i,
+                    "joint_sign",
+                    link.sign,
+                    "a joint turns one way or the other: 1 or -1",
+                ));
+            }
+        }
         Ok(Self {
             name: name.into(),
             links,
@@ -127,7 +146,7 @@ impl Robot {
             compliance: Joints::from(compliance),
             tool: Pose::identity(),
             twists: links.map(|link| link.twist()),
-            geometry,
+            geometry: Geometry::of(&links),
         })
     }
 
@@ -162,49 +181,49 @@ impl Robot {
         &self.tool
     }
 
-    /// Smallest and largest distance of the wrist centre from axis 2 [m].
+    /// Smallest and largest distance of the wrist centre from axis 2 [m]; of an arm that is solved numerically a bound: from frame 1's
+    /// origin, all links in line.
     pub fn reach(&self) -> (f64, f64) {
-        let Geometry { upper, fore, .. } = self.geometry;
-        ((upper.abs() - fore).abs(), upper.abs() + fore)
+        match self.geometry {
+            Ok(Geometry { upper, fore, .. }) => ((upper.abs() - fore).abs(), upper.abs() + fore),
+            Err(_) => {
+                let last = self.links[5].a.abs();
+                (0.0, last + self.links[1..5].iter().map(|link| math::hypot(link.a, link.d)).sum::<f64>())
+            }
+        }
+    }
+
+    /// What the closed form works with; the error says what keeps this arm from it.
+    pub(crate) fn geometry(&self) -> Result<&Geometry, &Error> {
+        self.geometry.as_ref()
+    }
+
+    /// Whether the inverse has a closed form; otherwise the row of the table that keeps it from one.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] with the row, its value and what the closed form needs there.
+    pub fn closed_form(&self) -> Result<(), &Error> {
+        self.geometry.as_ref().map(|_| ())
     }
 }
 
 impl Geometry {
     /// Reads the family's parameters out of the table, or says which row does not fit.
     fn of(links: &[Link; 6]) -> Result<Self, Error> {
-        for (i, link) in links.iter().enumerate() {
-            for (key, value, unit) in [
-                ("alpha_deg", link.alpha, crate::units::DEG),
-                ("a_mm", link.a, crate::units::MM),
-                ("d_mm", link.d, crate::units::MM),
-                ("theta_offset_deg", link.theta_offset, crate::units::DEG),
-            ] {
-                if !value.is_finite() {
-                    return Err(broken(i, key, value / unit, "a finite number is needed"));
-                }
-            }
-            if link.sign.abs() != 1.0 {
-                return Err(broken(
-                    i,
-                    "joint_sign",
-                    link.sign,
-                    "a joint turns one way or the other: 1 or -1",
-                ));
-            }
-        }
         let turn = |i: usize, legal: [u8; 2], expected: &'static str| match quarter_turns(links[i].alpha) {
             Some(turns) if legal.contains(&turns) => Ok(if turns == legal[0] { 1.0 } else { -1.0 }),
             _ => Err(broken(i, "alpha_deg", links[i].alpha / crate::units::DEG, expected)),
         };
-        turn(0, [0, 2], "axis 1 is vertical in the base frame: 0 or 180")?;
-        let sin_1 = turn(1, [1, 3], "axes 1 and 2 are at right angles: 90 or -90")?;
-        let cos_2 = turn(2, [0, 2], "axes 2 and 3 are parallel: 0 or 180")?;
-        let sin_3 = turn(3, [1, 3], "axes 3 and 4 are at right angles: 90 or -90")?;
-        let sin_4 = turn(4, [1, 3], "axes 4 and 5 are at right angles: 90 or -90")?;
-        let sin_5 = turn(5, [1, 3], "axes 5 and 6 are at right angles: 90 or -90")?;
+        turn(0, [0, 2], "the closed form needs axis 1 vertical in the base frame: 0 or 180")?;
+        let sin_1 = turn(1, [1, 3], "the closed form needs axes 1 and 2 at right angles: 90 or -90")?;
+        let cos_2 = turn(2, [0, 2], "the closed form needs axes 2 and 3 parallel: 0 or 180")?;
+        let sin_3 = turn(3, [1, 3], "the closed form needs axes 3 and 4 at right angles: 90 or -90")?;
+        let sin_4 = turn(4, [1, 3], "the closed form needs axes 4 and 5 at right angles: 90 or -90")?;
+        let sin_5 = turn(5, [1, 3], "the closed form needs axes 5 and 6 at right angles: 90 or -90")?;
         for (i, key, value) in [(4, "a_mm", links[4].a), (4, "d_mm", links[4].d), (5, "a_mm", links[5].a)] {
             if value.abs() > 1e-9 {
-                let expected = "axes 4, 5 and 6 meet in one point (spherical wrist): 0";
+                let expected =
+                    "the closed form needs axes 4, 5 and 6 to meet in one point (spherical wrist): 0";
                 return Err(broken(i, key, value / crate::units::MM, expected));
             }
         }
@@ -234,6 +253,6 @@ fn broken(row: usize, key: &str, value: f64, expected: &str) -> Error {
     Error::Invalid {
         field: format!("robot.modified_dh[{row}].{key}"),
         value: format!("{value}"),
-        expected: format!("{expected} (closed-form inverse kinematics)"),
+        expected: expected.into(),
     }
 }

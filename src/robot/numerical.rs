@@ -1,0 +1,147 @@
+//! Inverse kinematics by iteration, for six-joint arms outside the closed form: wrists whose axes do not meet, bent twists.
+//!
+//! Levenberg-Marquardt with a damping that follows the squared error, as Sugihara proposes ("Solvability-unconcerned inverse kinematics by
+//! the Levenberg-Marquardt method", IEEE Trans. Robotics 27(5), 2011, eqs. 12-16): it never meets a singular matrix, and near the
+//! solution it is Newton's method, which doubles the correct digits at every step. Starting points are fixed, so the same pose gives the
+//! same bits.
+
+use crate::error::Error;
+use crate::math::{self, Pose, TAU};
+use crate::robot::inverse::{Branch, Margin, Solution, Solutions, closes, place_mm, unreachable};
+use crate::robot::{Joints, Robot, forward, jacobian};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+
+/// Steps of one search at most.
+const STEPS: usize = 50;
+/// Starting points that are tried for all solutions of a pose.
+const STARTS: usize = 160;
+/// Squared error (positions over the arm's length) below which a step can only stir the last digits.
+const DONE: f64 = 1e-29;
+/// Joint values nearer to each other than this are one solution [rad].
+const SAME: f64 = 1e-5;
+/// A continuation that turns a joint further is not trusted to be the nearest solution [rad].
+const TRUSTED: f64 = 0.3;
+/// The positive root of x^7 = x + 1: its powers spread points evenly over six dimensions (M. Roberts, "The unreasonable effectiveness of
+/// quasirandom sequences", 2018).
+const SPREAD: f64 = 1.112_775_684_278_706;
+
+/// Every solution that the starting points lead to, `near` first; at most eight.
+pub(crate) fn solutions(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solutions, Error> {
+    let wrist = wrist_of(robot, tcp);
+    let shoulder = forward::frames(robot, near)[0].position;
+    let (distance, reach) = ((wrist - shoulder).norm(), robot.reach());
+    if distance > reach.1 {
+        return Err(unreachable(tcp, distance, reach));
+    }
+    let mut found = Solutions::none();
+    for k in 0..STARTS {
+        let start = if k == 0 { *near } else { start(k) };
+        let Some(q) = search(robot, tcp, &start) else { continue };
+        let q = Joints::from_fn(|i, _| math::nearest_turn(q[i], near[i]));
+        let new = found.iter().all(|known| (known.q - q).amax() > SAME);
+        if new && !found.add(described(robot, q)) {
+            break;
+        }
+    }
+    if found.iter().next().is_none() {
+        return Err(Error::Invalid {
+            field: "path".into(),
+            value: place_mm(tcp),
+            expected: format!(
+                "no joint values were found that put the tool there with this axis (numerical inverse, {STARTS} starting points); move or turn the path"
+            ),
+        });
+    }
+    Ok(found)
+}
+
+/// The solution that grows out of `last`, if it is near enough to be the nearest.
+pub(crate) fn continued(robot: &Robot, tcp: &Pose, last: &Solution) -> Option<Solution> {
+    let q = search(robot, tcp, &last.q)?;
+    ((q - last.q).amax() < TRUSTED).then(|| described(robot, q))
+}
+
+/// Joint values that put the TCP at `tcp`, from a starting point.
+fn search(robot: &Robot, tcp: &Pose, start: &Joints) -> Option<Joints> {
+    let scale = 1.0 / robot.reach().1;
+    let mut q = *start;
+    let mut error = error(robot, tcp, &q, scale);
+    let mut caution = 1.0;
+    for _ in 0..STEPS {
+        let squared = error.norm_squared();
+        if squared < DONE {
+            break;
+        }
+        let mut j = jacobian::jacobian(robot, &q);
+        j.fixed_rows_mut::<3>(0).scale_mut(scale);
+        let damping = Matrix6::from_diagonal_element(caution * squared + 1e-15);
+        let step = (j.tr_mul(&j) + damping).cholesky()?.solve(&j.tr_mul(&error));
+        let next = q + step;
+        let next_error = self::error(robot, tcp, &next, scale);
+        if next_error.norm_squared() < squared {
+            (q, error) = (next, next_error);
+            caution = f64::max(caution * 0.25, 1e-3);
+        } else if squared < 1e-24 {
+            break;
+        } else {
+            caution *= 10.0;
+        }
+    }
+    closes(robot, tcp, &q).then_some(q)
+}
+
+/// What is missing from the pose at `q` to `tcp`: way (over the arm's length) and rotation vector.
+fn error(robot: &Robot, tcp: &Pose, q: &Joints, scale: f64) -> Vector6<f64> {
+    let now = forward::forward(robot, q);
+    let way = (tcp.position - now.position) * scale;
+    let turn = rotation_vector(&(tcp.rotation * now.rotation.transpose()));
+    Vector6::new(way.x, way.y, way.z, turn.x, turn.y, turn.z)
+}
+
+/// Axis times angle of a rotation (its logarithm); at half a turn, where the axis has no sign, nearly zero.
+fn rotation_vector(r: &Matrix3<f64>) -> Vector3<f64> {
+    let sine = Vector3::new(r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]) * 0.5;
+    let size = sine.norm();
+    if size < 1e-9 { sine } else { sine * (math::atan2(size, (r.trace() - 1.0) * 0.5) / size) }
+}
+
+/// The `k`-th starting point: six angles within half a turn of zero.
+fn start(k: usize) -> Joints {
+    let mut power = 1.0;
+    Joints::from_fn(|_, _| {
+        power /= SPREAD;
+        let share: f64 = 0.5 + k as f64 * power;
+        TAU * (share - share.floor() - 0.5)
+    })
+}
+
+/// Where axes 5 and 6 come nearest: the wrist centre, whose distance from the shoulder the links limit.
+fn wrist_of(robot: &Robot, tcp: &Pose) -> Vector3<f64> {
+    let flange = tcp.compose(&robot.tool().inverse());
+    flange.position - flange.rotation.column(2) * robot.links()[5].d
+}
+
+/// Joint values with their branch and margin, in the terms of the closed form, of which these are the general case.
+pub(crate) fn described(robot: &Robot, q: Joints) -> Solution {
+    let frames = forward::frames(robot, &q);
+    let axis = |i: usize| frames[i].rotation.column(2);
+    let ahead = frames[0].rotation.column(0).dot(&(frames[4].position - frames[0].position));
+    // The forearm, across axis 3, and the side of the upper arm's line that it points to.
+    let fore = frames[3].position - frames[2].position;
+    let fore = fore - axis(2) * axis(2).dot(&fore);
+    let bend = axis(2).dot(&frames[1].rotation.column(0).cross(&fore));
+    let (sin_5, _) = math::sin_cos(robot.links()[4].theta(q[4]));
+    Solution {
+        q,
+        branch: Branch {
+            front: ahead >= 0.0,
+            elbow_positive: bend >= 0.0,
+            wrist_positive: -robot.twists[4].1 * sin_5 >= 0.0,
+        },
+        margin: Margin {
+            shoulder: ahead.abs(),
+            elbow: bend.abs() / fore.norm().max(f64::MIN_POSITIVE),
+            wrist: axis(3).cross(&axis(5)).norm(),
+        },
+    }
+}
