@@ -1,5 +1,8 @@
 //! The pipeline, end to end: from a job to its report.
 
+#[cfg(feature = "full")]
+mod spin;
+
 use crate::compensation::{Goal, compensate};
 use crate::deviation::{Plan, Source, Sources, contour, deviate};
 use crate::error::Error;
@@ -51,7 +54,8 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
         job.setup_with(|share| on_progress(Stage { fraction: share / steps, name: "reading the program" }))?;
     let mut tell = |step: usize, name| on_progress(Stage { fraction: (reading + step as f64) / steps, name });
     tell(0, "joint commands");
-    let plan = Plan {
+    #[cfg_attr(not(feature = "full"), allow(unused_mut, reason = "the full one chooses the spin"))]
+    let mut plan = Plan {
         robot: setup.robot.clone(),
         trajectory: Trajectory::new(&setup.path, &setup.tempo),
         path: setup.path.clone(),
@@ -60,6 +64,11 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
         chip: setup.chip,
         bending: setup.bending,
     };
+    #[cfg(feature = "full")]
+    if let Some(freedom) = &setup.freedom {
+        tell(0, "spin about the tool axis");
+        plan.path = spin::chosen(&plan, &setup, freedom);
+    }
     let desired = (plan.trajectory.position.as_slice(), plan.trajectory.axis.as_slice());
     let joints = joint_trajectory(&plan.robot, &plan.path, &plan.trajectory, desired, setup.start)?;
     let deviation = |acting: Sources| deviate(&plan, &plan.pace(acting), &joints.q, acting);
@@ -88,12 +97,17 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
     } else {
         deviate(&plan, &plan.pace(Sources::ALL), &compensation.q, Sources::ALL)
     };
+    #[cfg(feature = "full")]
+    let spin = setup.freedom.map(|freedom| spin::gain(&plan, &setup, &freedom, &joints.q, &before));
+    #[cfg(not(feature = "full"))]
+    let spin = None;
     let (_, after_max) = contour::mean_and_max(&after.contour_error);
     let warnings = warning::warnings(&setup, &plan, &joints, &shaping_only, &compensation, after_max);
     let mut report = Report {
         setup,
         plan,
         joints,
+        spin,
         deflection_only,
         shaping_only,
         before,

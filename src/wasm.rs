@@ -34,11 +34,13 @@ export interface Understood {
   language: "gcode" | "apt" | "csv"; unit: string; lines: number; cutting_moves: number; rapid_moves: number; multi_axis: boolean;
   lowest_mm: [number, number, number]; highest_mm: [number, number, number]; feeds_mm_s?: [number, number]; ignored: { word: string; lines: number[] }[];
 }
+export interface Effort { joint_travel_deg: number; joint_speed_deg_s: number; error_mm: number; }
+export interface SpinGain { used_deg: [number, number]; fixed_deg: number; free: Effort; fixed?: Effort; sentence: string; }
 export interface Summary {
   fingerprint: string; samples: number; duration_s: number; path_length_mm: number; mean_force_n: [number, number, number];
   material: string; material_note: string; cut: Record<string, number>; walls: Record<string, number>[];
   before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics }; after_mm: Statistics; budget: Budget;
-  before_axis_deg: Statistics; after_axis_deg: Statistics; program?: Understood;
+  before_axis_deg: Statistics; after_axis_deg: Statistics; program?: Understood; spin?: SpinGain;
   passes: number; converged: boolean; tolerance_mm: number; history_max_mm: number[]; history_mean_mm: number[];
   verdict: string; robot: string; inverse: "closed form" | "numerically"; stiffness: string; branch: string; warnings: Warning[];
 }

@@ -30,7 +30,7 @@ fn thinned_lines_keep_every_point_within_the_tolerance() {
                 if case % 2 == 0 {
                     axis = (axis + any_vector(&mut random, 1e-3)).normalize();
                 }
-                Point { position: at, axis }
+                Point { position: at, axis, spin: 0.0 }
             })
             .collect();
         let tolerance = between(&mut random, 1e-6, 1e-3);
@@ -63,7 +63,11 @@ fn thinned_lines_keep_every_point_within_the_tolerance() {
 fn thinning_is_exact_on_lines_and_bears_a_million_points() {
     let line = |n: usize| -> Vec<Point> {
         (0..n)
-            .map(|i| Point { position: Vector3::new(i as f64 * 1e-4, 0.0, 0.0), axis: Vector3::z() })
+            .map(|i| Point {
+                position: Vector3::new(i as f64 * 1e-4, 0.0, 0.0),
+                axis: Vector3::z(),
+                spin: 0.0,
+            })
             .collect()
     };
     assert_eq!(thin(&line(1000), 1e-9), [0, 999]);
@@ -75,7 +79,7 @@ fn thinning_is_exact_on_lines_and_bears_a_million_points() {
             let angle = f64::from(i) * 1e-3;
             let (sin, cos) = sin_cos(angle);
             let position = Vector3::new(cos * 0.1, sin * 0.1, angle * 1e-3);
-            Point { position, axis: Vector3::z() }
+            Point { position, axis: Vector3::z(), spin: 0.0 }
         })
         .collect();
     let kept = thin(&helix, 1e-6);

@@ -50,7 +50,7 @@ pub fn each(path: &Path, pace: &Pace, mut at: impl FnMut(usize, Vector3<f64>, Ve
     };
     let samples = || pace.heading.iter().zip(&pace.arc_length);
     let first = samples().find_map(|(heading, &s)| across(heading, &path.axis(s)));
-    let mut x = first.unwrap_or_else(|| path.orientation(&path.axis(0.0)).column(0).into_owned());
+    let mut x = first.unwrap_or_else(|| path.reference(&path.axis(0.0)));
     for (k, (heading, &s)) in samples().enumerate() {
         let axis = path.axis(s);
         x = across(heading, &axis).or_else(|| across(&x, &axis)).unwrap_or(x);

@@ -61,7 +61,7 @@ impl Step {
 
 /// A point as written, in steps of `resolution` [m].
 pub(super) fn rounded(point: &Point, resolution: f64) -> Point {
-    Point { position: point.position.map(|x| (x / resolution).round() * resolution), axis: point.axis }
+    Point { position: point.position.map(|x| (x / resolution).round() * resolution), ..*point }
 }
 
 /// Straight moves and arcs from the first of `points`, which is as written, to the last, and how far the points are from them at most [m].

@@ -168,7 +168,8 @@ impl Command {
                 ),
             });
         }
-        let start = start.unwrap_or(Point { position: path.point(0.0), axis: path.axis(0.0) });
+        let start =
+            start.unwrap_or(Point { position: path.point(0.0), axis: path.axis(0.0), spin: path.spin(0.0) });
         Ok(Self { start, blocks, thinning, deviation, samples: report.samples(), style, reached: None, path })
     }
 
@@ -212,7 +213,7 @@ impl Command {
 
     /// Orientation of the TCP in the workpiece frame (see [`Path::orientation`]).
     pub fn orientation(&self, point: &Point) -> Matrix3<f64> {
-        self.path.orientation(&point.axis)
+        self.path.orientation(&point.axis, point.spin)
     }
 }
 
@@ -245,6 +246,7 @@ fn pieces(report: &Report, course: &Course, path: &Path, back: &Pose) -> Vec<Pie
     let sample = |k: usize| Point {
         position: back.point(&(trajectory.position[k] + correction[k])),
         axis: back.direction(&course.axis[k]),
+        spin: path.spin(arc_length[k]),
     };
     let last = arc_length.len() - 1;
     let mut k = 0;
@@ -273,6 +275,7 @@ fn pieces(report: &Report, course: &Course, path: &Path, back: &Pose) -> Vec<Pie
                 position: path.point(end)
                     + back.direction(&(correction[k - 1] * (1.0 - t) + correction[k] * t)),
                 axis: turned.normalize(),
+                spin: path.spin(end),
             });
             desired.push(path.point(end));
         }

@@ -78,6 +78,8 @@ pub fn replay(report: &Report, id: &str, options: &Options) -> Result<Replay, Er
 pub fn run(report: &Report, course: &Course, program: &Program) -> Result<Replay, Error> {
     let empty = || Error::Missing { field: "program".into(), expected: "a move".into() };
     let commanded = Path::of_program(program).ok_or_else(empty)?.placed(&report.setup.workpiece);
+    // A program of points says nothing about the spin: the run's own is taken, at the same share of the way.
+    let commanded = commanded.spun_as(&report.plan.path);
     let own = Trajectory::new(&commanded, &report.setup.tempo);
     let q = joint_trajectory(
         &report.plan.robot,

@@ -7,17 +7,22 @@
 use crate::math;
 use nalgebra::Vector3;
 
-/// A tool position: tip and axis.
+/// A tool position: tip, axis, and spin about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
     /// Tip [m].
     pub position: Vector3<f64>,
     /// Unit vector from tip to spindle.
     pub axis: Vector3<f64>,
+    /// How far the TCP is turned about the axis [rad].
+    pub spin: f64,
 }
 
 /// The axis is held to the same tolerance as the tip, at this height above it [m].
 pub const LEVER: f64 = 0.1;
+
+/// The spin is held to it at this distance from the axis [m]: it does not move the tip, it only bends the arm a little otherwise.
+pub const SPIN_LEVER: f64 = 0.001;
 
 impl Point {
     /// Distance from the straight move `from`-`to` [m]: of the tip, or of the point of the axis [`LEVER`] above it, whichever is larger.
@@ -25,7 +30,10 @@ impl Point {
     pub fn distance(&self, from: &Point, to: &Point) -> f64 {
         let along = to.position - from.position;
         let length = along.norm_squared();
-        let axis_at = |t: f64| (self.axis - from.axis * (1.0 - t) - to.axis * t).norm() * LEVER;
+        let axis_at = |t: f64| {
+            let spin = (self.spin - from.spin * (1.0 - t) - to.spin * t).abs() * SPIN_LEVER;
+            ((self.axis - from.axis * (1.0 - t) - to.axis * t).norm() * LEVER).max(spin)
+        };
         if length > 0.0 {
             let t = ((self.position - from.position).dot(&along) / length).clamp(0.0, 1.0);
             (self.position - from.position - along * t).norm().max(axis_at(t))

@@ -139,7 +139,7 @@ impl Row {
     fn field(&self) -> Field {
         let group = self.path.split('.').next().unwrap_or(self.path);
         let group = match group {
-            "tool_frame" | "base_frame" | "workpiece_frame" | "start_branch" => "frames",
+            "tool_frame" | "base_frame" | "workpiece_frame" | "spin" | "start_branch" => "frames",
             other => other,
         };
         let word = |&(value, label): &(&'static str, &'static str)| Word {
@@ -218,6 +218,10 @@ static TABLE: &[Row] = {
         field("workpiece_frame.rpy_deg", "Workpiece orientation", "deg", Vector, || json!([0, 0, 0]), "Roll, pitch and yaw of the workpiece frame about the cell's x, y and z axes, in this order.").range(-360.0, 360.0),
         field("base_frame.xyz_mm", "Robot base position", "mm", Vector, || json!([0, 0, 0]), "Where the robot's base stands in the cell: on a plinth, or along a track. Columns, charts and programs stay in the base frame; only the workpiece is given in the cell.").range(-20000.0, 20000.0),
         field("base_frame.rpy_deg", "Robot base orientation", "deg", Vector, || json!([0, 0, 0]), "Roll, pitch and yaw of the base in the cell, whose z axis points up; roll 180 hangs it from the ceiling.").range(-360.0, 360.0),
+        field("spin.mode", "Spin about the tool axis", "", Choice, || json!("fixed"), "Milling leaves the angle about the tool axis open: keep it fixed to the part, or let it be chosen along the path.").words(&[("fixed", "fixed"), ("free", "free within a range")]),
+        field("spin.angle_deg", "Spin angle", "deg", Number, || json!(0), "Turn of the TCP about the tool axis, counter-clockwise seen from the spindle; at 0 its x axis is workpiece +X projected across the tool axis. A free spin is compared with it.").range(-360.0, 360.0),
+        field("spin.range_deg", "Spin range", "deg", Vector, || json!([-180, 180]), "Smallest and largest angle that cables and collisions allow.").range(-360.0, 360.0).when("spin.mode", &["free"]),
+        field("spin.goal", "Spin is chosen for", "", Choice, || json!("smooth-joints"), "Joints that turn little and evenly, away from limits and singularities; or the least error by the cutting force.").words(&[("smooth-joints", "smooth joints"), ("least-error", "least error")]).when("spin.mode", &["free"]),
         field("start_branch.shoulder", "Shoulder", "", Choice, || json!("front"), "The arm faces the first point, or reaches over its back.").words(&[("front", "facing the point"), ("back", "over its back")]),
         field("start_branch.elbow", "Elbow", "", Choice, || json!("positive"), "Sign of the elbow angle from the stretched arm (RX-90: of q3).").words(&[("positive", "positive"), ("negative", "negative")]),
         field("start_branch.wrist", "Wrist", "", Choice, || json!("near"), "The wrist with the smaller turn of joint 4, or the one turned by 180 degrees.").words(&[("near", "smaller q4"), ("flipped", "flipped")]),

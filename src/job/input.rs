@@ -20,6 +20,8 @@ pub struct Job {
     pub base_frame: Frame,
     /// Workpiece in the cell; with the robot's base at the cell's origin: in the base frame.
     pub workpiece_frame: Frame,
+    /// How the TCP is turned about the tool axis.
+    pub spin: Spin,
     /// Which of the arm's solutions the path starts on.
     pub start_branch: Branch,
     /// The desired path in the workpiece frame.
@@ -46,6 +48,7 @@ impl Default for Job {
             tool_frame: Frame::default(),
             base_frame: Frame::default(),
             workpiece_frame: Frame::default(),
+            spin: Spin::default(),
             start_branch: Branch::default(),
             path: Path {
                 center_mm: Some([0.0, 0.0, 0.0]),
@@ -152,6 +155,30 @@ pub struct Frame {
     pub rpy_deg: [f64; 3],
 }
 
+/// How the TCP is turned about the tool axis, from where its x axis keeps workpiece +X projected across that axis.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Spin {
+    /// Whether the angle is free.
+    pub mode: SpinMode,
+    /// The angle; of a free spin: what it is compared with.
+    pub angle_deg: f64,
+    /// Smallest and largest angle of a free spin.
+    pub range_deg: [f64; 2],
+    /// What a free spin is chosen for.
+    pub goal: SpinGoal,
+}
+
+impl Default for Spin {
+    fn default() -> Self {
+        Self {
+            mode: SpinMode::Fixed,
+            angle_deg: 0.0,
+            range_deg: [-180.0, 180.0],
+            goal: SpinGoal::SmoothJoints,
+        }
+    }
+}
+
 /// Which of the arm's up to eight solutions the path starts on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Branch {
@@ -174,6 +201,14 @@ choice! {
 choice! {
     /// Wrist of the start branch.
     Wrist { #[default] /** Smaller |q4|. */ Near = "near", /** Turned by 180 degrees. */ Flipped = "flipped" }
+}
+choice! {
+    /// Whether the spin is free.
+    SpinMode { #[default] /** One angle all along. */ Fixed = "fixed", /** Chosen along the path. */ Free = "free" }
+}
+choice! {
+    /// What a free spin is chosen for.
+    SpinGoal { #[default] /** Joints that turn little and evenly. */ SmoothJoints = "smooth-joints", /** Least error by the cutting force. */ LeastError = "least-error" }
 }
 choice! {
     /// Kind of input shaper.
@@ -286,6 +321,7 @@ keys!(Job {
     tool_frame,
     base_frame,
     workpiece_frame,
+    spin,
     start_branch,
     path,
     motion,
@@ -299,6 +335,7 @@ keys!(new Robot { preset, name, modified_dh, opw, joint_limits_deg, joint_compli
 keys!(new DhRow { alpha_deg, a_mm, d_mm, theta_offset_deg, joint_sign } required alpha_deg, a_mm, d_mm);
 keys!(new Opw { a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm, joint_sign, joint_offset_deg } required c2_mm, c3_mm);
 keys!(Frame { xyz_mm, rpy_deg });
+keys!(Spin { mode, angle_deg, range_deg, goal });
 keys!(Branch { shoulder, elbow, wrist });
 keys!(Motion { feed_mm_s, rapid_mm_s, acceleration_mm_s2, sample_time_s, corner_angle_deg, corner_dwell });
 keys!(new ShaperSpec { kind, frequency_rad_s, frequency_hz, damping } required kind, damping);

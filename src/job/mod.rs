@@ -19,7 +19,7 @@ pub use choice::{ChipThickness, Choice, CornerRadius, Dwell, FeedPerTooth};
 pub use cut::Stock;
 pub use input::{
     Branch, Compensation, DhRow, Elbow, Frame, Job, Motion, Opw, Robot, Shaper, ShaperKind, ShaperSpec,
-    Shoulder, Source, Wrist,
+    Shoulder, Source, Spin, SpinGoal, SpinMode, Wrist,
 };
 pub use milling::{Cutting, Engaged, Line, Material, Tool, ToolBending};
 pub use path::{FeedUnit, Path, PathKind, Unit};

@@ -6,12 +6,16 @@ use crate::cutting::{Bending, Cut};
 use crate::deviation::Sources;
 use crate::error::Error;
 use crate::job::cut::Stock;
-use crate::job::{Choice, Elbow, Frame, Job, Opw, Shaper, ShaperSpec, Shoulder, Source, Wrist, fields};
+use crate::job::{
+    Choice, Elbow, Frame, Job, Opw, Shaper, ShaperSpec, Shoulder, Source, SpinMode, Wrist, fields,
+};
 use crate::math::Pose;
 use crate::motion::joints::StartBranch;
+#[cfg(feature = "full")]
+use crate::motion::spin::{self, Freedom};
 use crate::motion::trajectory::Tempo;
 use crate::motion::{self, shaper};
-use crate::path::{Listing, Path};
+use crate::path::{self, Listing, Path};
 use crate::robot::{self, Link, Robot, library};
 use crate::units::{DEG, HZ, KILOWATT, MM, RPM};
 use nalgebra::Vector3;
@@ -36,6 +40,11 @@ pub struct Setup {
     pub workpiece: Pose,
     /// The program that the path was read from, if it was not drawn from a shape.
     pub listing: Option<Listing>,
+    /// Range and goal of the spin, if it is free; until it is chosen, the path has the fixed one.
+    #[cfg(feature = "full")]
+    pub freedom: Option<Freedom>,
+    /// The fixed spin [rad]; what a free one is compared with.
+    pub spin: f64,
     /// How the path is travelled.
     pub tempo: Tempo,
     /// The shaper of the joint commands.
@@ -87,7 +96,14 @@ impl Job {
         let base = frame(&self.base_frame);
         let workpiece = base.inverse().compose(&frame(&self.workpiece_frame));
         let (path, listing) = self.desired_path(on_read)?;
-        let path = path.placed(&workpiece);
+        let spin = self.spin.angle_deg * DEG;
+        let path = path.placed(&workpiece).with_spin(path::Spin::fixed(spin));
+        #[cfg(not(feature = "full"))]
+        if self.spin.mode == SpinMode::Free {
+            return Err(Error::NeedsFull { what: "choosing the spin" });
+        }
+        #[cfg(feature = "full")]
+        let freedom = self.freedom()?;
         let (shaper, mode) = self.input_shaper()?;
         let (cut, stock) = self.cut()?;
         let bending = self.bending()?;
@@ -143,6 +159,9 @@ impl Job {
             base,
             workpiece,
             listing,
+            #[cfg(feature = "full")]
+            freedom,
+            spin,
             tempo,
             shaper,
             mode,
@@ -209,6 +228,26 @@ impl Job {
         };
         let robot = Robot::new(given.name.clone().unwrap_or(name), links, limits, compliance)?;
         Ok((robot, note, assumed))
+    }
+
+    #[cfg(feature = "full")]
+    fn freedom(&self) -> Result<Option<Freedom>, Error> {
+        let crate::job::Spin { mode, range_deg: [low, high], goal, .. } = self.spin;
+        if mode == SpinMode::Fixed {
+            return Ok(None);
+        }
+        if low > high {
+            return Err(invalid(
+                "spin.range_deg",
+                format!("[{low}, {high}]"),
+                "the smallest angle comes first",
+            ));
+        }
+        let goal = match goal {
+            crate::job::SpinGoal::SmoothJoints => spin::Goal::SmoothJoints,
+            crate::job::SpinGoal::LeastError => spin::Goal::LeastError,
+        };
+        Ok(Some(Freedom { low: low * DEG, high: high * DEG, goal }))
     }
 
     fn input_shaper(&self) -> Result<(motion::Shaper, Option<(f64, f64)>), Error> {

@@ -46,8 +46,9 @@ pub fn joint_trajectory(
     let mut previous: Option<Solution> = None;
     let mut first = None;
     for (k, (position, axis)) in positions.iter().zip(axes).enumerate() {
-        let tcp = Pose { rotation: path.orientation(axis), position: *position };
-        let place = |error: Error| error.at(k, trajectory.pace.arc_length[k]);
+        let s = trajectory.pace.arc_length[k];
+        let tcp = Pose { rotation: path.orientation(axis, path.spin(s)), position: *position };
+        let place = |error: Error| error.at(k, s);
         let solution = match &previous {
             None => first_solution(robot, &tcp, start).map_err(place)?,
             Some(last) => next_solution(robot, &tcp, last).map_err(place)?,
@@ -63,7 +64,8 @@ pub fn joint_trajectory(
     }
 }
 
-fn first_solution(robot: &Robot, tcp: &Pose, start: StartBranch) -> Result<Solution, Error> {
+/// The solution that a motion starts on.
+pub(crate) fn first_solution(robot: &Robot, tcp: &Pose, start: StartBranch) -> Result<Solution, Error> {
     let solutions = inverse::inverse(robot, tcp, &Joints::zeros())?;
     let (near, flipped) = {
         let mut wrists: Vec<&Solution> = solutions

@@ -4,6 +4,8 @@ pub mod profile;
 pub mod trajectory;
 pub mod shaper;
 pub mod joints;
+#[cfg(feature = "full")]
+pub mod spin;
 
 pub use profile::Profile;
 pub use shaper::Shaper;

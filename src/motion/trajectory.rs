@@ -36,6 +36,19 @@ pub struct Pace {
     pub engaged: Vec<f64>,
 }
 
+impl Pace {
+    /// The same at some samples, in any order and number.
+    pub fn at(&self, samples: &[usize]) -> Self {
+        let numbers = |all: &[f64]| samples.iter().map(|&k| all[k]).collect();
+        Self {
+            arc_length: numbers(&self.arc_length),
+            speed: numbers(&self.speed),
+            heading: samples.iter().map(|&k| self.heading[k]).collect(),
+            engaged: numbers(&self.engaged),
+        }
+    }
+}
+
 /// The desired motion, sampled evenly; the last sample of the motion is the exact end of the path, samples at rest follow.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
@@ -113,6 +126,30 @@ impl Trajectory {
         Self { sample_time: dt, pace, position, axis, stops, moving }
     }
 
+    /// A few places along the path instead of every sample, evenly spaced over its length, each at the full speed of its move: for
+    /// searches over many poses.
+    pub fn stations(path: &Path, tempo: &Tempo, count: usize) -> Self {
+        let mut stations = Self {
+            sample_time: tempo.sample_time,
+            pace: Pace::default(),
+            position: Vec::with_capacity(count),
+            axis: Vec::with_capacity(count),
+            stops: Vec::new(),
+            moving: count,
+        };
+        for k in 0..count {
+            let s = path.length() * k as f64 / (count - 1) as f64;
+            let step = &path.moves()[path.locate(s).0];
+            stations.pace.arc_length.push(s);
+            stations.pace.speed.push(limit(step, tempo));
+            stations.pace.heading.push(path.tangent(s));
+            stations.pace.engaged.push(if step.pace == MovePace::Rapid { 0.0 } else { 1.0 });
+            stations.position.push(path.point(s));
+            stations.axis.push(path.axis(s));
+        }
+        stations
+    }
+
     /// The number of samples.
     pub fn len(&self) -> usize {
         self.position.len()
@@ -167,15 +204,20 @@ fn runs(path: &Path, tempo: &Tempo) -> Vec<Run> {
     runs
 }
 
+/// Highest speed of a move [m/s].
+fn limit(step: &Move, tempo: &Tempo) -> f64 {
+    match step.pace {
+        MovePace::Rapid => tempo.rapid,
+        MovePace::Feed(feed) => feed,
+        MovePace::JobFeed => tempo.feed,
+    }
+}
+
 /// Profiles of moves that are travelled without a stop: each junction is passed as fast as both its feeds and the braking distance
 /// behind it allow.
 fn profiles(path: &Path, tempo: &Tempo, range: std::ops::Range<usize>) -> Vec<(usize, Profile)> {
     let moves = &path.moves()[range.clone()];
-    let limit = |step: &Move| match step.pace {
-        MovePace::Rapid => tempo.rapid,
-        MovePace::Feed(feed) => feed,
-        MovePace::JobFeed => tempo.feed,
-    };
+    let limit = |step: &Move| limit(step, tempo);
     let reach =
         |speed: f64, step: &Move| (speed * speed + 2.0 * tempo.acceleration * step.segment.length()).sqrt();
     let mut speeds = vec![0.0; moves.len() + 1];

@@ -5,6 +5,7 @@
 
 pub mod segment;
 pub mod shape;
+pub mod spin;
 pub mod program;
 pub mod unit;
 #[cfg(feature = "full")]
@@ -18,6 +19,7 @@ pub mod csv;
 
 pub use program::{Listing, Move, MovePace, Program, Tool};
 pub use segment::Segment;
+pub use spin::Spin;
 
 use crate::math::{self, Pose};
 use nalgebra::{Matrix3, Vector3};
@@ -30,6 +32,7 @@ pub struct Path {
     starts: Vec<f64>,
     waits: Vec<Wait>,
     x_reference: Vector3<f64>,
+    spin: Spin,
 }
 
 /// A wait that a program asks for.
@@ -90,7 +93,13 @@ impl Path {
         }
         starts.push(s);
         waits.extend(dwells.map(|dwell| Wait { s, time: dwell.time }));
-        (!moves.is_empty()).then_some(Self { moves, starts, waits, x_reference: Vector3::x() })
+        (!moves.is_empty()).then_some(Self {
+            moves,
+            starts,
+            waits,
+            x_reference: Vector3::x(),
+            spin: Spin::fixed(0.0),
+        })
     }
 
     /// The same path seen from outside the frame it is drawn in.
@@ -106,6 +115,17 @@ impl Path {
             x_reference: frame.direction(&self.x_reference),
             ..self.clone()
         }
+    }
+
+    /// The same path with the TCP turned about the tool axis.
+    pub fn with_spin(self, spin: Spin) -> Self {
+        Self { spin, ..self }
+    }
+
+    /// The same path with the spin of another one, at the same share of the way.
+    pub fn spun_as(self, other: &Path) -> Self {
+        let spin = other.spin.stretched(self.length() / other.length());
+        self.with_spin(spin)
     }
 
     /// The moves in order; none is without length.
@@ -154,10 +174,24 @@ impl Path {
         axis_from * cos + side * sin
     }
 
-    /// Orientation of the TCP for a tool axis: z = approach (against the axis), x = workpiece +X projected across it.
-    pub fn orientation(&self, axis: &Vector3<f64>) -> Matrix3<f64> {
+    /// How far the TCP is turned about the tool axis at the arc length `s` [m], in rad: counter-clockwise, seen from the spindle.
+    pub fn spin(&self, s: f64) -> f64 {
+        self.spin.at(s)
+    }
+
+    /// Workpiece +X projected across a tool axis.
+    pub fn reference(&self, axis: &Vector3<f64>) -> Vector3<f64> {
+        math::across(&-axis, &self.x_reference, &axis.cross(&self.x_reference))
+    }
+
+    /// Orientation of the TCP for a tool axis: z = approach (against the axis), x = workpiece +X projected across it, turned by `spin` [rad].
+    pub fn orientation(&self, axis: &Vector3<f64>, spin: f64) -> Matrix3<f64> {
         let z = -axis;
-        let x = math::across(&z, &self.x_reference, &axis.cross(&self.x_reference));
+        let mut x = self.reference(axis);
+        if spin != 0.0 {
+            let (sin, cos) = math::sin_cos(spin);
+            x = x * cos + axis.cross(&x) * sin;
+        }
         Matrix3::from_columns(&[x, z.cross(&x), z])
     }
 

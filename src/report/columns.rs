@@ -70,6 +70,10 @@ impl Report {
         let lines =
             trajectory.pace.arc_length.iter().map(|&s| path.moves()[path.locate(s).0].line as f64).collect();
         columns.push(Column::new("program_line", "Line of the program", "", lines));
+        if self.spin.is_some() {
+            let angles = trajectory.pace.arc_length.iter().map(|&s| path.spin(s) / DEG).collect();
+            columns.push(Column::new("spin_deg", "Spin about the tool axis", "deg", angles));
+        }
         columns
     }
 

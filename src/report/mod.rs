@@ -8,10 +8,12 @@ pub mod scene;
 pub mod format;
 mod budget;
 mod cut;
+mod spin;
 mod summary;
 
 pub use budget::{Budget, Parts};
 pub use cut::Figures;
+pub use spin::{Effort, SpinGain};
 pub use summary::{Statistics, Summary};
 pub use warning::Warning;
 
@@ -32,6 +34,8 @@ pub struct Report {
     pub plan: Plan,
     /// Joint commands for the desired path.
     pub joints: JointTrajectory,
+    /// What the free spin brings, if it is free.
+    pub spin: Option<SpinGain>,
     /// The desired path commanded, only cutting forces acting.
     pub deflection_only: Deviation,
     /// The desired path commanded, only the shaper acting.

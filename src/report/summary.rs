@@ -3,7 +3,7 @@
 use crate::cutting::material::Material;
 use crate::deviation::{Deviation, contour};
 use crate::path::{Listing, MovePace, Path};
-use crate::report::{Budget, Figures, Report, Warning};
+use crate::report::{Budget, Figures, Report, SpinGain, Warning};
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -90,6 +90,9 @@ pub struct Summary {
     /// What was understood of the program, where the path came from one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub program: Option<Understood>,
+    /// What the free spin brings, if it is free.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spin: Option<SpinGain>,
     /// Name of the robot.
     pub robot: String,
     /// Where the joints' compliance comes from and how far to trust it.
@@ -222,6 +225,7 @@ impl Report {
             history_mean_mm: mm(&self.compensation.history_mean),
             verdict: self.verdict(),
             program: self.setup.listing.as_ref().map(|listing| Understood::of(listing, &self.plan.path)),
+            spin: self.spin.clone(),
             robot: self.plan.robot.name().to_owned(),
             inverse: if self.plan.robot.closed_form().is_ok() { "closed form" } else { "numerically" },
             stiffness: self.setup.stiffness_note.clone(),

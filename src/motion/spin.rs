@@ -1,0 +1,388 @@
+//! Free spin: the angle about the tool axis that the cut leaves open, chosen along the path for the joints or for the contour.
+//!
+//! At stations along the path a grid of angles is sent through the inverse model; dynamic programming (the algorithm of A. Viterbi,
+//! IEEE Trans. Inf. Theory 13(2), 1967, on trellises of joint values) finds the way through the grid with the least cost, and finer grids
+//! around it refine it. Between stations the angle follows a smooth curve, [`Spin::through`].
+
+use crate::error::Error;
+use crate::math::{self, PI, Pose};
+use crate::motion::Trajectory;
+use crate::motion::joints::{StartBranch, first_solution, joint_trajectory};
+use crate::path::{Path, Spin};
+use crate::robot::inverse::{self, Margin, Solution};
+use crate::robot::{Joints, Robot};
+use crate::units::{DEG, MM};
+
+/// What a free spin is chosen for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Goal {
+    /// The joints turn as little and as evenly as can be.
+    SmoothJoints,
+    /// The cutting force moves the tip as little as can be from the path.
+    LeastError,
+}
+
+/// A spin that is free.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Freedom {
+    /// Smallest angle [rad].
+    pub low: f64,
+    /// Largest angle [rad].
+    pub high: f64,
+    /// What it is chosen for.
+    pub goal: Goal,
+}
+
+/// Squares of the error [m^2] that the cutting force makes at stations (by their index) with joint values.
+pub type Errors<'a> = &'a dyn Fn(&[usize], &[Joints]) -> Vec<f64>;
+
+/// Stations that are enough for a spin.
+pub const STATIONS: usize = 121;
+/// Step of the first grid [rad].
+const STEP: f64 = 10.0 * DEG;
+/// Each finer grid divides the step by this.
+const FINER: i32 = 4;
+/// Number of finer grids: the last step is 0.16 deg.
+const PASSES: usize = 3;
+/// From one station to the next the spin changes by at most this [rad].
+const WINDOW: f64 = 30.0 * DEG;
+/// A joint that turns further than this from one station to the next has changed its branch [rad].
+const JUMP: f64 = 90.0 * DEG;
+/// Weights of the joints' turning that are worth trying where the error is the goal: a spin in haste bends the path by the shaper.
+pub const CALM: [f64; 4] = [0.03, 0.3, 3.0, 30.0];
+/// Within this of a joint's limit the cost rises [rad].
+const LIMIT_MARGIN: f64 = 5.0 * DEG;
+/// Sine of the elbow and wrist angles below which the cost rises: 5 deg.
+const ANGLE_MARGIN: f64 = 0.087;
+/// Distance of the wrist centre from axis 1 below which the cost rises [m].
+const SHOULDER_MARGIN: f64 = 10.0 * MM;
+/// Cost of a station beyond a joint's limit: more than any motion costs.
+const BEYOND: f64 = 1e4;
+
+/// One search: everything that stays the same.
+pub struct Search<'a> {
+    /// The arm with its tool.
+    pub robot: &'a Robot,
+    /// The desired path in the base frame.
+    pub path: &'a Path,
+    /// [`Trajectory::stations`] of it.
+    pub stations: &'a Trajectory,
+    /// Branch at the start.
+    pub start: StartBranch,
+    /// Range and goal.
+    pub freedom: Freedom,
+    /// Weight of the joints' turning; 1 where that alone is the goal.
+    pub calm: f64,
+    /// What the force does; not asked for smooth joints.
+    pub errors: Errors<'a>,
+}
+
+/// What stands at one station for one angle: the ways to get there and what each costs by itself.
+type Cell = Vec<(Solution, f64)>;
+
+/// The best way to a solution of a cell.
+#[derive(Clone, Copy)]
+struct Label {
+    cost: f64,
+    /// Joint values, full turns counted from the start.
+    q: Joints,
+    /// Angle and label at the station before.
+    from: (usize, usize),
+}
+
+impl Search<'_> {
+    /// The best spin, never worse than `fixed` [rad] if that is in the range; `None` if no angle leads from one end of the path to the other.
+    pub fn best(&self, fixed: f64) -> Option<Spin> {
+        let Freedom { low, high, .. } = self.freedom;
+        let count = self.stations.len();
+        if high <= low {
+            return Some(Spin::fixed(low));
+        }
+        let steps = ((high - low) / STEP).ceil();
+        let mut grid: Vec<f64> =
+            (0..=steps as usize).map(|i| low + (high - low) * i as f64 / steps).collect();
+        let within = (low..=high).contains(&fixed);
+        if within {
+            grid.push(fixed);
+        }
+        let mut scale = None;
+        let mut found = self.through(&vec![grid; count], &mut scale);
+        let mut step = (high - low) / steps;
+        for _ in 0..PASSES {
+            let Some(angles) = &found else { break };
+            step /= f64::from(FINER);
+            let around = |angle: &f64| {
+                (-FINER..=FINER).map(|i| (angle + f64::from(i) * step).clamp(low, high)).collect()
+            };
+            let grids: Vec<Vec<f64>> = angles.iter().map(around).collect();
+            // The present way is in the finer grid; none is found only where rounding opens a gap.
+            let Some(finer) = self.through(&grids, &mut scale) else { break };
+            found = Some(finer);
+        }
+        let scale = scale.unwrap_or(1.0);
+        let free = found.map(|angles| {
+            let points: Vec<_> = self.stations.pace.arc_length.iter().copied().zip(angles).collect();
+            Spin::through(&points)
+        });
+        let constant = within.then(|| Spin::fixed(fixed));
+        let cost = |spin: &Spin| self.cost_of(spin, scale).unwrap_or(f64::INFINITY);
+        [constant, free].into_iter().flatten().min_by(|a, b| cost(a).total_cmp(&cost(b)))
+    }
+
+    /// The cost of a spin; `scale` is the square of the error that counts as one.
+    ///
+    /// # Errors
+    /// See [`joint_trajectory`].
+    pub fn cost_of(&self, spin: &Spin, scale: f64) -> Result<f64, Error> {
+        let path = self.path.clone().with_spin(spin.clone());
+        let desired = (self.stations.position.as_slice(), self.stations.axis.as_slice());
+        let joints = joint_trajectory(self.robot, &path, self.stations, desired, self.start)?;
+        let all: Vec<usize> = (0..joints.q.len()).collect();
+        let errors = self.errors_of(&all, &joints.q);
+        let own = joints.q.iter().zip(&joints.margin).zip(&errors);
+        let standing: f64 =
+            own.map(|((q, margin), error)| self.own(margin, error / scale) + self.limits(q)).sum();
+        Ok(standing + joints.q.windows(2).map(|pair| self.turning(&(pair[1] - pair[0]))).sum::<f64>())
+    }
+
+    fn errors_of(&self, stations: &[usize], q: &[Joints]) -> Vec<f64> {
+        match self.freedom.goal {
+            Goal::SmoothJoints => vec![0.0; q.len()],
+            Goal::LeastError => (self.errors)(stations, q),
+        }
+    }
+
+    /// Cost of a pose by itself: the mean over all stations counts, so that it does not depend on their number; of the error the
+    /// fourth power, so that the largest tell.
+    fn own(&self, margin: &Margin, error: f64) -> f64 {
+        let near = |value: f64, limit: f64| ((limit - value) / limit).max(0.0);
+        let singular = [
+            near(margin.wrist, ANGLE_MARGIN),
+            near(margin.elbow, ANGLE_MARGIN),
+            near(margin.shoulder, SHOULDER_MARGIN),
+        ];
+        (error * error + singular.iter().map(|x| x * x).sum::<f64>()) / self.stations.len() as f64
+    }
+
+    fn limits(&self, q: &Joints) -> f64 {
+        let ranges = self.robot.limits().into_iter().flatten();
+        let cost = ranges.zip(q.iter()).map(|((low, high), q)| {
+            let room = (q - low).min(high - q);
+            let near = ((LIMIT_MARGIN - room) / LIMIT_MARGIN).max(0.0);
+            near * near + if room < 0.0 { BEYOND } else { 0.0 }
+        });
+        cost.sum::<f64>() / self.stations.len() as f64
+    }
+
+    /// Cost of a turn of the joints from one station to the next: all of them together come to the mean square of the turning, in
+    /// half turns over the whole path.
+    fn turning(&self, turn: &Joints) -> f64 {
+        self.calm * turn.norm_squared() * (self.stations.len() - 1) as f64 / (PI * PI)
+    }
+
+    /// The TCP at a station with a spin.
+    fn tcp(&self, station: usize, angle: f64) -> Pose {
+        let rotation = self.path.orientation(&self.stations.axis[station], angle);
+        Pose { rotation, position: self.stations.position[station] }
+    }
+
+    /// All cells; the first grid sets the scale of the error.
+    fn cells(&self, grids: &[Vec<f64>], scale: &mut Option<f64>) -> Vec<Vec<Cell>> {
+        let solutions = |station: usize, angle: f64| -> Vec<Solution> {
+            let all = inverse::inverse(self.robot, &self.tcp(station, angle), &Joints::zeros());
+            all.map(|all| all.iter().copied().collect()).unwrap_or_default()
+        };
+        let mut cells: Vec<Vec<Cell>> = Vec::with_capacity(grids.len());
+        let (mut stations, mut q) = (Vec::new(), Vec::new());
+        for (station, grid) in grids.iter().enumerate() {
+            let column = grid.iter().map(|&angle| {
+                let found = solutions(station, angle);
+                stations.extend(found.iter().map(|_| station));
+                q.extend(found.iter().map(|solution| solution.q));
+                found.into_iter().map(|solution| (solution, 0.0)).collect()
+            });
+            cells.push(column.collect());
+        }
+        let errors = self.errors_of(&stations, &q);
+        let mean = errors.iter().sum::<f64>() / errors.len().max(1) as f64;
+        let scale = *scale.get_or_insert(if mean > 0.0 { mean } else { 1.0 });
+        for ((solution, cost), error) in cells.iter_mut().flatten().flatten().zip(errors) {
+            *cost = self.own(&solution.margin, error / scale);
+        }
+        cells
+    }
+
+    /// The cheapest way through the grids, one angle a station.
+    fn through(&self, grids: &[Vec<f64>], scale: &mut Option<f64>) -> Option<Vec<f64>> {
+        let cells = self.cells(grids, scale);
+        let first = |(&angle, cell): (&f64, &Cell)| {
+            let start = first_solution(self.robot, &self.tcp(0, angle), self.start).ok();
+            let label = start.and_then(|start| {
+                let (_, own) = cell.iter().find(|(solution, _)| solution.branch == start.branch)?;
+                Some(Label { cost: own + self.limits(&start.q), q: start.q, from: (0, 0) })
+            });
+            label.into_iter().map(Some).collect()
+        };
+        let mut table: Vec<Vec<Vec<Option<Label>>>> =
+            vec![grids[0].iter().zip(&cells[0]).map(first).collect()];
+        for (k, column) in cells.iter().enumerate().skip(1) {
+            let mut labels: Vec<Vec<Option<Label>>> =
+                column.iter().map(|cell| vec![None; cell.len()]).collect();
+            for (i, before) in table[k - 1].iter().enumerate() {
+                for (way, label) in before.iter().enumerate() {
+                    let Some(label) = label else { continue };
+                    for (j, cell) in column.iter().enumerate() {
+                        if (grids[k][j] - grids[k - 1][i]).abs() > WINDOW {
+                            continue;
+                        }
+                        let Some((b, next)) = self.step(label, cell, (i, way)) else { continue };
+                        let place = &mut labels[j][b];
+                        if place.is_none_or(|known| next.cost < known.cost) {
+                            *place = Some(next);
+                        }
+                    }
+                }
+            }
+            table.push(labels);
+        }
+        let ends = table.last()?.iter().enumerate().flat_map(|(i, labels)| {
+            labels.iter().enumerate().filter_map(move |(way, label)| label.map(|label| (label.cost, i, way)))
+        });
+        let (_, mut i, mut way) = ends.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let mut angles = vec![0.0; grids.len()];
+        for k in (0..grids.len()).rev() {
+            angles[k] = grids[k][i];
+            (i, way) = table[k][i][way]?.from;
+        }
+        Some(angles)
+    }
+
+    /// From a label to the solution of a cell that the motion takes: the nearest one, as in [`joint_trajectory`].
+    fn step(&self, label: &Label, cell: &Cell, from: (usize, usize)) -> Option<(usize, Label)> {
+        let turns = cell.iter().enumerate().map(|(b, (solution, own))| {
+            let turn = Joints::from_fn(|i, _| math::nearest_turn(solution.q[i], label.q[i]) - label.q[i]);
+            (b, turn, own)
+        });
+        let (b, turn, own) = turns.min_by(|a, b| a.1.norm_squared().total_cmp(&b.1.norm_squared()))?;
+        let q = label.q + turn;
+        let cost = label.cost + own + self.limits(&q) + self.turning(&turn);
+        (turn.amax() <= JUMP).then_some((b, Label { cost, q, from }))
+    }
+}
+
+/// Way of all joints together [rad] and largest speed of a joint [rad/s] over samples `sample_time` [s] apart.
+pub fn effort(q: &[Joints], sample_time: f64) -> (f64, f64) {
+    let steps = q.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    steps.fold((0.0, 0.0), |(way, fastest), step| {
+        (way + step.sum(), f64::max(fastest, step.amax() / sample_time))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::trajectory::Tempo;
+    use crate::path::Segment;
+    use crate::robot::library;
+    use nalgebra::Vector3;
+
+    /// A line under an RX-90 with its tool at an angle, so that the spin moves all joints.
+    fn case() -> (Robot, Path, Tempo) {
+        let preset = library::robot("staubli-rx90").unwrap();
+        let robot = Robot::new("", preset.links(), preset.limits(), preset.joint_compliance);
+        let tool = Pose::from_xyz_rpy(Vector3::new(0.0, 0.0, 0.1), [0.0, 50.0 * DEG, 0.0]);
+        let line = Segment::Line { from: Vector3::new(0.5, -0.2, 0.1), to: Vector3::new(0.6, 0.3, 0.1) };
+        let tempo = Tempo {
+            feed: 0.1,
+            rapid: 0.2,
+            acceleration: 0.2,
+            sample_time: 0.01,
+            corner_angle: 0.1,
+            corner_dwell: 0.0,
+            settle: 0.0,
+        };
+        (robot.unwrap().with_tool(tool), Path::new(vec![line]).unwrap(), tempo)
+    }
+
+    const START: StartBranch = StartBranch { front: true, elbow_positive: true, wrist_near: true };
+
+    #[test]
+    fn the_way_through_the_grid_is_the_best_of_all_ways() {
+        let (robot, path, tempo) = case();
+        let stations = Trajectory::stations(&path, &tempo, 6);
+        // Any error that favours other angles here than there.
+        let errors = |at: &[usize], q: &[Joints]| {
+            at.iter()
+                .zip(q)
+                .map(|(&k, q)| {
+                    let x = q[3] - 0.3 * k as f64;
+                    x * x
+                })
+                .collect()
+        };
+        for goal in [Goal::SmoothJoints, Goal::LeastError] {
+            let freedom = Freedom { low: -40.0 * DEG, high: 40.0 * DEG, goal };
+            let search = Search {
+                robot: &robot,
+                path: &path,
+                stations: &stations,
+                start: START,
+                freedom,
+                calm: 1.0,
+                errors: &errors,
+            };
+            let grid: Vec<f64> = [-40.0, -20.0, 0.0, 20.0, 40.0].map(|a| a * DEG).into();
+            let mut scale = None;
+            let found = search.through(&vec![grid.clone(); 6], &mut scale).unwrap();
+            let scale = scale.unwrap();
+            let spin = |angles: &[f64]| {
+                let points: Vec<_> =
+                    stations.pace.arc_length.iter().copied().zip(angles.iter().copied()).collect();
+                Spin::through(&points)
+            };
+            let ours = search.cost_of(&spin(&found), scale).unwrap();
+            // All 5^6 ways, each by the joint trajectory itself.
+            let mut least = f64::INFINITY;
+            for way in 0..5_usize.pow(6) {
+                let angles: Vec<f64> = (0..6).map(|k| grid[way / 5_usize.pow(k) % 5]).collect();
+                if angles.windows(2).all(|pair| (pair[1] - pair[0]).abs() <= WINDOW) {
+                    least = least.min(search.cost_of(&spin(&angles), scale).unwrap_or(f64::INFINITY));
+                }
+            }
+            assert!((ours - least).abs() < 1e-9 * least, "{goal:?}: {ours} against {least}");
+            let free = search.best(0.0).unwrap();
+            assert!(search.cost_of(&free, scale).unwrap() < least, "finer grids do better still");
+            for s in 0..=600 {
+                assert!(free.at(f64::from(s) * 1e-3).abs() <= 40.0 * DEG, "the range holds between stations");
+            }
+        }
+    }
+
+    #[test]
+    fn the_fixed_angle_is_only_left_for_something_better() {
+        let (robot, path, tempo) = case();
+        let stations = Trajectory::stations(&path, &tempo, 41);
+        let none = |at: &[usize], _: &[Joints]| vec![0.0; at.len()];
+        let search = |low: f64, high: f64| Search {
+            robot: &robot,
+            path: &path,
+            stations: &stations,
+            start: START,
+            freedom: Freedom { low: low * DEG, high: high * DEG, goal: Goal::SmoothJoints },
+            calm: 1.0,
+            errors: &none,
+        };
+        let cost = |spin: &Spin| search(0.0, 0.0).cost_of(spin, 1.0).unwrap();
+        let fixed = cost(&Spin::fixed(10.0 * DEG));
+        // A wider range is never worse.
+        let mut last = fixed;
+        for width in [1.0, 5.0, 30.0, 90.0] {
+            let free = cost(&search(10.0 - width, 10.0 + width).best(10.0 * DEG).unwrap());
+            // The grids of two ranges do not fall on the same angles: their last step is 0.16 deg.
+            assert!(free <= last * 1.001, "+-{width} deg: {free} after {last}");
+            last = free;
+        }
+        assert!(last < 0.9 * fixed, "{last} of {fixed}");
+        assert_eq!(search(7.0, 7.0).best(0.0), Some(Spin::fixed(7.0 * DEG)));
+    }
+}
