@@ -11,6 +11,8 @@ mod accessibility;
 mod charts;
 #[path = "page/embed.rs"]
 mod embed;
+#[path = "page/identify.rs"]
+mod identify;
 #[path = "page/loading.rs"]
 mod loading;
 #[path = "page/policy.rs"]

@@ -87,7 +87,7 @@ fn judgement(joint: &Joint) -> String {
     };
     let more = joint.load_factor.map_or(String::new(), |factor| {
         format!(
-            "; for 10 % with errors of the same size, load {factor:.1} times as hard or measure {:.0} times as many rows",
+            "; for 10 % to each side: loads {factor:.1} times as large, or {:.0} times the rows",
             factor * factor
         )
     });

@@ -10,7 +10,6 @@ import { Source } from "./source.js";
 
 const EXAMPLE = "identify-fanuc-r2000ic";
 const MICRO = 1e6;
-const VERDICTS = { known: "identified", rough: "rough", small: "not told from rigid", idle: "not turned", entangled: "mixed" };
 const JOINTS = { table: "as the robot’s table does", "coupled-j3": "joint 3 from the horizontal (FANUC)" };
 
 export function makeStiffness({ ask, job, use }) {
@@ -84,7 +83,7 @@ function tableOf(joints) {
       make("td", { "data-label": "95 % interval" }, `${micro(low)} to ${micro(high)}`),
       make("td", { "data-label": "Stiffness" }, stiffness_nm_per_rad === null ? "rigid" : formatNumber(Math.round(stiffness_nm_per_rad / 1000))),
       make("td", { "data-label": "Inflation" }, variance_inflation === null ? "∞" : formatNumber(variance_inflation, 2)),
-      make("td", {}, make("strong", {}, VERDICTS[verdict]), words === VERDICTS[verdict] ? "" : `: ${words}`));
+      make("td", {}, sentence(words)));
   const head = (text, unit) => make("th", { scope: "col" }, text, unit ? make("span", { className: "unit" }, ` ${unit}`) : "");
   return make("table", { id: "identified" },
     make("caption", {}, "Joint compliances ", make("span", { className: "unit" }, "10⁻⁶ rad/(N m)")),
