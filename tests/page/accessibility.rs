@@ -51,6 +51,11 @@ fn every_view_is_accessible() -> Result {
         assert!(tabs.len() >= 8);
         for tab in tabs {
             page.click(&format!("#{tab}")).await?;
+            if tab == "tab-identify" {
+                page.click("#identify-loads-example").await?;
+                page.click("#identify-response-example").await?;
+                page.wait_for("document.querySelector('#chart-response svg.plot')", 20.0).await?;
+            }
             let panel = tab.replace("tab-", "panel-");
             page.wait_for(&format!("document.querySelector('#{panel} :is(svg, canvas, tbody tr)')"), 20.0)
                 .await?;

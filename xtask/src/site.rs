@@ -33,7 +33,7 @@ struct Core {
 /// growing unnoticed.
 const BUILDS: [Core; 2] = [
     Core { name: "small", profile: "small", options: &["--no-default-features"], limits: [930_000, 380_000] },
-    Core { name: "full", profile: "release", options: &[], limits: [1_100_000, 450_000] },
+    Core { name: "full", profile: "release", options: &[], limits: [1_200_000, 490_000] },
 ];
 
 /// Makes the site in `target/site` and returns that folder. What is up to date stays untouched.
