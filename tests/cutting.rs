@@ -551,6 +551,12 @@ fn power_torque_and_removal_rate_belong_together() {
     assert!((cut["power_kw"] - 2.4).abs() < 1e-9);
     assert!((cut["torque_nm"] - 2400.0 / (TAU * 4000.0 / 60.0)).abs() < 1e-9);
     assert!(report.warnings.iter().any(|warning| warning.code == "spindle-power"));
+    assert!(
+        !run(&[("cutting.spindle_power_kw", json!("unknown"))])
+            .warnings
+            .iter()
+            .any(|w| w.code == "spindle-power")
+    );
     let enough = run(&[("cutting.spindle_power_kw", json!(2.5))]);
     assert!(!enough.warnings.iter().any(|warning| warning.code == "spindle-power"));
 }

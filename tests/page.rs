@@ -9,6 +9,8 @@ mod common;
 mod accessibility;
 #[path = "page/charts.rs"]
 mod charts;
+#[path = "page/cut.rs"]
+mod cut;
 #[path = "page/embed.rs"]
 mod embed;
 #[path = "page/identify.rs"]

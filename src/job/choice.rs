@@ -45,6 +45,13 @@ impl Word for Mean {
     const WORD: &'static str = "mean";
 }
 
+/// `"unknown"`: not checked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Unknown;
+impl Word for Unknown {
+    const WORD: &'static str = "unknown";
+}
+
 /// Time at rest in a corner [s], or `"settle"`.
 pub type Dwell = Choice<Settle>;
 /// Feed per tooth [mm], or `"from_feed"`.
@@ -52,6 +59,8 @@ pub type FeedPerTooth = Choice<FromFeed>;
 
 /// Radius of a tool's corner [mm], or `"ball"`.
 pub type CornerRadius = Choice<Ball>;
+/// Power of the spindle [kW], or `"unknown"`.
+pub type SpindlePower = Choice<Unknown>;
 /// Thickness of chip [mm], or `"mean"`.
 pub type ChipThickness = Choice<Mean>;
 

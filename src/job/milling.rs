@@ -1,6 +1,6 @@
 //! The job's tool, material and cutting, one to one as in the JSON. Values are as typed, not yet checked.
 
-use crate::job::choice::{ChipThickness, Choice, CornerRadius, FeedPerTooth, choice};
+use crate::job::choice::{ChipThickness, Choice, CornerRadius, FeedPerTooth, SpindlePower, choice};
 use crate::job::json::keys;
 use serde::Serialize;
 
@@ -133,7 +133,7 @@ pub struct Cutting {
     pub spindle_rpm: f64,
     /// What the spindle can give; not checked if it is not given.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub spindle_power_kw: Option<f64>,
+    pub spindle_power_kw: Option<SpindlePower>,
     /// Feed per tooth.
     pub feed_per_tooth_mm: FeedPerTooth,
 }

@@ -15,7 +15,7 @@ mod setup;
 mod cut;
 pub mod fields;
 
-pub use choice::{ChipThickness, Choice, CornerRadius, Dwell, FeedPerTooth};
+pub use choice::{ChipThickness, Choice, CornerRadius, Dwell, FeedPerTooth, SpindlePower};
 pub use cut::Stock;
 pub use input::{
     Branch, Compensation, DhRow, Elbow, Frame, Job, Motion, Opw, Robot, Shaper, ShaperKind, ShaperSpec,

@@ -107,7 +107,10 @@ impl Job {
         let (shaper, mode) = self.input_shaper()?;
         let (cut, stock) = self.cut()?;
         let bending = self.bending()?;
-        let spindle_power = self.cutting.spindle_power_kw.map(|power| power * KILOWATT);
+        let spindle_power = match self.cutting.spindle_power_kw {
+            Some(Choice::Value(power, _)) => Some(power * KILOWATT),
+            _ => None,
+        };
         let teeth_per_second = self.cutting.spindle_rpm * RPM * f64::from(self.tool.flutes);
         let chip = self.chip_load();
         let motion = &self.motion;

@@ -46,6 +46,7 @@ impl Report {
             ("removal_cm3_min", cut.section() * feed * MINUTE * 1e6),
             ("peak_force_n", cut.peak_force(c)),
             ("torque_nm", cut.torque(c)),
+            ("tooth_passing_hz", self.setup.teeth_per_second),
             ("power_kw", self.spindle_power() / KILOWATT),
         ]);
         // On the cylinder: exact at the full radius, which a corner does not reach.

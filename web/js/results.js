@@ -1,6 +1,7 @@
 // Writes a summary into the page: verdict, large numbers, warnings, tables.
 
 import { showBudget } from "./budget.js";
+import { showCut } from "./cut.js";
 import { byId, make, sentence } from "./dom.js";
 import { formatNumber, plainNumber } from "./number.js";
 import { errorText, forceText, forceUnit, lengthText, lengthUnit } from "./units.js";
@@ -33,6 +34,7 @@ export function showSummary(summary) {
   showTolerance(summary);
   showErrors(before, after);
   showBudget(summary.budget);
+  showCut(summary);
   byId("fact-tolerance").textContent = toleranceText(summary);
   put("samples", summary.samples);
   byId("history").textContent = summary.history_max_mm.map((mm) => lengthText(mm)).join(" → ");
