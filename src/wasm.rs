@@ -5,18 +5,15 @@
 #[cfg(feature = "full")]
 mod full;
 #[cfg(feature = "full")]
-pub use full::{identify_response, identify_stiffness, thesis_recomputed};
+pub use full::{
+    default_job, fields, formats, identify_response, identify_stiffness, presets, thesis_recomputed,
+};
 
 use crate::chart::{self, ForceUnit, Options, Units};
 use crate::column::Column;
-use crate::cutting::material::{self, Model};
 use crate::error::Error;
-use crate::job::fields;
 use crate::path::unit::LengthUnit;
 use crate::report::Report;
-use crate::report::format::FORMATS;
-use crate::robot::library;
-use crate::units::{N_PER_MM, N_PER_MM2};
 use crate::{Job, Stage};
 use js_sys::{Array, Float64Array, Function, Object, Reflect};
 use serde::Serialize;
@@ -87,68 +84,6 @@ pub fn start() {
 #[wasm_bindgen]
 pub fn version() -> String {
     env!("CARGO_PKG_VERSION").to_owned()
-}
-
-/// The default job (the thesis's case) as JSON text.
-#[wasm_bindgen]
-pub fn default_job() -> String {
-    Job::default().to_json()
-}
-
-/// Every input of a job, for building a form.
-#[wasm_bindgen(unchecked_return_type = "Field[]")]
-pub fn fields() -> Result<JsValue, JsValue> {
-    object(&fields::fields())
-}
-
-/// Every kind of file that a run can be exported to.
-#[wasm_bindgen(unchecked_return_type = "Format[]")]
-pub fn formats() -> Result<JsValue, JsValue> {
-    object(&FORMATS.to_vec())
-}
-
-#[derive(Serialize)]
-struct Presets {
-    robots: Vec<serde_json::Value>,
-    materials: Vec<serde_json::Value>,
-}
-
-/// Robots and materials of the library, with the source of their numbers.
-#[wasm_bindgen(unchecked_return_type = "Presets")]
-pub fn presets() -> Result<JsValue, JsValue> {
-    let robots = library::robots().map(|robot| {
-        serde_json::json!({
-            "id": robot.id, "name": robot.name(), "maker": robot.maker,
-            "note": format!("{} {} {}", robot.geometry_note, robot.stiffness_note, robot.mode_note),
-            "stiffness_note": robot.stiffness_note, "stiffness_assumed": robot.stiffness_assumed,
-            "modified_dh": fields::dh_rows(&robot), "opw": fields::opw(&robot),
-            "joint_limits_deg": robot.joint_limits_deg,
-            "joint_compliance_rad_per_nm": robot.joint_compliance,
-        })
-    });
-    let materials = material::library().iter().map(|material| {
-        let mut preset =
-            serde_json::json!({ "id": material.id, "name": material.name, "note": material.note() });
-        // Back from SI: without the last bits, which the table does not have.
-        let mut put = |key: &str, value: f64| preset[key] = ((value * 1e9).round() / 1e9).into();
-        match &material.model {
-            Model::Linear(k) => {
-                for (key, value) in [("ktc_n_mm2", k.ktc), ("krc_n_mm2", k.krc), ("kac_n_mm2", k.kac)] {
-                    put(key, value / N_PER_MM2);
-                }
-                for (key, value) in [("kte_n_mm", k.kte), ("kre_n_mm", k.kre), ("kae_n_mm", k.kae)] {
-                    put(key, value / N_PER_MM);
-                }
-            }
-            Model::Kienzle(kienzle) => {
-                put("kc11_n_mm2", kienzle.kc11 / N_PER_MM2);
-                put("mc", kienzle.mc);
-            }
-            Model::Orthogonal(_) => preset["orthogonal"] = true.into(),
-        }
-        preset
-    });
-    object(&Presets { robots: robots.collect(), materials: materials.collect() })
 }
 
 /// Checks a job without computing it; throws what is wrong.
@@ -337,8 +272,9 @@ fn second(options: &JsValue, key: &str, choices: [&str; 2]) -> Result<bool, JsVa
 
 /// Plain data as a JavaScript object; maps become objects, not `Map`s.
 fn object<T: Serialize>(value: &T) -> Result<JsValue, JsValue> {
-    let serializer = serde_wasm_bindgen::Serializer::json_compatible();
-    value.serialize(&serializer).map_err(JsValue::from)
+    // As text: one serializer does for jobs, errors and results, and the browser's own parser is the fastest way to objects.
+    let text = serde_json::to_string(value).map_err(|error| JsValue::from(error.to_string()))?;
+    js_sys::JSON::parse(&text)
 }
 
 fn thrown(error: &Error) -> JsValue {

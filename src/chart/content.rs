@@ -98,7 +98,7 @@ impl Content {
 /// A column whose key has the unit in it.
 fn column(key: &str, label: &str, unit: &'static str, values: Vec<f64>) -> Column {
     let spelled = if unit == "%" { "percent" } else { unit };
-    let text = format!("{key} {spelled}").to_lowercase();
+    let text = format!("{key} {spelled}").to_ascii_lowercase();
     let words: Vec<_> = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
     Column::new(words.join("_"), label, unit, values)
 }

@@ -116,7 +116,10 @@ const fn field(
     default: fn() -> Value,
     help: &'static str,
 ) -> Row {
-    Row { path, label, unit, kind, default, help, words: &[], range: None, defaults: &[], when: None }
+    let row =
+        Row { path, label, unit, kind, default, help, words: &[], range: None, defaults: &[], when: None };
+    // The page has the form's words from a file; its small core only checks.
+    if cfg!(feature = "full") { row } else { Row { label: "", default: || Value::Null, help: "", ..row } }
 }
 
 impl Row {
@@ -125,11 +128,11 @@ impl Row {
     }
 
     const fn words(self, words: &'static [(&'static str, &'static str)]) -> Self {
-        Self { words, ..self }
+        if cfg!(feature = "full") { Self { words, ..self } } else { self }
     }
 
     const fn defaults(self, defaults: &'static [(&'static str, &'static str)]) -> Self {
-        Self { defaults, ..self }
+        if cfg!(feature = "full") { Self { defaults, ..self } } else { self }
     }
 
     const fn when(self, path: &'static str, is: &'static [&'static str]) -> Self {

@@ -157,7 +157,7 @@ impl<'a> Node<'a> {
         let nearest = known
             .iter()
             .filter(|_| key.len() <= 60)
-            .map(|(known, _)| (strsim::normalized_damerau_levenshtein(key, known), known))
+            .map(|(known, _)| (similarity(key, known), known))
             .max_by(|a, b| a.0.total_cmp(&b.0))
             .filter(|(similarity, _)| *similarity > 0.4)
             .map(|(_, known)| join(&parent, known));
@@ -183,6 +183,11 @@ impl<'a> Node<'a> {
         let column = lines.next().map_or(0, begins).max(1);
         (1 + lines.count(), column)
     }
+}
+
+/// 1 for the same word, 0 for one that has nothing of the other.
+fn similarity(a: &str, b: &str) -> f64 {
+    1.0 - strsim::osa_distance(a, b) as f64 / a.chars().count().max(b.chars().count()).max(1) as f64
 }
 
 fn join(parent: &str, key: &str) -> String {

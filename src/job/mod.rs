@@ -10,6 +10,8 @@ mod milling;
 mod path;
 #[cfg(feature = "full")]
 mod program;
+#[cfg(feature = "full")]
+pub mod presets;
 mod read;
 mod setup;
 mod cut;

@@ -7,12 +7,39 @@
 use super::{Run, chart_options, columns_of, object, thrown, units};
 use crate::chart::identified;
 use crate::identify::{Convention, Fit, Mode, measurement, response, stiffness, summary};
+use crate::job::fields as table;
+use crate::job::presets as libraries;
+use crate::report::format::FORMATS;
 use crate::report::thesis;
 use crate::units::MM;
 use crate::{Job, export};
 use js_sys::Array;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
+
+/// The default job (the thesis's case) as JSON text.
+#[wasm_bindgen]
+pub fn default_job() -> String {
+    Job::default().to_json()
+}
+
+/// Every input of a job, for building a form.
+#[wasm_bindgen(unchecked_return_type = "Field[]")]
+pub fn fields() -> Result<JsValue, JsValue> {
+    object(&table::fields())
+}
+
+/// Every kind of file that a run can be exported to.
+#[wasm_bindgen(unchecked_return_type = "Format[]")]
+pub fn formats() -> Result<JsValue, JsValue> {
+    object(&FORMATS.to_vec())
+}
+
+/// Robots and materials of the library, with the source of their numbers.
+#[wasm_bindgen(unchecked_return_type = "Presets")]
+pub fn presets() -> Result<JsValue, JsValue> {
+    object(&libraries::presets())
+}
 
 /// The thesis's printed figures beside ours, for the default job.
 #[wasm_bindgen(unchecked_return_type = "ThesisRow[]")]

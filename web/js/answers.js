@@ -12,13 +12,6 @@ const identified = {}; // what was identified last, `stiffness` and `response`
 const arrival = {}; // takes the core that is waited for
 
 const answers = {
-  hello: () => ({
-    version: armill.version(),
-    job: JSON.parse(armill.default_job()),
-    fields: armill.fields(),
-    presets: armill.presets(),
-    formats: armill.formats(),
-  }),
   check: (json) => void armill.check(json),
   run(json) {
     let last = 0;

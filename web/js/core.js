@@ -3,7 +3,7 @@
 // Two Workers take turns: one holds the result that the page shows and draws its charts, the other computes the
 // next one. A run that is invalid, cancelled or trapped therefore never takes the shown result away.
 
-import { FIRST_CORE, compileCore, startWorker } from "./files.js";
+import { FIRST_CORE, compileCore, readText, startWorker } from "./files.js";
 
 const SUPERSEDE_MS = 400; // a run older than this is cut off when a newer job arrives; a younger one may finish
 const REST = "The part of the calculator that reads programs and writes files";
@@ -19,11 +19,11 @@ let lost = false; // the shown result was lost to a trap and is being computed a
 let core = FIRST_CORE; // the one that a new Worker starts with: the full one once a Worker has needed it
 const modules = {}; // the compiled cores, promises: every Worker starts from the same ones
 
-/** Starts the core. Returns its version, default job, fields and presets; rejects if the browser cannot run it. */
-export function start(handlers) {
+/** Starts the core, and meanwhile reads what a form is built from: version, default job, fields, presets, formats. */
+export async function start(handlers) {
   events = handlers;
   spare = spawn();
-  return spare.ask("hello");
+  return JSON.parse(await readText("pkg/form.json"));
 }
 
 /** Computes `json`; what is being computed or waits is superseded. Events tell the rest. */

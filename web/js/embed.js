@@ -61,8 +61,13 @@ const events = {
     alertOn(`${error.message}${error.line ? ` (line ${error.line}, column ${error.column})` : ""}`);
   },
   oncancel: () => {},
-  ontrap: (error) => alertOn(`The core stopped unexpectedly and was started again; your inputs are kept. (${error.message})`),
+  ontrap: (error) => (error.code === "load" ? cannotStart(error) : alertOn(`The core stopped unexpectedly and was started again; your inputs are kept. (${error.message})`)),
 };
+
+function cannotStart(error) {
+  byId("verdict").textContent = "The calculator could not start.";
+  alertOn(error.message ?? String(error));
+}
 
 function show({ verdict, before_mm, after_mm, fingerprint }) {
   byId("verdict").textContent = verdict;
@@ -105,6 +110,5 @@ try {
   link();
   core.run(job.json);
 } catch (error) {
-  byId("verdict").textContent = "The calculator could not start.";
-  alertOn(error.message ?? String(error));
+  cannotStart(error);
 }

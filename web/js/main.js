@@ -125,6 +125,7 @@ const events = {
   },
   ontrap(error) {
     idle();
+    if (error.code === "load") return cannotStart(error);
     state("stale");
     alertOn(`The core stopped unexpectedly and was started again; your inputs are kept. (${error.message})`, "Compute again", () => {
       alertOff();
@@ -174,6 +175,13 @@ function wireDrop() {
 function idle() {
   clearTimeout(slow);
   results.classList.remove("slow");
+}
+
+function cannotStart(error) {
+  state("stale");
+  byId("verdict").textContent = "The calculator could not start.";
+  alertOn(`The core could not be loaded: ${error.message ?? error}. Armill needs a browser with WebAssembly and module workers.`);
+  say("");
 }
 
 /** On a phone the inputs fold away; elsewhere they always show. */
@@ -282,8 +290,5 @@ try {
   await session.open();
   byId("download-job").disabled = false;
 } catch (error) {
-  state("stale");
-  byId("verdict").textContent = "The calculator could not start.";
-  alertOn(`The core could not be loaded: ${error.message ?? error}. Armill needs a browser with WebAssembly and module workers.`);
-  say("");
+  cannotStart(error);
 }

@@ -20,6 +20,9 @@ const FILES: &str = include_str!("files.js");
 /// What it has in place of `web/js/worker.js`.
 const WORKER: &str = include_str!("worker.js");
 
+/// What the page's form is built from.
+pub(crate) const FORM: &str = "pkg/form.json";
+
 /// Folder of files that the page reads as text.
 const EXAMPLES: &str = "examples";
 
@@ -133,10 +136,11 @@ fn files(site: &Path) -> Result<String> {
         .map(|entry| Ok(entry?.path()))
         .collect::<Result<_>>()?;
     paths.sort();
+    paths.push(site.join(FORM));
     let mut texts = serde_json::Map::new();
     for path in paths {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        texts.insert(format!("{EXAMPLES}/{name}"), fs::read_to_string(&path)?.into());
+        let name = path.strip_prefix(site).unwrap_or(&path).to_string_lossy().replace('\\', "/");
+        texts.insert(name, fs::read_to_string(&path)?.into());
     }
     Ok(serde_json::to_string(&texts)?.replace('<', "\\u003c"))
 }
