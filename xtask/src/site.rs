@@ -34,7 +34,7 @@ struct Core {
 /// growing unnoticed.
 const BUILDS: [Core; 2] = [
     Core { name: "small", profile: "small", options: &["--no-default-features"], limits: [640_000, 265_000] },
-    Core { name: "full", profile: "release", options: &[], limits: [1_200_000, 480_000] },
+    Core { name: "full", profile: "release", options: &[], limits: [1_200_000, 490_000] },
 ];
 
 /// Makes the site in `target/site` and returns that folder. What is up to date stays untouched.
