@@ -15,9 +15,18 @@ async fn open(page: &Page) -> Result {
     page.click("#tab-identify").await
 }
 
+/// Clicks what may be far down: brought into sight at once, as the page itself scrolls smoothly.
+async fn click(page: &Page, css: &str) -> Result {
+    page.js(&format!(
+        "document.querySelector('{css}').scrollIntoView({{ block: 'center', behavior: 'instant' }})"
+    ))
+    .await?;
+    page.click(css).await
+}
+
 /// The job that the page has now.
 async fn job(page: &Page) -> Result<Value> {
-    page.click("#download-job").await?;
+    click(page, "#download-job").await?;
     Ok(serde_json::from_str(&page.downloaded("armill-job.json").await?)?)
 }
 
@@ -35,7 +44,7 @@ async fn paste(page: &Page, css: &str, text: &str) -> Result {
 fn the_measured_example_becomes_the_job_and_undo_takes_it_back() -> Result {
     visit("", DESKTOP, async |page| {
         open(page).await?;
-        page.click("#identify-loads-example").await?;
+        click(page, "#identify-loads-example").await?;
         page.wait_for("document.querySelectorAll('#identified tbody tr').length === 6", 30.0).await?;
         page.wait_for("document.querySelector('#chart-stiffness svg.plot')", 10.0).await?;
         page.screenshot("identify-stiffness.png").await?;
@@ -45,7 +54,7 @@ fn the_measured_example_becomes_the_job_and_undo_takes_it_back() -> Result {
         assert!(page.text("#identify .found").await?.contains(&explained));
         let before = page.js("return document.getElementById('fingerprint').textContent").await?;
 
-        page.click("#use-compliance").await?;
+        click(page, "#use-compliance").await?;
         page.wait_for("document.querySelector('#results').dataset.state === 'computing' || document.querySelector('#notice p')", 10.0).await?;
         current(page).await?;
         let taken = job(page).await?;
@@ -72,9 +81,9 @@ fn the_measured_example_becomes_the_job_and_undo_takes_it_back() -> Result {
 fn a_response_becomes_the_shaper() -> Result {
     visit("", DESKTOP, async |page| {
         open(page).await?;
-        page.click("#identify-response-example").await?;
+        click(page, "#identify-response-example").await?;
         page.wait_for("document.querySelector('#chart-response svg.plot')", 30.0).await?;
-        page.click("#use-mode").await?;
+        click(page, "#use-mode").await?;
         current(page).await?;
         let shaper = &job(page).await?["shaper"];
         let native = response::mode(&response::Signal::read(RESPONSE)?, None)?;
@@ -98,7 +107,7 @@ fn a_response_becomes_the_shaper() -> Result {
 fn what_is_wrong_is_said_with_its_line_and_the_last_result_stays() -> Result {
     visit("", DESKTOP, async |page| {
         open(page).await?;
-        page.click("#identify-loads-example").await?;
+        click(page, "#identify-loads-example").await?;
         page.wait_for("document.querySelectorAll('#identified tbody tr').length === 6", 30.0).await?;
         let broken = LOADS.replace("-0.000538", "half");
         let line = 1 + broken.lines().position(|line| line.contains("half")).unwrap();
@@ -107,14 +116,14 @@ fn what_is_wrong_is_said_with_its_line_and_the_last_result_stays() -> Result {
         let said = page.text("#identify .wrong p").await?;
         assert!(said.starts_with(&format!("Line {line}, column ")) && said.contains("a number"), "{said}");
         assert_eq!(page.js("return document.querySelector('#identify .result').hidden").await?, false);
-        page.click("#identify .wrong button").await?;
+        click(page, "#identify .wrong button").await?;
         let chosen = page.js("const a = document.getElementById('identify-loads'); return a.value.slice(a.selectionStart, a.selectionEnd)").await?;
         assert!(chosen.as_str().unwrap().contains("half"), "{chosen}");
 
         // The job's own robot answers too, and says that these postures are not its own.
         paste(page, "#identify-loads", LOADS).await?;
         page.wait_for("!document.querySelector('#identify .wrong p')", 10.0).await?;
-        page.click("#identify .whose button").await?;
+        click(page, "#identify .whose button").await?;
         page.wait_for("document.querySelector('#use-compliance')?.textContent.startsWith('Use these')", 10.0)
             .await?;
         paste(page, "#identify-loads", "").await?;
@@ -126,8 +135,8 @@ fn what_is_wrong_is_said_with_its_line_and_the_last_result_stays() -> Result {
 fn it_fits_a_phone() -> Result {
     visit("", PHONE, async |page| {
         open(page).await?;
-        page.click("#identify-loads-example").await?;
-        page.click("#identify-response-example").await?;
+        click(page, "#identify-loads-example").await?;
+        click(page, "#identify-response-example").await?;
         page.wait_for("document.querySelector('#chart-response svg.plot') && document.querySelector('#chart-stiffness svg.plot')", 30.0).await?;
         page.screenshot("identify-phone.png").await?;
         assert_eq!(page.js("return document.documentElement.scrollWidth - innerWidth").await?, 0);

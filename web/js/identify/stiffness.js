@@ -81,7 +81,7 @@ function tableOf(joints) {
     make("tr", { className: verdict }, make("th", { scope: "row" }, `Joint ${joint}`),
       make("td", { "data-label": "Compliance" }, micro(compliance_rad_per_nm)),
       make("td", { "data-label": "95 % interval" }, `${micro(low)} to ${micro(high)}`),
-      make("td", { "data-label": "Stiffness" }, stiffness_nm_per_rad === null ? "rigid" : formatNumber(Math.round(stiffness_nm_per_rad / 1000))),
+      make("td", { "data-label": "Stiffness, kN m/rad" }, stiffness_nm_per_rad === null ? "rigid" : formatNumber(Math.round(stiffness_nm_per_rad / 1000))),
       make("td", { "data-label": "Inflation" }, variance_inflation === null ? "∞" : formatNumber(variance_inflation, 2)),
       make("td", {}, sentence(words)));
   const head = (text, unit) => make("th", { scope: "col" }, text, unit ? make("span", { className: "unit" }, ` ${unit}`) : "");
