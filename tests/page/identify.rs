@@ -136,6 +136,7 @@ fn it_fits_a_phone() -> Result {
     visit("", PHONE, async |page| {
         open(page).await?;
         click(page, "#identify-loads-example").await?;
+        page.wait_for("document.querySelector('#chart-stiffness svg.plot')", 30.0).await?;
         click(page, "#identify-response-example").await?;
         page.wait_for("document.querySelector('#chart-response svg.plot') && document.querySelector('#chart-stiffness svg.plot')", 30.0).await?;
         page.screenshot("identify-phone.png").await?;
