@@ -104,7 +104,7 @@ pub(crate) type Pinned = (&'static str, Vec<(&'static str, Value)>, &'static str
 
 /// Jobs that must give the same bits natively and in the browser. The fingerprints are our own: they pin the two sides to each
 /// other and show when a number changes; they say nothing about its being right.
-pub(crate) fn pinned() -> [Pinned; 4] {
+pub(crate) fn pinned() -> [Pinned; 5] {
     use serde_json::json;
     [
         ("default", vec![], "105198a3961c0d1a82267525b76f9d82"),
@@ -142,6 +142,20 @@ pub(crate) fn pinned() -> [Pinned; 4] {
                 ("shaper", json!("none")),
             ],
             "b9d2bcdbe6c99b66c04bad4ab0c33652",
+        ),
+        (
+            "ball nose by catalogue constants, conventional milling, a tool that bends",
+            vec![
+                ("path", json!({"kind":"line","from_mm":[600,-20,100],"to_mm":[620,20,120]})),
+                (
+                    "tool",
+                    json!({"diameter_mm":12,"flutes":3,"helix_deg":40,"corner_radius_mm":"ball","rake_deg":6,"bending":"cantilever","stickout_mm":60}),
+                ),
+                ("material", json!({"preset":"s37"})),
+                ("cutting.engagement", json!("conventional")),
+                ("cutting.radial_depth_mm", json!(2.5)),
+            ],
+            "c2a464be53b5351cb1395d938475790a",
         ),
     ]
 }
