@@ -54,7 +54,6 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
         job.setup_with(|share| on_progress(Stage { fraction: share / steps, name: "reading the program" }))?;
     let mut tell = |step: usize, name| on_progress(Stage { fraction: (reading + step as f64) / steps, name });
     tell(0, "joint commands");
-    #[cfg_attr(not(feature = "full"), allow(unused_mut, reason = "the full one chooses the spin"))]
     let mut plan = Plan {
         robot: setup.robot.clone(),
         trajectory: Trajectory::new(&setup.path, &setup.tempo),
@@ -71,6 +70,8 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
     }
     let desired = (plan.trajectory.position.as_slice(), plan.trajectory.axis.as_slice());
     let joints = joint_trajectory(&plan.robot, &plan.path, &plan.trajectory, desired, setup.start)?;
+    plan.robot = plan.robot.touched_off_at(&joints.q[0]);
+    let plan = plan;
     let deviation = |acting: Sources| deviate(&plan, &plan.pace(acting), &joints.q, acting);
     tell(1, "deflection");
     let deflection_only = deviation(Sources::only(Source::Deflection));

@@ -8,6 +8,8 @@ pub const INCH: f64 = 25.4e-3;
 pub const MINUTE: f64 = 60.0;
 /// One degree [rad].
 pub const DEG: f64 = std::f64::consts::PI / 180.0;
+/// One minute of arc [rad].
+pub const ARCMIN: f64 = DEG / 60.0;
 /// One revolution a minute [1/s].
 pub const RPM: f64 = 1.0 / 60.0;
 /// One newton per square millimetre [N/m^2].

@@ -96,31 +96,34 @@ pub fn deviate(plan: &Plan, pace: &Pace, q: &[Joints], acting: Sources) -> Devia
     } else {
         vec![Vector3::zeros(); q.len()]
     };
-    deviate_under(plan, pace, q, force, acting.shaping)
+    deviate_under(plan, pace, q, force, acting)
 }
 
-/// The same under forces that are known [N], one a sample, base frame.
+/// The same under forces that are known [N], one a sample, base frame; where deflection does not act, nothing gives way to them or to weight.
 pub fn deviate_under(
     plan: &Plan,
     pace: &Pace,
     q: &[Joints],
     force: Vec<Vector3<f64>>,
-    shaping: bool,
+    acting: Sources,
 ) -> Deviation {
-    let q = if shaping { plan.shaper.joints(q, plan.trajectory.sample_time) } else { q.to_vec() };
+    let q = if acting.shaping { plan.shaper.joints(q, plan.trajectory.sample_time) } else { q.to_vec() };
     let mut deflection = Vec::with_capacity(q.len());
     let mut actual = Vec::with_capacity(q.len());
     let mut axis = Vec::with_capacity(q.len());
     for (q, force) in q.iter().zip(&force) {
         let frames = forward::frames(&plan.robot, q);
         let tcp = frames[5].compose(plan.robot.tool());
-        let (mut displacement, mut rotation) =
-            compliance::deflection(&plan.robot, &frames, &tcp.position, force);
+        let (mut displacement, mut rotation) = (Vector3::zeros(), Vector3::zeros());
         let shaped: Vector3<f64> = -tcp.rotation.column(2);
-        if let Some(bending) = &plan.bending {
-            let (moved, turned) = bending.deflection(&shaped, force);
-            displacement += moved;
-            rotation += turned;
+        if acting.deflection {
+            (displacement, rotation) =
+                compliance::deflection(&plan.robot, q, &frames, &tcp.position, force);
+            if let Some(bending) = &plan.bending {
+                let (moved, turned) = bending.deflection(&shaped, force);
+                displacement += moved;
+                rotation += turned;
+            }
         }
         deflection.push(displacement);
         actual.push(tcp.position + displacement);

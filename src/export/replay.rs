@@ -100,7 +100,7 @@ pub fn run(report: &Report, course: &Course, program: &Program) -> Result<Replay
         let along = axis * axis.dot(force);
         *force = along + (*force - along) * share;
     }
-    let deviation = deviate_under(&plan, &pace, &q, force, true);
+    let deviation = deviate_under(&plan, &pace, &q, force, Sources::ALL);
     Ok(Replay { trajectory: plan.trajectory, pace, deviation, instants })
 }
 

@@ -92,6 +92,15 @@ pub struct Robot {
     /// Joint compliances [rad/(N m)].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint_compliance_rad_per_nm: Option<[f64; 6]>,
+    /// Points of springs that are no straight lines: joint (1 to 6), torque [N m], turn [arcmin].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint_springs_nm_arcmin: Option<Vec<[f64; 3]>>,
+    /// Masses that the joints carry: link (1 to 6, the flange), mass [kg], centre of mass in the link's frame [mm].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub loads_kg_mm: Option<Vec<[f64; 5]>>,
+    /// Pose at which the loads' sag is no error; default the start of the path.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sag_zero: Option<SagZero>,
 }
 
 /// One row of a modified DH table.
@@ -209,6 +218,10 @@ choice! {
 choice! {
     /// What a free spin is chosen for.
     SpinGoal { #[default] /** Joints that turn little and evenly. */ SmoothJoints = "smooth-joints", /** Least error by the cutting force. */ LeastError = "least-error" }
+}
+choice! {
+    /// Pose at which sag is no error.
+    SagZero { #[default] /** The start of the path, where the workpiece was touched off. */ Start = "start", /** None: the model without load. */ Model = "model" }
 }
 choice! {
     /// Kind of input shaper.
@@ -331,7 +344,7 @@ keys!(Job {
     shaper,
     compensation
 });
-keys!(new Robot { preset, name, modified_dh, opw, joint_limits_deg, joint_compliance_rad_per_nm });
+keys!(new Robot { preset, name, modified_dh, opw, joint_limits_deg, joint_compliance_rad_per_nm, joint_springs_nm_arcmin, loads_kg_mm, sag_zero });
 keys!(new DhRow { alpha_deg, a_mm, d_mm, theta_offset_deg, joint_sign } required alpha_deg, a_mm, d_mm);
 keys!(new Opw { a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm, joint_sign, joint_offset_deg } required c2_mm, c3_mm);
 keys!(Frame { xyz_mm, rpy_deg });

@@ -13,6 +13,7 @@ mod program;
 #[cfg(feature = "full")]
 pub mod presets;
 mod read;
+mod burden;
 mod setup;
 mod cut;
 pub mod fields;
@@ -20,8 +21,8 @@ pub mod fields;
 pub use choice::{ChipThickness, Choice, CornerRadius, Dwell, FeedPerTooth, SpindlePower};
 pub use cut::Stock;
 pub use input::{
-    Branch, Compensation, DhRow, Elbow, Frame, Job, Motion, Opw, Robot, Shaper, ShaperKind, ShaperSpec,
-    Shoulder, Source, Spin, SpinGoal, SpinMode, Wrist,
+    Branch, Compensation, DhRow, Elbow, Frame, Job, Motion, Opw, Robot, SagZero, Shaper, ShaperKind,
+    ShaperSpec, Shoulder, Source, Spin, SpinGoal, SpinMode, Wrist,
 };
 pub use milling::{Cutting, Engaged, Line, Material, Tool, ToolBending};
 pub use path::{FeedUnit, Path, PathKind, Unit};

@@ -54,7 +54,7 @@ impl Report {
         let robot = &self.plan.robot;
         let frames = forward::frames(robot, &q[sample]);
         let tip = frames[5].compose(robot.tool()).position;
-        compliance::by_joint(robot, &frames, &tip, &force[sample]).map(|(moved, _)| moved)
+        compliance::by_joint(robot, &q[sample], &frames, &tip, &force[sample]).map(|(moved, _)| moved)
     }
 
     /// What the contour error before compensation is made of.

@@ -1,6 +1,7 @@
 //! How the arm gives way: joint springs seen at the tool tip (thesis eqs. 3.41-3.50).
 
 use crate::math::Pose;
+use crate::robot::equilibrium::equilibrium;
 use crate::robot::{Joints, Robot, jacobian};
 use nalgebra::{Matrix6, Vector3};
 
@@ -16,12 +17,13 @@ pub fn cartesian_compliance(robot: &Robot, q: &Joints) -> Matrix6<f64> {
 /// The same as the first three columns of [`cartesian_compliance`] times the force, without building the matrix.
 pub(crate) fn deflection(
     robot: &Robot,
+    q: &Joints,
     frames: &[Pose; 6],
     tip: &Vector3<f64>,
     force: &Vector3<f64>,
 ) -> (Vector3<f64>, Vector3<f64>) {
     let (mut displacement, mut rotation) = (Vector3::zeros(), Vector3::zeros());
-    for (moved, turned) in by_joint(robot, frames, tip, force) {
+    for (moved, turned) in by_joint(robot, q, frames, tip, force) {
         displacement += moved;
         rotation += turned;
     }
@@ -31,12 +33,20 @@ pub(crate) fn deflection(
 /// What each joint's spring adds to [`deflection`]: J C_theta J^T F is a sum over the joints of J_i c_i J_i^T F.
 ///
 /// Joint torque tau_i = v_i . F (eq. 3.47), joint rotation c_i tau_i (eq. 3.42), so v_i c_i tau_i and k_i c_i tau_i (eq. 3.41).
+/// With other springs or weight the turns are those of the [equilibrium](crate::robot::equilibrium), less the sag where the part was touched off.
 pub(crate) fn by_joint(
     robot: &Robot,
+    q: &Joints,
     frames: &[Pose; 6],
     tip: &Vector3<f64>,
     force: &Vector3<f64>,
 ) -> [(Vector3<f64>, Vector3<f64>); 6] {
+    if let Some(burden) = robot.burden() {
+        let mut sag = robot.sag().iter();
+        return equilibrium(robot, burden, q, force).parts.map(|(moved, turned)| {
+            sag.next().map_or((moved, turned), |(zero, twist)| (moved - zero, turned - twist))
+        });
+    }
     let mut joint = robot.compliance().iter();
     jacobian::levers(frames, tip).map(|(k, lever)| {
         let v = k.cross(&lever);

@@ -11,7 +11,13 @@ pub mod inverse;
 mod numerical;
 pub mod jacobian;
 pub mod compliance;
+pub mod spring;
+pub mod load;
+pub mod equilibrium;
 pub mod library;
 
+pub use equilibrium::Burden;
+pub use load::Load;
 pub use model::{Joints, Link, Robot};
 pub use opw::Opw;
+pub use spring::Spring;

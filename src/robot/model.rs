@@ -6,7 +6,8 @@
 
 use crate::error::Error;
 use crate::math::{self, Pose};
-use nalgebra::Vector6;
+use crate::robot::equilibrium::{Burden, equilibrium};
+use nalgebra::{Vector3, Vector6};
 
 /// Six joint values [rad].
 pub type Joints = Vector6<f64>;
@@ -83,6 +84,8 @@ pub struct Robot {
     limits: Option<[(f64, f64); 6]>,
     compliance: Joints,
     tool: Pose,
+    burden: Option<Box<Burden>>,
+    sag: [(Vector3<f64>, Vector3<f64>); 6],
     pub(crate) twists: [(f64, f64); 6],
     geometry: Result<Geometry, Error>,
 }
@@ -145,6 +148,8 @@ impl Robot {
             limits,
             compliance: Joints::from(compliance),
             tool: Pose::identity(),
+            burden: None,
+            sag: [(Vector3::zeros(), Vector3::zeros()); 6],
             twists: links.map(|link| link.twist()),
             geometry: Geometry::of(&links),
         })
@@ -154,6 +159,30 @@ impl Robot {
     pub fn with_tool(mut self, tool: Pose) -> Self {
         self.tool = tool;
         self
+    }
+
+    /// The same arm with springs that are no straight lines, or with the weight it carries.
+    pub fn with_burden(mut self, burden: Burden) -> Self {
+        self.burden = Some(Box::new(burden));
+        self
+    }
+
+    /// The same arm with its sag at the joint commands `q` [rad] taken for zero, if the workpiece was touched off there.
+    pub fn touched_off_at(mut self, q: &Joints) -> Self {
+        if let Some(burden) = self.burden.as_ref().filter(|burden| burden.touched_off) {
+            self.sag = equilibrium(&self, burden, q, &Vector3::zeros()).parts;
+        }
+        self
+    }
+
+    /// Springs and weight, where they are more than [`Robot::compliance`].
+    pub fn burden(&self) -> Option<&Burden> {
+        self.burden.as_deref()
+    }
+
+    /// What each joint's sag has moved [m] and turned [rad] the TCP by where the workpiece was touched off.
+    pub(crate) fn sag(&self) -> &[(Vector3<f64>, Vector3<f64>); 6] {
+        &self.sag
     }
 
     /// The arm's name.

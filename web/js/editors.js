@@ -22,6 +22,8 @@ export const idOf = (path) => path.replaceAll(".", "-");
 export function editorFor(field) {
   if (field.path.endsWith("points_mm") || field.path.endsWith("work_offsets_mm")) return rows(field, ["x", "y", "z"]);
   if (field.path.endsWith("length_offsets_mm")) return rows(field, ["H", "length"]);
+  if (field.path.endsWith("springs_nm_arcmin")) return rows(field, ["joint", "torque", "turn"]);
+  if (field.path.endsWith("loads_kg_mm")) return rows(field, ["link", "mass", "x", "y", "z"]);
   if (field.kind === "number" && field.choices) return numberOrWord(field, field.choices[0]);
   if (field.kind === "choice") return choice(field);
   if (field.kind === "set") return checkboxes(field);

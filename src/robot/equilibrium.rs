@@ -1,0 +1,75 @@
+//! Where the joints come to rest under force and weight when their springs are not straight lines.
+//!
+//! The torques are taken at the pose that the joints give way to, so the turns are sought until they no longer change: each round puts the
+//! turns of the last into the arm and reads the springs again. A round shrinks the error by about compliance x force x reach (1e-3 for a
+//! milling robot), so a few are enough; an arm so soft that it does not settle is told.
+
+use crate::robot::load::{self, Load};
+use crate::robot::{Joints, Robot, Spring, forward, jacobian};
+use nalgebra::Vector3;
+
+/// Springs and weight of an arm, where they are more than six compliances.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Burden {
+    /// One for each joint.
+    pub springs: [Spring; 6],
+    /// What the joints carry.
+    pub loads: Vec<Load>,
+    /// Acceleration of gravity in the base frame [m/s^2].
+    pub gravity: Vector3<f64>,
+    /// Whether the sag at the start of the path is no error: the workpiece was touched off there.
+    pub touched_off: bool,
+}
+
+/// Turns at which springs, force and weight are in balance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Equilibrium {
+    /// Turn of each joint about its axis [rad].
+    pub turns: [f64; 6],
+    /// What each turn moves [m] and turns [rad] the TCP, base frame; together they take it where the turned joints put it.
+    pub parts: [(Vector3<f64>, Vector3<f64>); 6],
+    /// Rounds.
+    pub passes: usize,
+    /// Largest change of a turn in the last round [rad].
+    pub residual: f64,
+    /// Whether that is no more than [`SETTLED`].
+    pub converged: bool,
+}
+
+/// Change of a turn that ends the search [rad]: a nanometre at a kilometre.
+pub const SETTLED: f64 = 1e-12;
+/// Most rounds.
+const ROUNDS: usize = 60;
+
+/// The balance for joint commands `q` [rad] and a force on the TCP [N], base frame.
+pub fn equilibrium(robot: &Robot, burden: &Burden, q: &Joints, force: &Vector3<f64>) -> Equilibrium {
+    let bent = |turns: &[f64; 6], share: f64| {
+        let signs = robot.links().each_ref().map(|link| link.sign);
+        let q = Joints::from_fn(|i, _| q[i] + signs[i] * turns[i] * share);
+        let frames = forward::frames(robot, &q);
+        let tip = frames[5].compose(robot.tool()).position;
+        (frames, tip)
+    };
+    let mut turns = [0.0; 6];
+    let (mut passes, mut residual) = (0, f64::INFINITY);
+    while residual > SETTLED && passes < ROUNDS {
+        let (frames, tip) = bent(&turns, 1.0);
+        let weight = load::torques(&frames, &burden.loads, &burden.gravity);
+        let mut next = [0.0; 6];
+        for (joint, (k, lever)) in jacobian::levers(&frames, &tip).into_iter().enumerate() {
+            // Eq. 3.47 with the weight added.
+            next[joint] = burden.springs[joint].turn(k.cross(&lever).dot(force) + weight[joint]);
+        }
+        residual = (0..6).map(|i| (next[i] - turns[i]).abs()).fold(0.0, f64::max);
+        turns = next;
+        passes += 1;
+    }
+    // Half way, the levers are the mean of those before and after: what the joints add up to is exact to the third power of the turns.
+    let (frames, tip) = bent(&turns, 0.5);
+    let mut joint = turns.iter();
+    let parts = jacobian::levers(&frames, &tip).map(|(k, lever)| {
+        let turn = joint.next().copied().unwrap_or_default();
+        (k.cross(&lever) * turn, k * turn)
+    });
+    Equilibrium { turns, parts, passes, residual, converged: residual <= SETTLED }
+}

@@ -1,0 +1,60 @@
+//! A joint's spring: how far the joint turns under a torque, as a straight line or as a table with lost motion and hardening.
+
+use crate::error::Error;
+
+/// Turn against torque, the same both ways: straight between its points and from rest to the first, and on along the last piece behind them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spring {
+    /// Torque [N m] and turn [rad]: torques rise from above 0, turns do not fall.
+    points: Vec<(f64, f64)>,
+}
+
+impl Spring {
+    /// The spring of eq. 3.42: turn = compliance [rad/(N m)] times torque.
+    pub fn linear(compliance: f64) -> Self {
+        Self { points: vec![(1.0, compliance)] }
+    }
+
+    /// A spring through points of torque [N m] and turn [rad]. Backlash is a first point at the small torque that takes it up, hardening
+    /// a last piece that is steeper in torque.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] naming `field` and the point if there is none, a torque does not rise from above 0, or a turn falls.
+    pub fn through(field: &str, points: Vec<(f64, f64)>) -> Result<Self, Error> {
+        let wrong = |value: String, expected: &str| Error::Invalid {
+            field: field.to_owned(),
+            value,
+            expected: expected.to_owned(),
+        };
+        if points.is_empty() {
+            return Err(wrong("no point".into(), "a torque and its turn, at least once"));
+        }
+        let mut last = (0.0, 0.0);
+        for &(torque, turn) in &points {
+            if !(torque.is_finite() && torque > last.0) {
+                return Err(wrong(
+                    format!("torque {torque} N m after {} N m", last.0),
+                    "torques of a joint rise from row to row, from above 0",
+                ));
+            }
+            if !(turn.is_finite() && turn >= last.1) {
+                return Err(wrong(
+                    format!("turn {turn} rad after {} rad", last.1),
+                    "a joint turns no less under more torque",
+                ));
+            }
+            last = (torque, turn);
+        }
+        Ok(Self { points })
+    }
+
+    /// How far the joint turns [rad] under a torque [N m].
+    pub fn turn(&self, torque: f64) -> f64 {
+        let load = torque.abs();
+        let behind = self.points.partition_point(|point| point.0 < load).min(self.points.len() - 1);
+        let (to, from) =
+            (self.points[behind], if behind == 0 { (0.0, 0.0) } else { self.points[behind - 1] });
+        let turn = from.1 + (to.1 - from.1) * ((load - from.0) / (to.0 - from.0));
+        turn.copysign(torque)
+    }
+}
