@@ -117,8 +117,7 @@ pub fn deviate_under(
         let (mut displacement, mut rotation) = (Vector3::zeros(), Vector3::zeros());
         let shaped: Vector3<f64> = -tcp.rotation.column(2);
         if acting.deflection {
-            (displacement, rotation) =
-                compliance::deflection(&plan.robot, q, &frames, &tcp.position, force);
+            (displacement, rotation) = compliance::deflection(&plan.robot, q, &frames, &tcp.position, force);
             if let Some(bending) = &plan.bending {
                 let (moved, turned) = bending.deflection(&shaped, force);
                 displacement += moved;

@@ -97,21 +97,32 @@ impl Report {
             let y = axis.cross(&x);
             let frames = forward::frames(robot, &self.before.q[k]);
             let tip = frames[5].compose(robot.tool());
-            // The compliance is symmetric: what a unit force across the wall moves along F is what F moves across the wall.
-            let (mut moved, _) = compliance::deflection(robot, &frames, &tip.position, &y);
+            let (index, _) = path.locate(pace.arc_length[k]);
+            let c = self.plan.chip.at(pace.speed[k], path.moves()[index].spindle);
+            let mean_of_turn = self.plan.mean_force.at(c);
+            let base = x * mean_of_turn.x + y * mean_of_turn.y + axis * mean_of_turn.z;
+            let by = |force: Vector3<f64>| {
+                compliance::deflection(robot, &self.before.q[k], &frames, &tip.position, &force).0
+            };
+            // The compliance is symmetric: what a unit force across the wall moves along F is what F moves across the wall. Springs that are
+            // no straight lines are taken as straight around the mean force.
+            let (constant, mut moved) = if robot.burden().is_some() {
+                let weight = by(Vector3::zeros());
+                let moved = by(base + y) - by(base);
+                ((by(base) - weight).dot(&y) - moved.dot(&base), moved)
+            } else {
+                (0.0, by(y))
+            };
             if let Some(bending) = &self.plan.bending {
                 moved += bending.deflection(&-tip.rotation.column(2), &y).0;
             }
             let moved = Vector3::new(moved.dot(&x), moved.dot(&y), moved.dot(&axis));
-            let (index, _) = path.locate(pace.arc_length[k]);
-            let c = self.plan.chip.at(pace.speed[k], path.moves()[index].spindle);
             for (at, wall) in walls.iter().enumerate() {
-                let force = self.plan.mean_force.at(c);
-                mean_force[at].take(wall.side * force.y);
-                mean[at].take(wall.side * moved.dot(&force));
+                mean_force[at].take(wall.side * mean_of_turn.y);
+                mean[at].take(wall.side * (constant + moved.dot(&mean_of_turn)));
                 for force in wall.instants.iter().map(|force| force.at(c)) {
                     instant_force[at].take(wall.side * force.y);
-                    instant[at].take(wall.side * moved.dot(&force));
+                    instant[at].take(wall.side * (constant + moved.dot(&force)));
                 }
             }
         });

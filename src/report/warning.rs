@@ -10,6 +10,7 @@ use crate::motion::joints::JointTrajectory;
 use crate::path::{Move, MovePace, Tool};
 use crate::report::Report;
 use crate::robot::Joints;
+use crate::robot::equilibrium::equilibrium;
 use crate::robot::inverse::Margin;
 use crate::units::{DEG, KILOWATT, MM};
 use nalgebra::Vector3;
@@ -90,6 +91,7 @@ pub(crate) fn warnings(
             format!("the joint values are solved numerically: {reason}"),
         ));
     }
+    springs(plan, compensation, &mut warnings);
     limits(plan, joints, compensation, &mut warnings);
     singularities(plan, joints, &mut warnings);
     cut(setup, plan, &mut warnings);
@@ -116,6 +118,20 @@ pub(crate) fn warnings(
         warnings.push(Warning::new("tolerance-not-met", message));
     }
     warnings
+}
+
+/// How many samples of a motion are looked at for springs that do not settle.
+const LOOKS: usize = 200;
+
+fn springs(plan: &Plan, compensation: &Compensation, warnings: &mut Vec<Warning>) {
+    let (Some(burden), Deviation { q, force, .. }) = (plan.robot.burden(), &compensation.result) else {
+        return;
+    };
+    let unsettled = |k: usize| !equilibrium(&plan.robot, burden, &q[k], &force[k]).converged;
+    if (0..q.len()).step_by(q.len().div_ceil(LOOKS)).any(unsettled) {
+        let message = "the joints are so soft under this load that their springs do not come to rest: deflections are not to be trusted";
+        warnings.push(Warning::new("springs-unsettled", message));
+    }
 }
 
 /// What the reader of the program found odd, with its line.

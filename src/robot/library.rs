@@ -66,12 +66,17 @@ pub fn robots() -> impl Iterator<Item = Preset> {
 /// The robot with this key.
 ///
 /// # Errors
-/// [`Error::Invalid`] with the keys there are.
+/// [`Error::Invalid`] with the keys most like it: there are too many to name.
 pub fn robot(id: &str) -> Result<Preset, Error> {
-    robots().find(|preset| preset.id == id).ok_or_else(|| Error::Invalid {
-        field: "robot.preset".into(),
-        value: format!("\"{id}\""),
-        expected: format!("the library has {}", names().map(|[id, ..]| id).collect::<Vec<_>>().join(", ")),
+    robots().find(|preset| preset.id == id).ok_or_else(|| {
+        let mut keys: Vec<_> = names().map(|[key, ..]| (strsim::jaro_winkler(id, key), key)).collect();
+        keys.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let like: Vec<_> = keys.iter().take(3).map(|(_, key)| *key).collect();
+        Error::Invalid {
+            field: "robot.preset".into(),
+            value: format!("\"{id}\""),
+            expected: format!("of the library's {} robots, {} are most like it", keys.len(), like.join(", ")),
+        }
     })
 }
 
