@@ -10,11 +10,11 @@ fn problem(random: &mut fastrand::Rng, case: usize) -> (DMatrix<f64>, DVector<f6
     for mut column in a.column_iter_mut() {
         column *= 10f64.powi(random.i32(-4..4));
     }
-    if case % 5 == 0 {
+    if case.is_multiple_of(5) {
         let copy = a.column(1) * 3.0;
         a.set_column(4, &copy);
     }
-    if case % 7 == 0 {
+    if case.is_multiple_of(7) {
         a.column_mut(2).fill(0.0);
     }
     let b = DVector::from_fn(rows, |_, _| random.f64() - 0.5);

@@ -164,7 +164,7 @@ impl<'a> Samples<'a> {
             } else if !small {
                 caution = (caution * 10.0).max(1e-9);
             }
-            if small || !(caution < 1e12) {
+            if small || caution >= 1e12 {
                 return (decay, pass, true);
             }
         }

@@ -19,7 +19,7 @@ pub(super) fn largest(samples: &Samples<'_>) -> usize {
 pub(super) fn guess(samples: &Samples<'_>) -> Option<Decay> {
     let mean = samples.mean();
     let height = samples.value.iter().map(|v| (v - mean).abs()).fold(0.0, f64::max);
-    if !(height > 0.0) {
+    if height <= 0.0 {
         return None;
     }
     let mut extrema = COUNTS
@@ -46,11 +46,8 @@ fn beyond(samples: &Samples<'_>, mean: f64, least: f64) -> Vec<(f64, f64)> {
     for (t, v) in samples.time.iter().zip(samples.value) {
         let v = v - mean;
         match extrema.last_mut() {
-            Some(last) if last.1 * v > 0.0 => {
-                if v.abs() > last.1.abs() {
-                    *last = (*t, v);
-                }
-            }
+            Some(last) if last.1 * v > 0.0 && v.abs() > last.1.abs() => *last = (*t, v),
+            Some(last) if last.1 * v > 0.0 => {}
             _ if v.abs() > least => extrema.push((*t, v)),
             _ => {}
         }
