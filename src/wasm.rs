@@ -13,7 +13,8 @@ use crate::chart::{self, ForceUnit, Options, Units};
 use crate::column::Column;
 use crate::error::Error;
 use crate::path::unit::LengthUnit;
-use crate::report::Report;
+use crate::report::{Report, scene};
+use crate::robot::Joints;
 use crate::{Job, Stage};
 use js_sys::{Array, Float64Array, Function, Object, Reflect};
 use serde::Serialize;
@@ -90,6 +91,21 @@ pub fn version() -> String {
 #[wasm_bindgen]
 pub fn check(json: &str) -> Result<(), JsValue> {
     Job::from_json(json).and_then(|job| job.setup()).map(|_| ()).map_err(|error| thrown(&error))
+}
+
+/// Where a job's arm stands with all joint values zero: base, six joints and TCP in the base frame, each as origin [mm] and x, y, z axes (12
+/// numbers). Throws what is wrong with the robot.
+#[wasm_bindgen]
+pub fn arm(json: &str) -> Result<Float64Array, JsValue> {
+    let robot = Job::from_json(json).and_then(|job| job.robot()).map_err(|error| thrown(&error))?;
+    Ok(Float64Array::from(scene::arm(&robot, &Joints::zeros()).as_slice()))
+}
+
+/// The x, y, z [mm] of the workpiece frame that bring the path in front of the robot. Throws if no place there holds it.
+#[wasm_bindgen]
+pub fn place_in_front(json: &str) -> Result<Float64Array, JsValue> {
+    let place = Job::from_json(json).and_then(|job| job.place_in_front()).map_err(|error| thrown(&error))?;
+    Ok(Float64Array::from(place.as_slice()))
 }
 
 /// Computes a job; `on_progress(fraction, stage)` is called in between. Throws what is wrong.

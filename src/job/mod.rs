@@ -15,6 +15,7 @@ pub mod presets;
 mod read;
 mod burden;
 mod setup;
+mod placement;
 mod cut;
 pub mod fields;
 

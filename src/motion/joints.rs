@@ -87,7 +87,8 @@ pub(crate) fn first_solution(robot: &Robot, tcp: &Pose, start: StartBranch) -> R
     })
 }
 
-fn next_solution(robot: &Robot, tcp: &Pose, last: &Solution) -> Result<Solution, Error> {
+/// The solution nearest to the one before.
+pub(crate) fn next_solution(robot: &Robot, tcp: &Pose, last: &Solution) -> Result<Solution, Error> {
     if let Some(solution) = inverse::continued(robot, tcp, last)
         && inverse::closes(robot, tcp, &solution.q)
     {

@@ -2,7 +2,7 @@
 
 use crate::math::Pose;
 use crate::report::Report;
-use crate::robot::forward;
+use crate::robot::{Joints, Robot, forward};
 use crate::units::MM;
 
 /// Numbers in a frame of [`Report::frames`].
@@ -10,19 +10,24 @@ pub const FRAME: usize = 12;
 /// Numbers in a row of [`Report::track`].
 pub const ROW: usize = 17;
 
+/// An arm with the joint values `q` [rad]: the base, the six joints and the TCP, each as origin [mm] and x, y, z axes.
+pub fn arm(robot: &Robot, q: &Joints) -> Vec<f64> {
+    let joints = forward::frames(robot, q);
+    let tcp = joints[5].compose(robot.tool());
+    [Pose::identity()].into_iter().chain(joints).chain([tcp]).flat_map(|pose| frame(&pose)).collect()
+}
+
+fn frame(pose: &Pose) -> Vec<f64> {
+    pose.position.iter().map(|v| v / MM).chain(pose.rotation.iter().copied()).collect()
+}
+
 impl Report {
     /// Where the arm stands at a sample under the shaped commands, in the base frame: the base, the six joints, the TCP and the workpiece, each
     /// as origin [mm] and x, y, z axes. A sample past the end means the last one.
     pub fn frames(&self, sample: usize) -> Vec<f64> {
-        let robot = &self.plan.robot;
-        let joints = forward::frames(robot, &self.before.q[sample.min(self.samples() - 1)]);
-        let tcp = joints[5].compose(robot.tool());
-        let numbers = |pose: &Pose| {
-            let axes = pose.rotation.iter().copied().collect::<Vec<f64>>();
-            pose.position.iter().map(|v| v / MM).chain(axes).collect::<Vec<f64>>()
-        };
-        let all = [Pose::identity()].into_iter().chain(joints).chain([tcp, self.setup.workpiece]);
-        all.flat_map(|pose| numbers(&pose)).collect()
+        let mut numbers = arm(&self.plan.robot, &self.before.q[sample.min(self.samples() - 1)]);
+        numbers.extend(frame(&self.setup.workpiece));
+        numbers
     }
 
     /// The paths in at most about `most` rows: sample, whether it cuts, desired point, closest point of the desired path to the actual tip before

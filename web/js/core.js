@@ -43,6 +43,12 @@ export function cancel() {
 /** Resolves if `json` is a valid job, else rejects with the error. */
 export const check = (json) => (spare ??= spawn()).ask("check", json);
 
+/** Frames of base, joints and TCP of the job's arm at zero joint values, as a Float64Array. */
+export const armAtZero = (json) => (spare ??= spawn()).ask("arm", json);
+
+/** Resolves with x, y, z [mm] of the workpiece frame that bring the path in front of the robot. */
+export const placeInFront = (json) => (spare ??= spawn()).ask("place", json);
+
 /** The thesis's printed figures beside ours; they are the default job's, whatever is shown. */
 export const thesis = () => (spare ??= spawn()).ask("thesis");
 

@@ -4,6 +4,7 @@ import * as core from "./core.js";
 import { setCharts, showPanel } from "./charts.js";
 import { setCursor } from "./cursor.js";
 import { pin, pinnedResult, showCompared } from "./compare.js";
+import { makeArmView } from "./arm-view.js";
 import { byId, debounced, make, sentence } from "./dom.js";
 import { download } from "./download.js";
 import { Form } from "./form.js";
@@ -38,6 +39,7 @@ let typing = false; // there are edits that no run has been started for yet
 
 const state = (name) => (results.dataset.state = name);
 const say = (text) => (byId("status").textContent = text);
+const armView = makeArmView((json) => core.armAtZero(json));
 const lastValid = () => (shown ? " Showing the last valid result." : "");
 
 const computeNow = () => {
@@ -55,6 +57,7 @@ function edited() {
     return stale();
   }
   form.clearErrors();
+  armView.show(job);
   state("computing");
   typing = true;
   if (shown) compute();
@@ -114,6 +117,7 @@ const events = {
     state("stale");
     const where = error.line ? ` (line ${error.line}, column ${error.column})` : "";
     if (error.code === "load") alertOn(error.message, "Try again", edited);
+    else if (error.code === "unreachable" || error.field === "path") alertOn(error.message, "Place the path in front of this robot", placeInFront);
     else alertOn(`${error.message}${where}`);
     say(lastValid().trim() || "No result yet.");
   },
@@ -134,6 +138,18 @@ const events = {
     say("The core was restarted.");
   },
 };
+
+/** Moves the workpiece to where the robot reaches the whole path. */
+async function placeInFront() {
+  try {
+    const xyz_mm = [...(await core.placeInFront(job.json))];
+    const data = JSON.parse(job.json);
+    session.load({ ...data, workpiece_frame: { ...data.workpiece_frame, xyz_mm } });
+    byId("group-frames").open = true;
+  } catch (error) {
+    if (!error.fatal) alertOn(error.message);
+  }
+}
 
 /** Figures and tables of the shown result, in the units of the settings. */
 function showFigures() {
@@ -280,6 +296,7 @@ try {
   job = new Job(standard, hello.fields, hello.presets);
   byId("version").textContent = `v${hello.version}`;
   form = new Form(byId("form"), job, hello.fields, hello.presets, (typing) => session.edited(typing));
+  byId("group-robot").querySelector("legend").after(armView.node);
   byId("group-path").querySelector("legend").after(programTools(useProgram, alertOn));
   followCaret((time) => setCursor(time, "program"));
   wireDrop();
