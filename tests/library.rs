@@ -199,3 +199,33 @@ fn every_robot_mills_a_line_in_front_of_it() {
         assert_eq!(limits, 0, "{}: {:?}", preset.id, report.warnings);
     }
 }
+
+#[test]
+fn a_path_out_of_reach_is_placed_where_the_robot_mills_it() {
+    for (robot, base) in [
+        (json!({"preset":"abb-irb-6640-235-255"}), json!({"xyz_mm":[0,0,0],"rpy_deg":[0,0,0]})),
+        (json!({"preset":"kuka-kr-60-ha"}), json!({"xyz_mm":[500,-300,200],"rpy_deg":[0,0,40]})),
+        (json!({"preset":"staubli-rx90"}), json!({"xyz_mm":[0,0,0],"rpy_deg":[0,0,0]})),
+    ] {
+        let far = [
+            ("robot", robot),
+            ("base_frame", base),
+            ("path", json!({"kind":"rectangle","center_mm":[5000,0,0],"width_mm":200,"height_mm":150})),
+        ];
+        assert_eq!(common::refused(&far).code(), "unreachable");
+        let job = armill::Job::from_json(&common::job_text(&far)).unwrap();
+        let place = job.place_in_front().unwrap();
+        let mut near = far.to_vec();
+        near.push(("workpiece_frame", json!({"xyz_mm":place,"rpy_deg":[0,0,0]})));
+        let report = run(&near);
+        let remarks: Vec<_> = report.warnings.iter().map(|warning| warning.code).collect();
+        assert!(
+            !remarks.iter().any(|code| code.starts_with("joint-limit") || code.starts_with("singularity")),
+            "{remarks:?}"
+        );
+    }
+    let wide = [("path", json!({"kind":"line","from_mm":[-3000,0,0],"to_mm":[3000,0,0]}))];
+    let error = armill::Job::from_json(&common::job_text(&wide)).unwrap().place_in_front().unwrap_err();
+    assert_eq!(error.field(), Some("workpiece_frame.xyz_mm"));
+    assert!(error.to_string().contains("6000 x 0 x 0 mm"), "{error}");
+}

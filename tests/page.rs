@@ -21,6 +21,8 @@ mod loading;
 mod policy;
 #[path = "page/programs.rs"]
 mod programs;
+#[path = "page/robots.rs"]
+mod robots;
 #[path = "page/scene.rs"]
 mod scene;
 #[path = "page/standalone.rs"]

@@ -4,7 +4,7 @@ import { makeSvg, make } from "./dom.js";
 import { formatLength } from "./number.js";
 import { framesOf } from "./scene/arm.js";
 
-const [WIDTH, HEIGHT, MARGIN] = [320, 190, 18];
+const [WIDTH, HEIGHT, MARGIN] = [320, 160, 16];
 
 /** The figure, and `show(job)`; `ask(json)` gives the frames of a job's arm at zero. */
 export function makeArmView(ask) {
