@@ -47,6 +47,8 @@ pub mod report;
 pub mod chart;
 #[cfg(feature = "full")]
 pub mod export;
+#[cfg(feature = "full")]
+pub mod placement;
 mod pipeline;
 #[cfg(target_arch = "wasm32")]
 pub mod wasm;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 /// The modules from left to right. The job is read first, but it makes the stages' inputs, so it may name them; `column` is the
 /// currency of report, charts and files.
-const ORDER: [&str; 15] = [
+const ORDER: [&str; 16] = [
     "math",
     "units",
     "error",
@@ -21,6 +21,7 @@ const ORDER: [&str; 15] = [
     "report",
     "chart",
     "export",
+    "placement",
 ];
 
 fn files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {

@@ -53,11 +53,11 @@ impl Warning {
 /// A joint this near to its limit is remarked [rad].
 const LIMIT_MARGIN: f64 = 2.0 * DEG;
 /// A wrist centre this near to the shoulder singularity is remarked [m].
-const SHOULDER_MARGIN: f64 = 10.0 * MM;
+pub(crate) const SHOULDER_MARGIN: f64 = 10.0 * MM;
 /// An elbow or wrist angle this near to its singularity is remarked [rad].
-const ANGLE_MARGIN: f64 = 5.0 * DEG;
+pub(crate) const ANGLE_MARGIN: f64 = 5.0 * DEG;
 /// A joint that turns further from one sample to the next is remarked [rad].
-const JUMP: f64 = 5.0 * DEG;
+pub(crate) const JUMP: f64 = 5.0 * DEG;
 /// A feed further off the plane across the tool axis is remarked [rad].
 const RAMP: f64 = 30.0 * DEG;
 

@@ -1,7 +1,7 @@
 // The Worker's side of core.js: owns one Run of the WebAssembly core and answers questions about it.
 
 const PROGRESS_MS = 40;
-const FULL = new Set(["export", "replay", "thesis", "identify"]); // questions that only the full core answers
+const FULL = new Set(["export", "replay", "thesis", "identify", "extent", "survey"]); // questions that only the full core answers
 
 let armill; // the core in use: the small or the full one, behind the same interface
 let isFull = false;
@@ -9,6 +9,7 @@ let run = null;
 let shown; // the job of the run, as JSON text
 let upgrading; // promise of the full core, from when it is first needed
 const identified = {}; // what was identified last, `stiffness` and `response`
+let surveyed; // { json, survey } of the map of places
 const arrival = {}; // takes the core that is waited for
 
 const answers = {
@@ -44,12 +45,24 @@ const answers = {
   },
   identified_chart: (kind, options) => identified[kind].chart(options),
   identified_data: (kind, units) => identified[kind].chart_data(units),
+  extent: (json) => surveyOf(json).extent(),
+  survey: (json, places) => surveyOf(json).places(places),
   trap: () => armill.trap(),
 };
 
 function release() {
   run?.free();
   run = null;
+}
+
+/** The job of a map, read once for all its bands. */
+function surveyOf(json) {
+  if (surveyed?.json !== json) {
+    surveyed?.survey.free();
+    surveyed = undefined;
+    surveyed = { json, survey: new armill.Survey(json) };
+  }
+  return surveyed.survey;
 }
 
 async function answer(kind, args) {
