@@ -17,6 +17,8 @@ mod embed;
 mod identify;
 #[path = "page/loading.rs"]
 mod loading;
+#[path = "page/placement.rs"]
+mod placement;
 #[path = "page/policy.rs"]
 mod policy;
 #[path = "page/programs.rs"]

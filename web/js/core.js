@@ -76,6 +76,9 @@ export const exported = (format) => askShown("export", format);
 /** Mean and largest contour error [mm] of the shown result's program, read back and run. */
 export const replayed = (format) => askShown("replay", format);
 
+/** Smallest and largest x, y, z [mm] of places for the part that are worth a look. */
+export const extent = (json) => (spare ??= spawn()).ask("extent", json);
+
 /** The job of the shown result, as JSON text. */
 export const shownJob = () => good;
 

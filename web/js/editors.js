@@ -114,7 +114,7 @@ function checkboxes(field) {
 }
 
 function vector(field) {
-  const names = field.path.endsWith("rpy_deg") ? ["roll", "pitch", "yaw"] : ["x", "y", "z"];
+  const names = field.path.endsWith("range_deg") ? ["from", "to"] : field.path.endsWith("rpy_deg") ? ["roll", "pitch", "yaw"] : ["x", "y", "z"];
   const id = idOf(field.path);
   const inputs = names.map((name) => numberInput(`${id}-${name}`));
   const parts = names.map((name, i) => make("label", { className: "part", for: inputs[i].id }, make("span", {}, name), inputs[i]));

@@ -10,6 +10,7 @@ import { download } from "./download.js";
 import { Form } from "./form.js";
 import { Job } from "./job.js";
 import { makeIdentify } from "./identify/panel.js";
+import { makePlacement } from "./placement/panel.js";
 import { formatLength, formatNumber } from "./number.js";
 import { openPanels, rememberPanels, restoreGroups } from "./panels.js";
 import { followCaret, openProgram, programTools, setLines, showProgram } from "./program.js";
@@ -27,6 +28,7 @@ const PATIENCE_MS = 150; // a run that takes longer shows its progress
 
 const results = byId("results");
 const scene = makeScene(byId("scene"));
+const placement = makePlacement(byId("placement"), { job: () => JSON.parse(job.json), use: (moved) => session.load(moved) });
 const identify = makeIdentify(byId("identify"), { job: () => JSON.parse(job.json), use: (changed) => session.load(changed) });
 let job;
 let form;
@@ -105,6 +107,7 @@ const events = {
     setCharts(charts);
     scene.show(summary);
     identify.look();
+    placement.look();
     for (const id of ["download-compensated", "download-columns", "download-program", "export-format", "share", "pin"]) byId(id).disabled = false;
     if (form.flawed) return stale();
     if (typing) return; // shown, but of an earlier edit
@@ -273,6 +276,7 @@ function wire() {
     rememberPanels({ tab: panel.getAttribute("aria-labelledby") });
     if (panel.id === "panel-thesis") recomputeThesis();
     if (panel.id === "panel-identify") identify.look();
+    if (panel.id === "panel-placement") placement.look();
   });
   if (!tabs.show(openPanels().tab)) showPanel(tabs.current());
 }

@@ -39,6 +39,8 @@ export function showSummary(summary) {
   put("samples", summary.samples);
   byId("history").textContent = summary.history_max_mm.map((mm) => lengthText(mm)).join(" → ");
   byId("branch").textContent = summary.branch;
+  byId("spin-gain").hidden = !summary.spin;
+  byId("spin-gain").lastElementChild.textContent = summary.spin?.sentence ?? "";
   byId("fingerprint").textContent = summary.fingerprint;
   showWarnings(summary.warnings);
 }

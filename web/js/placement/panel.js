@@ -1,0 +1,236 @@
+// The view "Placement": where on the table, the wall or the track the part would come out best.
+
+import { extent } from "../core.js";
+import { byId, debounced, make, makeSvg } from "../dom.js";
+import { parseNumber, plainNumber } from "../number.js";
+import { onSetting } from "../settings.js";
+import { lengthText, lengthUnit } from "../units.js";
+import { MARKS, draw, scaleGradient } from "./picture.js";
+import { survey } from "./pool.js";
+
+const AXES = ["x", "y", "z"];
+const PLANES = { xy: [0, 1, 2], xz: [0, 2, 1], yz: [1, 2, 0] };
+const STEPS = [11, 21, 31, 41];
+const CALM_MS = 400;
+
+/** Builds the view into `node`; `job()` is the present one, `use(job)` shows another (and can be undone). */
+export function makePlacement(node, { job, use }) {
+  let map = null; // { key, plane, columns, rows, values, at }
+  let pick = null; // from a point of the drawing to a cell
+  let cursor = null;
+  let running = null; // AbortController of the map being computed
+  let ranges = null; // smallest and largest x, y, z worth a look, by the core
+  let typed = false;
+
+  const plane = select("placement-plane", { xy: "x and y (from above)", xz: "x and z", yz: "y and z" });
+  const steps = select("placement-steps", Object.fromEntries(STEPS.map((n) => [n, `${n} × ${n}`])));
+  steps.value = "21";
+  const numbers = ["a-from", "a-to", "b-from", "b-to", "at"].map((id) => make("input", { id: `placement-${id}`, type: "text", inputMode: "decimal", className: "value" }));
+  const labels = numbers.map((input) => make("label", { for: input.id }));
+  const fields = make("div", { className: "placement-fields" },
+    ...[["Plane", plane], ["Steps", steps]].map(([text, input]) => make("div", {}, make("label", { for: input.id }, text), input)),
+    ...numbers.map((input, i) => make("div", {}, labels[i], input)));
+  const again = make("button", { type: "button", id: "placement-compute" }, "Compute the map");
+  const cancel = make("button", { type: "button", id: "placement-cancel", disabled: true }, "Cancel");
+  const whole = make("button", { type: "button", className: "quiet", id: "placement-reset" }, "Whole reach");
+  const bar = make("progress", { max: 1, value: 0, "aria-label": "Progress of the map" });
+  const status = make("p", { id: "placement-status", role: "status" });
+  const svg = makeSvg("svg", { id: "placement-map", role: "application", tabindex: "0", "aria-roledescription": "map", "aria-label": "Predicted error over places of the part", "aria-describedby": "placement-keys placement-read" });
+  const read = make("p", { id: "placement-read", role: "status" });
+  const scale = make("div", { className: "placement-scale" }, make("div", { className: "bar" }), make("span", { className: "low" }), make("span", { className: "high" }));
+  const legend = make("ul", { className: "placement-legend" }, ...legendItems());
+  const verdict = make("p", { id: "placement-verdict" });
+  const best = make("button", { type: "button", id: "placement-best", className: "primary", disabled: true }, "Place the part at the best");
+  const table = make("table", { id: "placement-table" });
+  const details = make("details", { className: "placement-values" }, make("summary", {}, "As a table"), make("div", { className: "scroll" }, table));
+  const keys = make("p", { id: "placement-keys", className: "hint" }, "Click a cell to place the part there; undo takes it back. Arrow keys move over the cells, Enter places the part.");
+  node.replaceChildren(fields, make("div", { className: "placement-actions" }, again, cancel, whole, bar), status,
+    make("div", { className: "placement-view" }, svg, make("div", { className: "placement-side" }, verdict, best, scale, legend, read)), keys, details);
+
+  const axes = () => PLANES[plane.value];
+  const place = () => job().workpiece_frame.xyz_mm;
+
+  /** The labels of the plane, and its ranges where none are typed. */
+  function fill() {
+    const [a, b, fixed] = axes().map((axis) => AXES[axis]);
+    [`${a} from`, `${a} to`, `${b} from`, `${b} to`, `At ${fixed}`].forEach((text, i) => labels[i].replaceChildren(text, " ", make("span", { className: "unit" }, "mm")));
+    if (typed || !ranges) return;
+    const [i, k, rest] = axes();
+    [...ranges[i], ...ranges[k], place()[rest]].forEach((value, n) => (numbers[n].value = plainNumber(value)));
+  }
+
+  async function look() {
+    if (byId("panel-placement").hidden) return;
+    try {
+      const all = await extent(JSON.stringify(job()));
+      ranges = AXES.map((_, axis) => [Math.floor(all[2 * axis] / 50) * 50, Math.ceil(all[2 * axis + 1] / 50) * 50]);
+    } catch (error) {
+      return error.code === "cancelled" ? undefined : say(`No map: ${error.message}`);
+    }
+    fill();
+    compute();
+  }
+
+  async function compute(always = false) {
+    const values = numbers.map((input) => parseNumber(input.value));
+    const wrong = numbers.findIndex((_, i) => !Number.isFinite(values[i])) ;
+    const turned = values[0] >= values[1] ? 1 : values[2] >= values[3] ? 3 : -1;
+    numbers.forEach((input, i) => (i === wrong || i === turned ? input.setAttribute("aria-invalid", "true") : input.removeAttribute("aria-invalid")));
+    if (wrong >= 0) return say(`${labels[wrong].textContent}: a number is needed.`);
+    if (turned >= 0) return say(`${labels[turned].textContent}: more than the start is needed.`);
+    const own = job();
+    const xyz = own.workpiece_frame.xyz_mm;
+    own.workpiece_frame.xyz_mm = [0, 0, 0]; // the map does not depend on where the part is now
+    const json = JSON.stringify(own);
+    const key = JSON.stringify([json, plane.value, steps.value, values]);
+    if (map?.key === key && !always) return show();
+    running?.abort();
+    const mine = (running = new AbortController());
+    const count = Number(steps.value);
+    const line = (from, to) => Array.from({ length: count }, (_, n) => from + ((to - from) * n) / (count - 1));
+    const [i, k, rest] = axes();
+    const [columns, rows] = [line(values[0], values[1]), line(values[2], values[3])];
+    const bands = rows.map((row) => Float64Array.from(columns.flatMap((column) => {
+      const at = [0, 0, 0];
+      [at[i], at[k], at[rest]] = [column, row, values[4]];
+      return at;
+    })));
+    const found = rows.map(() => null);
+    const at = (c, r) => found[r] && { max: found[r][3 * c], mean: found[r][3 * c + 1], mark: found[r][3 * c + 2] };
+    map = { key: null, axes: [i, k, rest], fixed: values[4], columns, rows, at, here: xyz };
+    cursor = null;
+    cancel.disabled = false;
+    bar.value = 0;
+    say("Computing the map…");
+    const began = performance.now();
+    let done = 0;
+    try {
+      await survey(json, bands, (index, numbers) => {
+        if (mine !== running) return;
+        found[index] = numbers;
+        bar.value = ++done / rows.length;
+        soon();
+      }, mine.signal);
+      if (mine !== running) return;
+      map.key = key;
+      say(`${count * count} places in ${((performance.now() - began) / 1000).toFixed(1)} s.`);
+    } catch (error) {
+      if (mine !== running) return;
+      say(error.code === "cancelled" ? "Cancelled; what was computed is shown." : `No map: ${error.message}`);
+    }
+    running = null;
+    cancel.disabled = true;
+    show();
+  }
+
+  const say = (text) => (status.textContent = text);
+  const soon = debounced(() => show(), 60);
+
+  function show() {
+    if (!map) return;
+    const places = map.rows.flatMap((_, k) => map.columns.map((_, i) => ({ i, k, ...map.at(i, k) })));
+    const errors = places.filter(({ mark }) => mark < 3).map(({ max }) => max).sort((a, b) => a - b);
+    // A few places near singularities would take the whole scale.
+    const limit = errors[Math.floor(0.95 * (errors.length - 1))] ?? 0;
+    const good = places.filter(({ mark }) => mark === 0).sort((a, b) => a.max - b.max);
+    const top = good[0];
+    const xyz = place();
+    const [i, k, rest] = map.axes;
+    map.best = top && [map.columns[top.i], map.rows[top.k]];
+    map.current = [xyz[i], xyz[k]];
+    map.names = [AXES[i], AXES[k]];
+    map.cursor = cursor;
+    if (Math.abs(xyz[rest] - map.fixed) > 1e-9) map.current = [NaN, NaN];
+    pick = draw(svg, map, limit);
+    scale.querySelector(".bar").style.setProperty("background", scaleGradient());
+    scale.querySelector(".low").textContent = "0";
+    scale.querySelector(".high").textContent = `${lengthText(limit)} ${lengthUnit()} and more`;
+    verdict.textContent = top
+      ? `Best on this map: ${spot(top.i, top.k)}, at most ${lengthText(top.max)} ${lengthUnit()} off the path before compensation.`
+      : errors.length ? "No place on this map is free of limits and singularities." : running ? "" : "No place on this map is within reach.";
+    best.disabled = !top;
+    best.onclick = () => top && put(top.i, top.k);
+    tell();
+    if (details.open) fillTable();
+  }
+
+  const spot = (i, k) => `${AXES[map.axes[0]]} ${plainNumber(Math.round(map.columns[i] * 10) / 10)}, ${AXES[map.axes[1]]} ${plainNumber(Math.round(map.rows[k] * 10) / 10)} mm`;
+
+  function tell() {
+    const at = cursor && map.at(...cursor);
+    if (!at) return void (read.textContent = "");
+    const what = at.mark === 3 ? MARKS[3] : `at most ${lengthText(at.max)} ${lengthUnit()}, mean ${lengthText(at.mean)}${at.mark ? `; ${MARKS[at.mark]}` : ""}`;
+    read.textContent = `${spot(...cursor)}: ${what}.`;
+  }
+
+  function put(i, k) {
+    const next = job();
+    const xyz = [...next.workpiece_frame.xyz_mm];
+    const round = (v) => Math.round(v * 1000) / 1000;
+    [xyz[map.axes[0]], xyz[map.axes[1]], xyz[map.axes[2]]] = [round(map.columns[i]), round(map.rows[k]), map.fixed];
+    next.workpiece_frame = { ...next.workpiece_frame, xyz_mm: xyz };
+    use(next);
+    say(`The part is at ${spot(i, k)}; undo takes it back.`);
+    show();
+  }
+
+  function fillTable() {
+    if (!map) return;
+    const head = make("tr", {}, make("th", { scope: "col" }, `${map.names?.[1] ?? ""} \\ ${map.names?.[0] ?? ""}, mm`), ...map.columns.map((v) => make("th", { scope: "col" }, plainNumber(Math.round(v)))));
+    const short = ["", " ·", " ⁄", "–"];
+    const body = map.rows.map((row, k) => make("tr", {}, make("th", { scope: "row" }, plainNumber(Math.round(row))), ...map.columns.map((_, i) => {
+      const at = map.at(i, k);
+      return make("td", { title: at ? MARKS[at.mark] : "" }, !at ? "" : at.mark === 3 ? short[3] : lengthText(at.max) + short[at.mark]);
+    })));
+    table.replaceChildren(make("caption", {}, `Largest error before compensation, ${lengthUnit()}; · near a singularity, ⁄ a joint leaves its range, – out of reach`), make("thead", {}, head), make("tbody", {}, ...body.reverse()));
+  }
+
+  const cellAt = (event) => {
+    const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
+    return pick?.(point.x, point.y);
+  };
+  svg.addEventListener("pointermove", (event) => {
+    const cell = cellAt(event);
+    if (String(cell) === String(cursor)) return;
+    cursor = cell ?? null;
+    if (map) show();
+  });
+  svg.addEventListener("click", (event) => {
+    const cell = cellAt(event);
+    if (cell && map?.at(...cell)) put(...cell);
+  });
+  svg.addEventListener("keydown", (event) => {
+    if (!map) return;
+    const move = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    if (event.key === "Enter" && cursor && map.at(...cursor)) return put(...cursor);
+    if (!move) return;
+    event.preventDefault();
+    const from = cursor ?? [Math.floor(map.columns.length / 2), Math.floor(map.rows.length / 2)];
+    cursor = [clamp(from[0] + move[0], map.columns.length), clamp(from[1] + move[1], map.rows.length)];
+    show();
+  });
+  plane.addEventListener("change", () => ((typed = false), fill(), compute()));
+  steps.addEventListener("change", () => compute());
+  const edited = debounced(() => compute(), CALM_MS);
+  for (const input of numbers) input.addEventListener("input", () => ((typed = true), edited()));
+  again.addEventListener("click", () => compute(true));
+  whole.addEventListener("click", () => ((typed = false), fill(), compute()));
+  cancel.addEventListener("click", () => running?.abort());
+  details.addEventListener("toggle", () => details.open && fillTable());
+  onSetting(() => map && show());
+  return { look };
+}
+
+const clamp = (value, count) => Math.min(count - 1, Math.max(0, value));
+
+function select(id, words) {
+  return make("select", { id }, ...Object.entries(words).map(([value, text]) => make("option", { value }, text)));
+}
+
+function legendItems() {
+  const sample = (...inside) => makeSvg("svg", { viewBox: "0 0 20 20", "aria-hidden": "true" }, ...inside);
+  const mark = (n) => sample(makeSvg("rect", { class: `swatch mark-${n}`, width: 20, height: 20 }), makeSvg("rect", { class: "mark", width: 20, height: 20, fill: `url(#placement-mark-${n})` }));
+  const path = (name, d) => sample(...["under", "over"].map((layer) => makeSvg("path", { class: `${name} ${layer}`, d })));
+  return [[path("current", "M2 10h16M10 2v16"), "the part now"], [path("best", "M10 2l8 8-8 8-8-8z"), "best place"],
+    [mark(1), MARKS[1]], [mark(2), MARKS[2]], [mark(3), MARKS[3]]].map(([picture, text]) => make("li", {}, picture, text));
+}

@@ -1,0 +1,85 @@
+// The map as a drawing: a cell a place, coloured by its error; hatched, dotted or empty where something is the matter.
+
+import { makeSvg } from "../dom.js";
+import { colour, gradient } from "../scene/ramp.js";
+
+const SIZE = 600; // of the plot's longer side, in units of the drawing
+const EDGE = { left: 62, right: 12, top: 10, bottom: 44 };
+export const MARKS = ["", "near a singularity", "a joint leaves its range", "out of reach"];
+
+const dark = () => {
+  const theme = document.documentElement.dataset.theme;
+  return theme === "dark" || (theme !== "light" && matchMedia("(prefers-color-scheme: dark)").matches);
+};
+
+/** What `node` is painted with: the colour of an error, `limit` being the end of the scale. */
+const paint = (error, limit) => `rgb(${colour(limit > 0 ? error / limit : 0, dark()).join(" ")})`;
+
+export const scaleGradient = () => gradient(dark());
+
+/**
+ * Draws a map { columns, rows, at(i, k) -> { max, mark }, names, current, best, cursor } into `svg`; columns and rows are positions [mm].
+ */
+export function draw(svg, map, limit) {
+  const [nx, ny] = [map.columns.length, map.rows.length];
+  const [wide, tall] = [span(map.columns), span(map.rows)];
+  const scale = SIZE / Math.max(wide, tall);
+  const [width, height] = [wide * scale, tall * scale];
+  const x = (v) => EDGE.left + ((v - map.columns[0]) / step(map.columns) + 0.5) * (width / nx);
+  const y = (v) => EDGE.top + height - ((v - map.rows[0]) / step(map.rows) + 0.5) * (height / ny);
+  const [w, h] = [width / nx, height / ny];
+  svg.setAttribute("viewBox", `0 0 ${width + EDGE.left + EDGE.right} ${height + EDGE.top + EDGE.bottom}`);
+  const cells = [];
+  for (let k = 0; k < ny; k++) {
+    for (let i = 0; i < nx; i++) {
+      const place = map.at(i, k);
+      if (!place) continue;
+      const box = { x: x(map.columns[i]) - w / 2, y: y(map.rows[k]) - h / 2, width: w + 0.3, height: h + 0.3 };
+      if (place.mark !== 3) cells.push(makeSvg("rect", { ...box, fill: paint(place.max, limit) }));
+      if (place.mark) cells.push(makeSvg("rect", { ...box, class: "mark", fill: `url(#placement-mark-${place.mark})` }));
+    }
+  }
+  const frame = makeSvg("rect", { class: "frame", x: EDGE.left, y: EDGE.top, width, height });
+  const ticks = [...ticksOf(map.columns).map((v) => label(x(v), EDGE.top + height + 16, v, "middle")),
+    ...ticksOf(map.rows).map((v) => label(EDGE.left - 6, y(v) + 4, v, "end"))];
+  const names = [makeSvg("text", { x: EDGE.left + width / 2, y: EDGE.top + height + 36, "text-anchor": "middle" }, `${map.names[0]}, mm`),
+    makeSvg("text", { x: 0, y: 0, "text-anchor": "middle", transform: `translate(13 ${EDGE.top + height / 2}) rotate(-90)` }, `${map.names[1]}, mm`)];
+  const inside = ([a, b]) => a >= map.columns[0] - step(map.columns) / 2 && a <= map.columns[nx - 1] + step(map.columns) / 2
+    && b >= map.rows[0] - step(map.rows) / 2 && b <= map.rows[ny - 1] + step(map.rows) / 2;
+  const signs = [];
+  if (map.best) signs.push(diamond(x(map.best[0]), y(map.best[1])));
+  if (inside(map.current)) signs.push(...cross(x(map.current[0]), y(map.current[1])));
+  if (map.cursor) signs.push(makeSvg("rect", { class: "cursor", x: x(map.columns[map.cursor[0]]) - w / 2, y: y(map.rows[map.cursor[1]]) - h / 2, width: w, height: h }));
+  svg.replaceChildren(patterns(), ...cells, frame, ...ticks, ...names, ...signs);
+  /** The cell under a point of the drawing, or undefined. */
+  return (px, py) => {
+    const [i, k] = [Math.floor((px - EDGE.left) / w), Math.floor((EDGE.top + height - py) / h)];
+    return i >= 0 && i < nx && k >= 0 && k < ny ? [i, k] : undefined;
+  };
+}
+
+const step = (values) => (values.length > 1 ? values[1] - values[0] : 1);
+const span = (values) => step(values) * values.length;
+
+function ticksOf(values) {
+  const [low, high] = [values[0], values.at(-1)];
+  const rough = (high - low) / 5 || 1;
+  const decade = 10 ** Math.floor(Math.log10(rough));
+  const every = [1, 2, 5, 10].find((n) => n * decade >= rough) * decade;
+  const first = Math.ceil(low / every) * every;
+  return Array.from({ length: Math.max(0, Math.floor((high - first) / every + 1e-9) + 1) }, (_, n) => first + n * every);
+}
+
+const label = (x, y, value, anchor) => makeSvg("text", { x, y, "text-anchor": anchor }, String(Math.round(value)).replace("-", "−"));
+
+const diamond = (x, y) => makeSvg("path", { class: "best", d: `M${x} ${y - 9}l9 9-9 9-9-9z` });
+
+const cross = (x, y) => ["under", "over"].map((layer) => makeSvg("path", { class: `current ${layer}`, d: `M${x - 13} ${y}h26M${x} ${y - 13}v26` }));
+
+function patterns() {
+  const pattern = (id, size, ...inside) => makeSvg("pattern", { id: `placement-mark-${id}`, width: size, height: size, patternUnits: "userSpaceOnUse" }, ...inside);
+  return makeSvg("defs", {},
+    pattern(1, 8, makeSvg("circle", { cx: 4, cy: 4, r: 1.4, class: "dot" })),
+    pattern(2, 8, makeSvg("path", { d: "M-2 2l4-4M0 8l8-8M6 10l4-4", class: "hatch under" }), makeSvg("path", { d: "M-2 2l4-4M0 8l8-8M6 10l4-4", class: "hatch" })),
+    pattern(3, 10, makeSvg("path", { d: "M3 5h4", class: "empty" })));
+}
