@@ -22,7 +22,7 @@ export function makePlacement(node, { job, use }) {
   let ranges = null; // smallest and largest x, y, z worth a look, by the core
   let typed = false;
 
-  const plane = select("placement-plane", { xy: "x and y (from above)", xz: "x and z", yz: "y and z" });
+  const plane = select("placement-plane", { xy: "x and y", xz: "x and z", yz: "y and z" });
   const steps = select("placement-steps", Object.fromEntries(STEPS.map((n) => [n, `${n} × ${n}`])));
   steps.value = "21";
   const numbers = ["a-from", "a-to", "b-from", "b-to", "at"].map((id) => make("input", { id: `placement-${id}`, type: "text", inputMode: "decimal", className: "value" }));

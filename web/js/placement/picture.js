@@ -81,5 +81,5 @@ function patterns() {
   return makeSvg("defs", {},
     pattern(1, 8, makeSvg("circle", { cx: 4, cy: 4, r: 1.4, class: "dot" })),
     pattern(2, 8, makeSvg("path", { d: "M-2 2l4-4M0 8l8-8M6 10l4-4", class: "hatch under" }), makeSvg("path", { d: "M-2 2l4-4M0 8l8-8M6 10l4-4", class: "hatch" })),
-    pattern(3, 10, makeSvg("path", { d: "M3 5h4", class: "empty" })));
+    pattern(3, 10, makeSvg("rect", { width: 10, height: 10, class: "ground" }), makeSvg("path", { d: "M3 5h4", class: "empty" })));
 }
