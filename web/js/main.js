@@ -28,7 +28,7 @@ const PATIENCE_MS = 150; // a run that takes longer shows its progress
 
 const results = byId("results");
 const scene = makeScene(byId("scene"));
-const placement = makePlacement(byId("placement"), { job: () => JSON.parse(job.json), use: (moved) => session.load(moved) });
+const placement = makePlacement(byId("placement"), { job: () => job && JSON.parse(job.json), use: (moved) => session.load(moved) });
 const identify = makeIdentify(byId("identify"), { job: () => JSON.parse(job.json), use: (changed) => session.load(changed) });
 let job;
 let form;

@@ -60,7 +60,7 @@ export function makePlacement(node, { job, use }) {
   }
 
   async function look() {
-    if (byId("panel-placement").hidden) return;
+    if (byId("panel-placement").hidden || !job()) return;
     try {
       const all = await extent(JSON.stringify(job()));
       ranges = AXES.map((_, axis) => [Math.floor(all[2 * axis] / 50) * 50, Math.ceil(all[2 * axis + 1] / 50) * 50]);
