@@ -60,7 +60,7 @@ pub fn names() -> impl Iterator<Item = [&'static str; 3]> {
 
 /// All robots of the library.
 pub fn robots() -> impl Iterator<Item = Preset> {
-    rows(ROBOTS).map(|row| preset(row))
+    rows(ROBOTS).map(preset)
 }
 
 /// The robot with this key.
