@@ -33,7 +33,7 @@ struct Core {
 /// Every visit loads the small one; the full one follows when a program is read or a file is written. Its limits only keep it from
 /// growing unnoticed.
 const BUILDS: [Core; 2] = [
-    Core { name: "small", profile: "small", options: &["--no-default-features"], limits: [640_000, 265_000] },
+    Core { name: "small", profile: "small", options: &["--no-default-features"], limits: [655_000, 268_500] },
     Core { name: "full", profile: "release", options: &[], limits: [1_200_000, 490_000] },
 ];
 
