@@ -83,6 +83,7 @@ fn identify() -> Result<serde_json::Value, Refusal> {
         }
     };
     let robot = job.robot()?;
+    convention.suits(&robot)?;
     let measurements = measurement::read(&text, convention)?;
     let fit = stiffness::fit(&robot, &measurements.rows)?;
     Ok(summary::stiffness(&robot, &measurements, &fit))

@@ -93,7 +93,7 @@ fn every_line_is_whole() {
     let files = ["robots.csv", "zeros.csv", "stiffness.csv", "sources.txt"];
     let bytes: u64 =
         files.iter().map(|file| std::fs::metadata(format!("{folder}/{file}")).unwrap().len()).sum();
-    assert!(bytes < 12_000, "the library is {bytes} bytes");
+    assert!(bytes < 13_500, "the library is {bytes} bytes");
 }
 
 #[test]

@@ -10,7 +10,7 @@
 
 use crate::error::Error;
 use crate::identify::table::Table;
-use crate::robot::Joints;
+use crate::robot::{Elbow, Joints, Robot};
 use crate::units::{DEG, INCH, MM};
 use nalgebra::Vector6;
 
@@ -72,6 +72,21 @@ impl Convention {
             value: format!("\"{id}\""),
             expected: format!("legal are {}", Self::ALL.map(|(key, _)| key).join(", ")),
         })
+    }
+
+    /// Whether rows so counted can be meant for the robot.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] if the robot itself counts joint 3 from the base: it would be turned twice.
+    pub fn suits(self, robot: &Robot) -> Result<(), Error> {
+        if self == Convention::CoupledJ3 && robot.elbow() != Elbow::Serial {
+            return Err(Error::Invalid {
+                field: "convention".into(),
+                value: "\"coupled-j3\"".into(),
+                expected: "table: this robot's own joint 3 is counted from the base already".into(),
+            });
+        }
+        Ok(())
     }
 
     /// The table's joint values.

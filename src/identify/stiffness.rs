@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::identify::eigen::eigen;
 use crate::identify::measurement::Measurement;
 use crate::identify::{nnls, student};
-use crate::robot::{Robot, jacobian::jacobian};
+use crate::robot::{Robot, jacobian::spring_jacobian};
 use nalgebra::{Matrix6, Vector6};
 
 /// A direction is unseen where its singular value is below this share of the largest, columns scaled to unit length.
@@ -136,7 +136,7 @@ impl Fit {
 
 /// One row's part of A c = b: for each measured component the six coefficients [m per rad/(N m)] and the displacement [m].
 pub fn equations(robot: &Robot, row: &Measurement) -> Vec<(Vector6<f64>, f64)> {
-    let j = jacobian(robot, &row.q);
+    let j = spring_jacobian(robot, &row.q);
     let torque = j.transpose() * row.wrench;
     let component = |axis: usize| {
         let coefficients = Vector6::from_fn(|i, _| j[(axis, i)] * torque[i]);

@@ -86,6 +86,9 @@ pub struct Robot {
     /// Ortho-parallel parameters.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub opw: Option<Opw>,
+    /// What joint 3 is counted from, and where its drive sits; default serial, or the preset's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint_3: Option<Joint3>,
     /// Joint ranges [deg].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint_limits_deg: Option<[[f64; 2]; 6]>,
@@ -220,6 +223,10 @@ choice! {
     SpinGoal { #[default] /** Joints that turn little and evenly. */ SmoothJoints = "smooth-joints", /** Least error by the cutting force. */ LeastError = "least-error" }
 }
 choice! {
+    /// What joint 3 is counted from, and where its drive sits.
+    Joint3 { #[default] /** From the upper arm, driven at the elbow. */ Serial = "serial", /** From the base, driven at the elbow. */ Pendant = "pendant", /** From the base, driven there through a parallelogram. */ Parallelogram = "parallelogram" }
+}
+choice! {
     /// Pose at which sag is no error.
     SagZero { #[default] /** The start of the path, where the workpiece was touched off. */ Start = "start", /** None: the model without load. */ Model = "model" }
 }
@@ -344,7 +351,7 @@ keys!(Job {
     shaper,
     compensation
 });
-keys!(new Robot { preset, name, modified_dh, opw, joint_limits_deg, joint_compliance_rad_per_nm, joint_springs_nm_arcmin, loads_kg_mm, sag_zero });
+keys!(new Robot { preset, name, modified_dh, opw, joint_3, joint_limits_deg, joint_compliance_rad_per_nm, joint_springs_nm_arcmin, loads_kg_mm, sag_zero });
 keys!(new DhRow { alpha_deg, a_mm, d_mm, theta_offset_deg, joint_sign } required alpha_deg, a_mm, d_mm);
 keys!(new Opw { a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm, joint_sign, joint_offset_deg } required c2_mm, c3_mm);
 keys!(Frame { xyz_mm, rpy_deg });

@@ -22,7 +22,7 @@ pub mod fields;
 pub use choice::{ChipThickness, Choice, CornerRadius, Dwell, FeedPerTooth, SpindlePower};
 pub use cut::Stock;
 pub use input::{
-    Branch, Compensation, DhRow, Elbow, Frame, Job, Motion, Opw, Robot, SagZero, Shaper, ShaperKind,
+    Branch, Compensation, DhRow, Elbow, Frame, Job, Joint3, Motion, Opw, Robot, SagZero, Shaper, ShaperKind,
     ShaperSpec, Shoulder, Source, Spin, SpinGoal, SpinMode, Wrist,
 };
 pub use milling::{Cutting, Engaged, Line, Material, Tool, ToolBending};

@@ -7,7 +7,7 @@ use crate::deviation::Sources;
 use crate::error::Error;
 use crate::job::cut::Stock;
 use crate::job::{
-    Choice, Elbow, Frame, Job, Opw, Shaper, ShaperSpec, Shoulder, Source, SpinMode, Wrist, fields,
+    Choice, Elbow, Frame, Job, Joint3, Opw, Shaper, ShaperSpec, Shoulder, Source, SpinMode, Wrist, fields,
 };
 use crate::math::Pose;
 use crate::motion::joints::StartBranch;
@@ -204,8 +204,10 @@ impl Job {
             ));
         }
         let mut library_note = None;
+        let mut elbow = robot::Elbow::Serial;
         let (name, links, limits, compliance) = if let Some(id) = &given.preset {
             let preset = library::robot(id)?;
+            elbow = preset.elbow;
             library_note = Some((preset.stiffness_note.clone(), preset.stiffness_assumed));
             (preset.name(), preset.links(), preset.limits(), Some(preset.joint_compliance))
         } else if let Some(rows) = given.modified_dh {
@@ -232,7 +234,13 @@ impl Job {
             _ => ("Joint stiffness: as given in the job.".into(), false),
         };
         let robot = Robot::new(given.name.clone().unwrap_or(name), links, limits, compliance)?;
-        Ok((robot, note, assumed))
+        let elbow = match given.joint_3 {
+            Some(Joint3::Serial) => robot::Elbow::Serial,
+            Some(Joint3::Pendant) => robot::Elbow::Pendant,
+            Some(Joint3::Parallelogram) => robot::Elbow::Parallelogram,
+            None => elbow,
+        };
+        Ok((robot.with_elbow(elbow)?, note, assumed))
     }
 
     #[cfg(feature = "full")]

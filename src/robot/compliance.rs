@@ -8,7 +8,7 @@ use nalgebra::{Matrix6, Vector3};
 /// Cartesian compliance C_x = J C_theta J^T (eq. 3.48), 6x6, in the base frame:
 /// translations [m] and rotations [rad] of the TCP from forces [N] and moments [N m] on it.
 pub fn cartesian_compliance(robot: &Robot, q: &Joints) -> Matrix6<f64> {
-    let j = jacobian::jacobian(robot, q);
+    let j = jacobian::spring_jacobian(robot, q);
     j * Matrix6::from_diagonal(robot.compliance()) * j.transpose()
 }
 
@@ -48,8 +48,7 @@ pub(crate) fn by_joint(
         });
     }
     let mut joint = robot.compliance().iter();
-    jacobian::levers(frames, tip).map(|(k, lever)| {
-        let v = k.cross(&lever);
+    jacobian::springs(robot, frames, tip).map(|(k, v)| {
         let turned = joint.next().map_or(0.0, |c| c * v.dot(force));
         (v * turned, k * turned)
     })

@@ -5,7 +5,7 @@
 //! milling robot), so a few are enough; an arm so soft that it does not settle is told.
 
 use crate::robot::load::{self, Load};
-use crate::robot::{Joints, Robot, Spring, forward, jacobian};
+use crate::robot::{Elbow, Joints, Robot, Spring, forward, jacobian};
 use nalgebra::Vector3;
 
 /// Springs and weight of an arm, where they are more than six compliances.
@@ -44,8 +44,9 @@ const ROUNDS: usize = 60;
 /// The balance for joint commands `q` [rad] and a force on the TCP [N], base frame.
 pub fn equilibrium(robot: &Robot, burden: &Burden, q: &Joints, force: &Vector3<f64>) -> Equilibrium {
     let bent = |turns: &[f64; 6], share: f64| {
-        let signs = robot.links().each_ref().map(|link| link.sign);
-        let q = Joints::from_fn(|i, _| q[i] + signs[i] * turns[i] * share);
+        let turned = Joints::from_fn(|i, _| robot.links()[i].sign * turns[i] * share);
+        // A parallelogram's springs turn the joints as told; the others those of the serial arm.
+        let q = if robot.elbow() == Elbow::Pendant { q + robot.told(&turned) } else { q + turned };
         let frames = forward::frames(robot, &q);
         let tip = frames[5].compose(robot.tool()).position;
         (frames, tip)
@@ -54,11 +55,12 @@ pub fn equilibrium(robot: &Robot, burden: &Burden, q: &Joints, force: &Vector3<f
     let (mut passes, mut residual) = (0, f64::INFINITY);
     while residual > SETTLED && passes < ROUNDS {
         let (frames, tip) = bent(&turns, 1.0);
-        let weight = load::torques(&frames, &burden.loads, &burden.gravity);
+        let mut weight = load::torques(&frames, &burden.loads, &burden.gravity);
+        weight[1] += weight[2] * jacobian::held(robot);
         let mut next = [0.0; 6];
-        for (joint, (k, lever)) in jacobian::levers(&frames, &tip).into_iter().enumerate() {
+        for (joint, (_, v)) in jacobian::springs(robot, &frames, &tip).into_iter().enumerate() {
             // Eq. 3.47 with the weight added.
-            next[joint] = burden.springs[joint].turn(k.cross(&lever).dot(force) + weight[joint]);
+            next[joint] = burden.springs[joint].turn(v.dot(force) + weight[joint]);
         }
         residual = (0..6).map(|i| (next[i] - turns[i]).abs()).fold(0.0, f64::max);
         turns = next;
@@ -67,9 +69,9 @@ pub fn equilibrium(robot: &Robot, burden: &Burden, q: &Joints, force: &Vector3<f
     // Half way, the levers are the mean of those before and after: what the joints add up to is exact to the third power of the turns.
     let (frames, tip) = bent(&turns, 0.5);
     let mut joint = turns.iter();
-    let parts = jacobian::levers(&frames, &tip).map(|(k, lever)| {
+    let parts = jacobian::springs(robot, &frames, &tip).map(|(k, v)| {
         let turn = joint.next().copied().unwrap_or_default();
-        (k.cross(&lever) * turn, k * turn)
+        (v * turn, k * turn)
     });
     Equilibrium { turns, parts, passes, residual, converged: residual <= SETTLED }
 }

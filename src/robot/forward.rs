@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 
 /// The frames 1 to 6 in the base frame for the joint values `q` [rad]: 0T1, 0T2, ... 0T6 (eqs. 3.1, 3.2).
 pub fn frames(robot: &Robot, q: &Joints) -> [Pose; 6] {
+    let q = robot.serial(q);
     let mut frames = [Pose::identity(); 6];
     let mut outer = Pose::identity();
     for (i, link) in robot.links().iter().enumerate() {

@@ -128,6 +128,7 @@ pub(crate) fn candidates(
 ) -> Result<Solutions, Error> {
     let Ok(g) = robot.geometry() else { return numerical::solutions(robot, tcp, near) };
     let links = robot.links();
+    let serial = robot.serial(near);
     let flange = tcp.compose(&robot.tool().inverse());
 
     // Wrist centre (eq. 3.9), in frame 0 turned by alpha_0 and moved to axis 1.
@@ -185,7 +186,8 @@ pub(crate) fn candidates(
                     continue;
                 }
                 let theta = [theta_1, theta_2, theta_3, theta_4, theta_5, theta_6];
-                let q = Joints::from_fn(|i, _| math::nearest_turn(links[i].joint(theta[i]), near[i]));
+                let q = Joints::from_fn(|i, _| math::nearest_turn(links[i].joint(theta[i]), serial[i]));
+                let q = robot.told(&q);
                 let branch = Branch { front: shoulder, elbow_positive: elbow, wrist_positive: positive };
                 let margin = Margin { shoulder: forward_reach, elbow: sin_elbow.abs(), wrist: sin_wrist };
                 let index = 4 * usize::from(!shoulder) + 2 * usize::from(!elbow) + usize::from(!positive);

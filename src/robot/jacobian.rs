@@ -4,10 +4,10 @@
 //! so the axes k_i and origins p_i are used. Eqs. 3.35-3.40 agree with that, but for the sign of J_4's x row.
 
 use crate::math::Pose;
-use crate::robot::{Joints, Robot, forward};
+use crate::robot::{Elbow, Joints, Robot, forward};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-/// The 6x6 Jacobian of the TCP in the base frame: rows v_x, v_y, v_z [m/rad], omega_x, omega_y, omega_z [1].
+/// The 6x6 Jacobian of the TCP in the base frame, by the joint values as told: rows v_x, v_y, v_z [m/rad], omega_x, omega_y, omega_z [1].
 pub fn jacobian(robot: &Robot, q: &Joints) -> Matrix6<f64> {
     let frames = forward::frames(robot, q);
     let tcp = frames[5].compose(robot.tool()).position;
@@ -17,7 +17,46 @@ pub fn jacobian(robot: &Robot, q: &Joints) -> Matrix6<f64> {
         let v = k.cross(&lever);
         j.set_column(i, &Vector6::new(v.x, v.y, v.z, k.x, k.y, k.z));
     }
+    if robot.elbow() != Elbow::Serial {
+        let follows = j.column(2) * robot.follows();
+        j.set_column(1, &(j.column(1) + follows));
+    }
     j
+}
+
+/// The Jacobian of the joints' springs: its columns belong to the drives. Where a parallelogram holds the forearm, what gives way at joint 2 turns the
+/// upper arm alone; where only the count differs, the springs are those of the serial arm.
+pub fn spring_jacobian(robot: &Robot, q: &Joints) -> Matrix6<f64> {
+    let frames = forward::frames(robot, q);
+    let tcp = frames[5].compose(robot.tool()).position;
+    let mut j = Matrix6::zeros();
+    for (i, (k, v)) in springs(robot, &frames, &tcp).into_iter().enumerate() {
+        let (k, v) = (k * robot.links()[i].sign, v * robot.links()[i].sign);
+        j.set_column(i, &Vector6::new(v.x, v.y, v.z, k.x, k.y, k.z));
+    }
+    j
+}
+
+/// What a unit turn of each spring turns [1] and moves [m] the point `tip` by, base frame, counted about the joint's own axis.
+pub(crate) fn springs(
+    robot: &Robot,
+    frames: &[Pose; 6],
+    tip: &Vector3<f64>,
+) -> [(Vector3<f64>, Vector3<f64>); 6] {
+    let mut springs = levers(frames, tip).map(|(k, lever)| (k, k.cross(&lever)));
+    if robot.elbow() == Elbow::Parallelogram {
+        let share = held(robot);
+        let (k, v) = springs[2];
+        springs[1].0 += k * share;
+        springs[1].1 += v * share;
+    }
+    springs
+}
+
+/// How far axis 3 turns, about its own direction, while a parallelogram holds the forearm and axis 2 turns by one.
+pub(crate) fn held(robot: &Robot) -> f64 {
+    let [_, second, third, ..] = robot.links();
+    if robot.elbow() == Elbow::Parallelogram { robot.follows() * second.sign * third.sign } else { 0.0 }
 }
 
 /// Each joint's axis k_i and the lever from it to the point `tip`, both in the base frame (eq. 3.34, corrected).

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::math;
 use crate::robot::Opw;
-use crate::robot::model::Link;
+use crate::robot::model::{Elbow, Link};
 use crate::units::DEG;
 
 const ROBOTS: &str = include_str!("library/robots.csv");
@@ -22,6 +22,8 @@ pub struct Preset {
     pub model: &'static str,
     /// Lengths, joint signs and zero offsets.
     pub opw: Opw,
+    /// What joint 3 is counted from.
+    pub elbow: Elbow,
     /// Joint ranges [deg], where they are known.
     pub joint_limits_deg: Option<[[f64; 2]; 6]>,
     /// Joint compliances [rad/(N m)].
@@ -143,8 +145,9 @@ fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
     let lengths_mm = std::array::from_fn(|_| number(row()));
     let (zero, limits, source, confidence, stiffness) = (row(), row(), row(), row(), row());
     let mut zeros =
-        rows(ZEROS).filter_map(|mut row| (row() == zero).then(|| [numbers(row()), numbers(row())]));
-    let [joint_sign, joint_offset_deg] = zeros.next().unwrap_or([[f64::NAN; 6]; 2]);
+        rows(ZEROS).filter_map(|mut row| (row() == zero).then(|| (numbers(row()), numbers(row()), row())));
+    let (joint_sign, joint_offset_deg, joint_3) = zeros.next().unwrap_or(([f64::NAN; 6], [f64::NAN; 6], ""));
+    let elbow = if joint_3 == "pendant" { Elbow::Pendant } else { Elbow::Serial };
     let mut ranges = limits.split(' ').map(|range| match range.split_once(':') {
         Some((low, high)) => [number(low), number(high)],
         None => [-number(range), number(range)],
@@ -167,6 +170,7 @@ fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
         maker,
         model,
         opw: Opw { lengths_mm, joint_sign, joint_offset_deg },
+        elbow,
         joint_limits_deg: limits,
         joint_compliance: match &known {
             Some(set) => set.compliance.map(|c| c.unwrap_or(0.0)),

@@ -18,6 +18,6 @@ pub mod library;
 
 pub use equilibrium::Burden;
 pub use load::Load;
-pub use model::{Joints, Link, Robot};
+pub use model::{Elbow, Joints, Link, Robot};
 pub use opw::Opw;
 pub use spring::Spring;

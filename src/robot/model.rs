@@ -76,6 +76,18 @@ pub(crate) struct Geometry {
     pub(crate) lateral: f64,
 }
 
+/// What joint 3 is counted from, and where its drive sits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Elbow {
+    /// From the upper arm; the drive is at the elbow.
+    #[default]
+    Serial,
+    /// From the base: told is the forearm's own inclination (FANUC's pendants), but the drive is at the elbow.
+    Pendant,
+    /// From the base, where the drive is, which holds the forearm's inclination through a parallelogram.
+    Parallelogram,
+}
+
 /// A six-joint arm with its joint compliance and its tool. The base frame is {B} (the thesis's {M}).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Robot {
@@ -84,6 +96,7 @@ pub struct Robot {
     limits: Option<[(f64, f64); 6]>,
     compliance: Joints,
     tool: Pose,
+    elbow: Elbow,
     burden: Option<Box<Burden>>,
     sag: [(Vector3<f64>, Vector3<f64>); 6],
     pub(crate) twists: [(f64, f64); 6],
@@ -148,6 +161,7 @@ impl Robot {
             limits,
             compliance: Joints::from(compliance),
             tool: Pose::identity(),
+            elbow: Elbow::Serial,
             burden: None,
             sag: [(Vector3::zeros(), Vector3::zeros()); 6],
             twists: links.map(|link| link.twist()),
@@ -159,6 +173,52 @@ impl Robot {
     pub fn with_tool(mut self, tool: Pose) -> Self {
         self.tool = tool;
         self
+    }
+
+    /// The same arm with its joint 3 counted from elsewhere.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] if axes 2 and 3 are not parallel: the forearm has no inclination of its own then.
+    pub fn with_elbow(mut self, elbow: Elbow) -> Result<Self, Error> {
+        if elbow != Elbow::Serial && !quarter_turns(self.links[2].alpha).is_some_and(|turns| turns % 2 == 0) {
+            return Err(Error::Invalid {
+                field: "robot.joint_3".into(),
+                value: "counted from the base".into(),
+                expected: "axes 2 and 3 that are parallel: alpha of row 3 is 0 or 180".into(),
+            });
+        }
+        self.elbow = elbow;
+        Ok(self)
+    }
+
+    /// What joint 3 is counted from, and where its drive sits.
+    pub fn elbow(&self) -> Elbow {
+        self.elbow
+    }
+
+    /// How far axis 3 turns from the upper arm, in joint 3's own count, for each turn of joint 2 while joint 3 is told to stand still:
+    /// with the forearm's inclination s_2 q_2 cos(alpha_2) + s_3 q_3 held, -s_2 s_3 cos(alpha_2).
+    pub(crate) fn follows(&self) -> f64 {
+        let (cos_2, _) = self.twists[2];
+        if self.elbow == Elbow::Serial { 0.0 } else { -self.links[1].sign * self.links[2].sign * cos_2 }
+    }
+
+    /// Joint values with joint 3 counted from the upper arm, for values as told.
+    pub(crate) fn serial(&self, q: &Joints) -> Joints {
+        let mut q = *q;
+        if self.elbow != Elbow::Serial {
+            q[2] += self.follows() * q[1];
+        }
+        q
+    }
+
+    /// Joint values as told, for values with joint 3 counted from the upper arm.
+    pub(crate) fn told(&self, q: &Joints) -> Joints {
+        let mut q = *q;
+        if self.elbow != Elbow::Serial {
+            q[2] -= self.follows() * q[1];
+        }
+        q
     }
 
     /// The same arm with springs that are no straight lines, or with the weight it carries.

@@ -89,7 +89,9 @@ enum Found {
 pub fn identify_stiffness(job: &str, text: &str, convention: &str) -> Result<Identified, JsValue> {
     let identify = || {
         let robot = Job::from_json(job)?.robot()?;
-        let measurements = measurement::read(text, Convention::of(convention)?)?;
+        let convention = Convention::of(convention)?;
+        convention.suits(&robot)?;
+        let measurements = measurement::read(text, convention)?;
         let fit = stiffness::fit(&robot, &measurements.rows)?;
         let summary = summary::stiffness(&robot, &measurements, &fit);
         Ok(Identified { found: Found::Stiffness(Box::new(fit)), summary })
