@@ -2,6 +2,7 @@
 
 use crate::cutting::material::{self, Model};
 use crate::job::fields;
+use crate::robot::Elbow;
 use crate::robot::library;
 use crate::units::{N_PER_MM, N_PER_MM2};
 use serde_json::{Value, json};
@@ -11,9 +12,10 @@ pub fn presets() -> Value {
     let robots = library::robots().map(|robot| {
         json!({
             "id": robot.id, "name": robot.name(), "maker": robot.maker,
-            "note": format!("{} {} {}", robot.geometry_note, robot.stiffness_note, robot.mode_note),
+            "note": format!("{} {}", robot.geometry_note, robot.mode_note),
             "stiffness_note": robot.stiffness_note, "stiffness_assumed": robot.stiffness_assumed,
             "modified_dh": fields::dh_rows(&robot), "opw": fields::opw(&robot),
+            "joint_3": if robot.elbow == Elbow::Serial { "serial" } else { "pendant" },
             "joint_limits_deg": robot.joint_limits_deg,
             "joint_compliance_rad_per_nm": robot.joint_compliance,
         })

@@ -35,7 +35,7 @@ pub(super) fn chosen(plan: &Plan, setup: &Setup, freedom: &Freedom) -> Path {
             for spin in held.into_iter().chain(spin::CALM.into_iter().filter_map(best)) {
                 let (beyond, error) = outcome(plan, setup, Sources::ALL, &spin);
                 let (now_beyond, now) = known.1;
-                if beyond < now_beyond || (beyond == now_beyond && error < 0.999 * now) {
+                if (now_beyond && !beyond) || (beyond == now_beyond && error < 0.999 * now) {
                     known = (spin, (beyond, error));
                 }
             }

@@ -180,7 +180,7 @@ impl Robot {
     /// # Errors
     /// [`Error::Invalid`] if axes 2 and 3 are not parallel: the forearm has no inclination of its own then.
     pub fn with_elbow(mut self, elbow: Elbow) -> Result<Self, Error> {
-        if elbow != Elbow::Serial && !quarter_turns(self.links[2].alpha).is_some_and(|turns| turns % 2 == 0) {
+        if elbow != Elbow::Serial && quarter_turns(self.links[2].alpha).is_none_or(|turns| turns % 2 != 0) {
             return Err(Error::Invalid {
                 field: "robot.joint_3".into(),
                 value: "counted from the base".into(),

@@ -11,7 +11,10 @@ fn a_robot_is_picked_doubted_drawn_and_reached() -> Result {
         let pick = "const pick = (value) => { const s = document.getElementById('robot-preset'); s.value = value; s.dispatchEvent(new Event('change', { bubbles: true })); };";
         let groups =
             "return [...document.querySelectorAll('#robot-preset optgroup')].map(group => group.label)";
-        assert_eq!(page.js(groups).await?, json!(["Stäubli", "KUKA", "ABB", "Yaskawa", "My own numbers"]));
+        assert_eq!(
+            page.js(groups).await?,
+            json!(["Stäubli", "KUKA", "ABB", "Yaskawa", "FANUC", "My own numbers"])
+        );
         page.js("document.querySelector('#group-robot').open = true").await?;
         let drawn = async |tip: &str| {
             page.wait_for(
