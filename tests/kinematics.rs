@@ -65,7 +65,7 @@ fn published_poses_and_all_their_solutions() {
 
 #[test]
 fn published_pose_and_jacobian_of_a_milling_robot() {
-    for case in golden("fk_jacobian") {
+    for case in golden("fk_jacobian").into_iter().filter(|case| case["robot"].is_string()) {
         let rows = case["inputs"]["dh"]["rows_offset_deg_d_a_alpha_deg"].as_array().unwrap();
         let rows: Vec<[f64; 4]> = rows.iter().map(numbers).collect();
         let base = case["inputs"]["dh"]["base_z_m"].as_f64().unwrap();
