@@ -93,6 +93,16 @@ pub enum Error {
 }
 
 impl Error {
+    /// Goes on only in a build with the feature `full`. In the other the compiler then sees that what follows is never reached, and
+    /// leaves it out: this is how the core that the page starts with stays small.
+    ///
+    /// # Errors
+    /// [`Error::NeedsFull`] without that feature.
+    #[inline(always)]
+    pub(crate) fn unless_full(what: &'static str) -> Result<(), Error> {
+        if cfg!(feature = "full") { Ok(()) } else { Err(Error::NeedsFull { what }) }
+    }
+
     /// Stable slug for scripts, tests and links.
     pub fn code(&self) -> &'static str {
         match self {

@@ -34,6 +34,7 @@ pub mod math;
 pub mod units;
 pub mod error;
 pub mod column;
+mod excerpt;
 pub mod robot;
 pub mod path;
 #[cfg(feature = "full")]

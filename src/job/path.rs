@@ -140,6 +140,9 @@ impl Job {
     /// A path drawn from a shape.
     fn shape(&self) -> Result<path::Path, Error> {
         let given = &self.path;
+        if given.kind != PathKind::Circle {
+            Error::unless_full("a shape other than the circle")?;
+        }
         let vector = |value: Option<[f64; 3]>, key: &str| {
             value.ok_or_else(|| need(key)).map(|v| Vector3::from(v) * MM)
         };

@@ -211,6 +211,7 @@ impl Job {
             library_note = Some((preset.stiffness_note.clone(), preset.stiffness_assumed));
             (preset.name(), preset.links(), preset.limits(), Some(preset.joint_compliance))
         } else if let Some(rows) = given.modified_dh {
+            Error::unless_full("a table of links")?;
             let links = rows.map(|row| Link {
                 alpha: row.alpha_deg * DEG,
                 a: row.a_mm * MM,
@@ -220,6 +221,7 @@ impl Job {
             });
             (String::new(), links, None, None)
         } else if let Some(opw) = &given.opw {
+            Error::unless_full("ortho-parallel parameters")?;
             (String::new(), ortho_parallel(opw)?.links(), None, None)
         } else {
             return Err(missing("robot.preset", "name a preset, or give modified_dh or opw"));

@@ -82,6 +82,8 @@ const CLOSURE: f64 = 1e-9;
 /// |sin q5| below which only the sum of q4 and q6 is determined.
 const WRIST_SINGULAR: f64 = 1e-10;
 
+const NUMERICAL: &str = "an arm without a closed form";
+
 /// All joint values that put the TCP at `tcp` (base frame); each is checked by the forward model (1e-9 m, 1e-9).
 ///
 /// Each angle is the one of its full turns that is nearest to `near` [rad]; at a wrist singularity q4 is taken from `near`.
@@ -112,7 +114,10 @@ pub(crate) fn closes(robot: &Robot, tcp: &Pose, q: &Joints) -> bool {
 /// Another wrist turns q4 by half a turn; another elbow turns q3 by twice the elbow angle; another shoulder turns q1 by more than a
 /// quarter turn where the wrist centre is further ahead than beside. What is less than half as far from `last` is the nearest.
 pub(crate) fn continued(robot: &Robot, tcp: &Pose, last: &Solution) -> Option<Solution> {
-    let Ok(geometry) = robot.geometry() else { return numerical::continued(robot, tcp, last) };
+    let Ok(geometry) = robot.geometry() else {
+        Error::unless_full(NUMERICAL).ok()?;
+        return numerical::continued(robot, tcp, last);
+    };
     let solution = *candidates(robot, tcp, &last.q, Some(last.branch)).ok()?.iter().next()?;
     let certain = solution.margin.shoulder >= geometry.lateral.abs()
         && (solution.q - last.q).norm() < solution.margin.elbow.min(FRAC_PI_4);
@@ -126,7 +131,10 @@ pub(crate) fn candidates(
     near: &Joints,
     only: Option<Branch>,
 ) -> Result<Solutions, Error> {
-    let Ok(g) = robot.geometry() else { return numerical::solutions(robot, tcp, near) };
+    let Ok(g) = robot.geometry() else {
+        Error::unless_full(NUMERICAL)?;
+        return numerical::solutions(robot, tcp, near);
+    };
     let links = robot.links();
     let serial = robot.serial(near);
     let flange = tcp.compose(&robot.tool().inverse());

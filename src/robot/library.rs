@@ -1,15 +1,17 @@
 //! Robots that come with Armill, each with the source of its numbers and how far to trust them. The data stand in `library/`.
 
 use crate::error::Error;
+use crate::excerpt::excerpt;
 use crate::math;
 use crate::robot::Opw;
 use crate::robot::model::{Elbow, Link};
 use crate::units::DEG;
 
-const ROBOTS: &str = include_str!("library/robots.csv");
+// The small core has only the thesis's robot, which stands first.
+const ROBOTS: &str = excerpt!("library/robots.csv", 2);
 const ZEROS: &str = include_str!("library/zeros.csv");
-const STIFFNESS: &str = include_str!("library/stiffness.csv");
-const SOURCES: &str = include_str!("library/sources.txt");
+const STIFFNESS: &str = excerpt!("library/stiffness.csv", 2);
+const SOURCES: &str = excerpt!("library/sources.txt", 1);
 
 /// A robot of the library.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,15 +72,17 @@ pub fn robots() -> impl Iterator<Item = Preset> {
 /// # Errors
 /// [`Error::Invalid`] with the keys most like it: there are too many to name.
 pub fn robot(id: &str) -> Result<Preset, Error> {
-    robots().find(|preset| preset.id == id).ok_or_else(|| {
-        let mut keys: Vec<_> = names().map(|[key, ..]| (strsim::jaro_winkler(id, key), key)).collect();
-        keys.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let like: Vec<_> = keys.iter().take(3).map(|(_, key)| *key).collect();
-        Error::Invalid {
-            field: "robot.preset".into(),
-            value: format!("\"{id}\""),
-            expected: format!("of the library's {} robots, {} are most like it", keys.len(), like.join(", ")),
-        }
+    if let Some(preset) = robots().find(|preset| preset.id == id) {
+        return Ok(preset);
+    }
+    Error::unless_full("a robot of the library")?;
+    let mut keys: Vec<_> = names().map(|[key, ..]| (strsim::jaro_winkler(id, key), key)).collect();
+    keys.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let like: Vec<_> = keys.iter().take(3).map(|(_, key)| *key).collect();
+    Err(Error::Invalid {
+        field: "robot.preset".into(),
+        value: format!("\"{id}\""),
+        expected: format!("of the library's {} robots, {} are most like it", keys.len(), like.join(", ")),
     })
 }
 

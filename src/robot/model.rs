@@ -229,7 +229,7 @@ impl Robot {
 
     /// The same arm with its sag at the joint commands `q` [rad] taken for zero, if the workpiece was touched off there.
     pub fn touched_off_at(mut self, q: &Joints) -> Self {
-        if let Some(burden) = self.burden.as_ref().filter(|burden| burden.touched_off) {
+        if let Some(burden) = self.burden().filter(|burden| burden.touched_off) {
             self.sag = equilibrium(&self, burden, q, &Vector3::zeros()).parts;
         }
         self
@@ -237,7 +237,7 @@ impl Robot {
 
     /// Springs and weight, where they are more than [`Robot::compliance`].
     pub fn burden(&self) -> Option<&Burden> {
-        self.burden.as_deref()
+        if cfg!(feature = "full") { self.burden.as_deref() } else { None }
     }
 
     /// What each joint's sag has moved [m] and turned [rad] the TCP by where the workpiece was touched off.

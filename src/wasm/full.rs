@@ -1,8 +1,9 @@
 //! What only the full core answers: the page loads it when one of these is asked for, or a job that the small one refuses with
-//! [`Error::NeedsFull`](crate::Error::NeedsFull).
+//! [`Error::NeedsFull`](crate::Error::NeedsFull). The page fetches it anyway once the first result is shown.
 //!
 //! To place code here: `#[cfg(feature = "full")]` before its module, its wasm-bindgen function in this file, and its name in `FULL` of
-//! `web/js/answers.js`. What `Run` holds is computed again in the full core, with the same bits.
+//! `web/js/answers.js`; or, in a function of both cores, `Error::unless_full` before what only the full one is to have. What `Run` holds is
+//! computed again in the full core, with the same bits.
 
 use super::{Run, chart_options, columns_of, object, thrown, units};
 use crate::chart::identified;

@@ -1,4 +1,4 @@
-//! What the page loads, and when: the small core at first, the full one once it is needed.
+//! What the page loads, and when: the small core at first, the full one after the first result.
 
 use crate::browser::{DESKTOP, Page, Result, visit};
 use crate::common::run;
@@ -6,6 +6,11 @@ use crate::{current, shows, text};
 use serde_json::json;
 
 const LINE: &str = "G21 G90 G1 X600 Y0 Z100 F1200\nX640";
+
+/// Waits until the charts of the first view are drawn: by the full core.
+async fn charts(page: &Page) -> Result {
+    page.wait_for("document.querySelectorAll('#panel-overview figure .series').length >= 3", 20.0).await
+}
 
 /// How many times each core was fetched, small and full.
 async fn fetched(page: &Page) -> Result<[u64; 2]> {
@@ -27,10 +32,16 @@ async fn choose_program(page: &Page) -> Result {
 }
 
 #[test]
-fn the_first_result_takes_the_small_core_and_a_program_the_full_one_once() -> Result {
+fn the_first_result_takes_the_small_core_and_the_full_one_follows_once() -> Result {
     visit("/", DESKTOP, async |page| {
         shows(page, &run(&[])).await?;
-        assert_eq!(fetched(page).await?, [1, 0]);
+        charts(page).await?;
+        assert_eq!(fetched(page).await?, [1, 1]);
+        let waited = page
+            .js("const of = (core) => performance.getEntriesByType('resource').find(({ name }) => name.endsWith(`/pkg/${core}/armill_bg.wasm`)); \
+                 return of('full').startTime - of('small').responseEnd")
+            .await?;
+        assert!(waited.as_f64() > Some(0.0), "the full core is fetched {waited} ms after the small one");
         choose_program(page).await?;
         let program = run(&[("path", json!({ "kind": "gcode", "text": LINE }))]);
         shows(page, &program).await?;
@@ -65,18 +76,27 @@ fn a_file_of_the_shown_result_comes_from_the_full_core_with_the_same_bits() -> R
 #[test]
 fn a_full_core_that_does_not_come_is_told_and_can_be_tried_again() -> Result {
     visit("/", DESKTOP, async |page| {
-        current(page).await?;
         page.devtools("Network.enable", json!({})).await?;
+        page.devtools("Network.setCacheDisabled", json!({ "cacheDisabled": true })).await?;
         page.devtools("Network.setBlockedURLs", json!({ "urls": ["*/pkg/full/*"] })).await?;
         page.expect_error("pkg/full/armill_bg.wasm");
+        page.reload().await?;
+        // The small core alone gives the first result; the charts say what they lack.
+        shows(page, &run(&[])).await?;
+        let lack = "reads programs and writes files could not be loaded";
+        let says = format!(
+            "document.querySelector('#chart-before-after figcaption').textContent.includes('{lack}')"
+        );
+        page.wait_for(&says, 20.0).await?;
         choose_program(page).await?;
         page.wait_for("document.querySelector('#alert button')", 20.0).await?;
         let alert = text(page, "alert").await?;
-        assert!(alert.contains("reads programs and writes files could not be loaded"), "{alert}");
+        assert!(alert.contains(lack), "{alert}");
         shows_still(page).await?;
         page.devtools("Network.setBlockedURLs", json!({ "urls": [] })).await?;
         page.click("#alert button").await?;
-        shows(page, &run(&[("path", json!({ "kind": "gcode", "text": LINE }))])).await
+        shows(page, &run(&[("path", json!({ "kind": "gcode", "text": LINE }))])).await?;
+        charts(page).await
     })
 }
 

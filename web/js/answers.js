@@ -35,7 +35,11 @@ const answers = {
   data: (name, units) => run.chart_data(name, units),
   export: (format) => run.export(format),
   replay: (format) => run.replay(format),
-  release,
+  /** Makes ready for the next job: with the first result shown, there is time to load the full core. */
+  async prepare() {
+    release();
+    await upgrade();
+  },
   thesis: () => armill.thesis_recomputed(),
   identify(kind, ...args) {
     const fresh = armill[`identify_${kind}`](...args);

@@ -72,7 +72,8 @@ async function draw() {
     try {
       await figure.draw();
       if (mine !== turn) return;
-    } catch {
+    } catch ({ code, message }) {
+      if (code === "load") shown.forEach((lacking) => lacking.say(message));
       return; // a newer result, or a recovery, draws again
     }
   }

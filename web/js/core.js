@@ -6,7 +6,7 @@
 import { FIRST_CORE, compileCore, readText, startWorker } from "./files.js";
 
 const SUPERSEDE_MS = 400; // a run older than this is cut off when a newer job arrives; a younger one may finish
-const REST = "The part of the calculator that reads programs and writes files";
+const REST = "The part of the calculator that draws charts, reads programs and writes files";
 const CANCELLED = { code: "cancelled", message: "Cancelled." };
 
 let events; // { onstart, onprogress, onresult, onerror, oncancel, ontrap }, given to start()
@@ -95,9 +95,9 @@ async function compute() {
     try {
       const result = await worker.ask("run", json);
       [shown, spare] = [worker, shown ?? spawn()];
-      spare.ask("release").catch(() => {});
       good = json;
       events.onresult(result, performance.now() - since);
+      spare.ask("prepare").catch(() => {}); // who needs the full core is told that it is missing
     } catch (error) {
       if (error.fatal) retire(worker);
       if (error.fatal) events.ontrap(error);

@@ -87,6 +87,11 @@ export class Figure {
     }
   }
 
+  /** Says below it why it is not drawn. */
+  say(message) {
+    this.#caption.textContent = message;
+  }
+
   /** Forgets the values: those of another result, in other units, or not looked at. */
   forget() {
     this.#data = this.#fetching = null;
