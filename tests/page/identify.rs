@@ -140,7 +140,11 @@ fn it_fits_a_phone() -> Result {
         click(page, "#identify-response-example").await?;
         page.wait_for("document.querySelector('#chart-response svg.plot') && document.querySelector('#chart-stiffness svg.plot')", 30.0).await?;
         page.screenshot("identify-phone.png").await?;
-        assert_eq!(page.js("return document.documentElement.scrollWidth - innerWidth").await?, 0);
+        assert_eq!(
+            page.js("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
+                .await?,
+            0
+        );
         Ok(())
     })
 }

@@ -121,6 +121,7 @@ fn each_view_says_how_it_is_computed_with_and_without_javascript() -> Result {
 fn on_paper_it_is_a_report() -> Result {
     visit("/", DESKTOP, async |page| {
         current(page).await?;
+        page.wait_for("document.querySelector('#chart-before-after svg')", 20.0).await?;
         page.js("document.querySelector('#open-settings').click(); document.activeElement.blur()").await?;
         page.devtools("Emulation.setEmulatedMedia", json!({ "media": "print" })).await?;
         let seen = async |css: &str| {
