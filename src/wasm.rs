@@ -47,7 +47,7 @@ export interface Field {
   choices?: { value: string; label: string; heading?: string }[]; min?: number; max?: number; default: unknown; defaults?: Record<string, unknown>; help: string; when?: { path: string; is: string[] };
 }
 export interface Presets {
-  robots: { id: string; name: string; maker: string; note: string; stiffness_note: string; stiffness_assumed: boolean;
+  robots: { id: string; name: string; maker: string; note: string; stiffness_note: string; stiffness_assumed: boolean; joint_3: "serial" | "pendant";
             modified_dh: { alpha_deg: number; a_mm: number; d_mm: number; theta_offset_deg: number; joint_sign: number }[];
             opw: { a1_mm: number; a2_mm: number; b_mm: number; c1_mm: number; c2_mm: number; c3_mm: number; c4_mm: number; joint_sign: number[]; joint_offset_deg: number[] };
             joint_limits_deg: [number, number][] | null; joint_compliance_rad_per_nm: number[] }[];

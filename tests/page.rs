@@ -7,6 +7,8 @@ pub mod browser;
 mod common;
 #[path = "page/accessibility.rs"]
 mod accessibility;
+#[path = "page/arm.rs"]
+mod arm;
 #[path = "page/charts.rs"]
 mod charts;
 #[path = "page/cut.rs"]

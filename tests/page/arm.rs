@@ -1,0 +1,54 @@
+//! What the arm carries, what its joints give, and how it may spin the tool, entered on the page.
+
+use crate::browser::{DESKTOP, Result, visit};
+use crate::common::run;
+use crate::{current, shows, text, unfold};
+use serde_json::json;
+
+#[test]
+fn weight_and_worn_joints_are_entered_as_rows() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        unfold(page, "robot").await?;
+        page.type_into("#robot-loads_kg_mm", "6, 9, 20, 0, 120").await?;
+        let loads = ("robot.loads_kg_mm", json!([[6, 9, 20, 0, 120]]));
+        shows(page, &run(std::slice::from_ref(&loads))).await?;
+        page.type_into("#robot-joint_springs_nm_arcmin", "2, 1, 0.5\n2, 300, 1.5").await?;
+        let springs = ("robot.joint_springs_nm_arcmin", json!([[2, 1, 0.5], [2, 300, 1.5]]));
+        shows(page, &run(&[loads, springs])).await?;
+
+        // Torques that fall are told beside the rows, and the last result stays.
+        let verdict = text(page, "verdict").await?;
+        page.type_into("#robot-joint_springs_nm_arcmin", "2, 300, 0.5\n2, 1, 1.5").await?;
+        page.wait_for(
+            "document.querySelector('#robot-joint_springs_nm_arcmin-error')?.textContent.includes('torques of a joint rise')",
+            20.0,
+        )
+        .await?;
+        assert_eq!(text(page, "verdict").await?, verdict);
+        Ok(())
+    })
+}
+
+#[test]
+fn a_free_spin_says_what_it_gains() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        unfold(page, "frames").await?;
+        page.type_into("#tool_frame-rpy_deg-pitch", "45").await?;
+        current(page).await?;
+        page.choose("#spin-mode", "free").await?;
+        let changes = [
+            ("tool_frame.rpy_deg", json!([0, 45, 0])),
+            ("spin", json!({"mode":"free","angle_deg":0,"range_deg":[-180,180],"goal":"smooth-joints"})),
+        ];
+        let report = run(&changes);
+        shows(page, &report).await?;
+        let summary = serde_json::to_value(report.summary()).unwrap();
+        let said = text(page, "spin-gain").await?;
+        assert!(said.contains(summary["spin"]["sentence"].as_str().unwrap()), "{said}");
+        page.choose("#spin-mode", "fixed").await?;
+        current(page).await?;
+        page.wait_for("!document.getElementById('spin-gain').checkVisibility()", 10.0).await
+    })
+}
