@@ -65,7 +65,7 @@ fn nothing_moves_while_the_page_opens_and_typing_never_waits() -> Result {
             page.devtools("Page.addScriptToEvaluateOnNewDocument", json!({ "source": watch })).await?;
             page.reload().await?;
             shows(page, &run(&[])).await?;
-            page.wait_for("document.querySelector('#chart-before-after svg')", 20.0).await?;
+            page.wait_for("document.querySelector('#chart-before-after svg.plot')", 20.0).await?;
             page.js("return new Promise(done => setTimeout(done, 300))").await?;
             let shift = page.js("return window.shifts.reduce((sum, each) => sum + each, 0)").await?;
             // A tenth of what browsers call good.
@@ -121,7 +121,7 @@ fn each_view_says_how_it_is_computed_with_and_without_javascript() -> Result {
 fn on_paper_it_is_a_report() -> Result {
     visit("/", DESKTOP, async |page| {
         current(page).await?;
-        page.wait_for("document.querySelector('#chart-before-after svg')", 20.0).await?;
+        page.wait_for("document.querySelector('#chart-before-after svg.plot')", 20.0).await?;
         page.js("document.querySelector('#open-settings').click(); document.activeElement.blur()").await?;
         page.devtools("Emulation.setEmulatedMedia", json!({ "media": "print" })).await?;
         let seen = async |css: &str| {
