@@ -11,8 +11,9 @@
 
 use crate::deviation::{Deviation, Plan, Sources, contour, deviate};
 use crate::error::Error;
-use crate::motion::Trajectory;
 use crate::motion::joints::{StartBranch, joint_trajectory};
+use crate::motion::{Pace, Trajectory};
+use crate::path::Path;
 use crate::robot::Joints;
 use nalgebra::Vector3;
 
@@ -67,7 +68,6 @@ pub fn compensate(
     mut on_pass: impl FnMut(usize),
 ) -> Compensation {
     let pace = plan.pace(acting);
-    let multi_axis = plan.path.is_multi_axis();
     let (mean, max) = contour::mean_and_max(&before.contour_error);
     let mut best = Compensation {
         correction: vec![Vector3::zeros(); q.len()],
@@ -84,24 +84,12 @@ pub fn compensate(
         if best.history_max[best.passes] <= goal.tolerance * if best.passes == 0 { 1.0 } else { AIM } {
             break;
         }
+        let Trajectory { sample_time, moving, .. } = plan.trajectory;
         let undone = |missing: Vec<Vector3<f64>>| {
-            let Trajectory { sample_time, moving, .. } = plan.trajectory;
             if acting.shaping { plan.shaper.undo(&missing, sample_time, moving) } else { missing }
         };
-        let where_to = pace.arc_length.iter();
-        let missing =
-            where_to.clone().zip(&best.result.actual).map(|(&s, actual)| plan.path.point(s) - actual);
-        let more = undone(missing.collect());
-        let correction: Vec<_> = best.correction.iter().zip(&more).map(|(c, more)| c + more).collect();
-        let axis: Vec<_> = if multi_axis {
-            // The turn that is missing, as a rotation vector: its size is the sine of the angle, small and soon exact.
-            let missing =
-                where_to.zip(&best.result.axis).map(|(&s, actual)| actual.cross(&plan.path.axis(s)));
-            let turns = undone(missing.collect());
-            best.axis.iter().zip(&turns).map(|(axis, turn)| (axis + turn.cross(axis)).normalize()).collect()
-        } else {
-            best.axis.clone()
-        };
+        let (correction, axis) =
+            corrected(&plan.path, &pace, &best.result, (&best.correction, &best.axis), undone);
         let positions: Vec<_> =
             plan.trajectory.position.iter().zip(&correction).map(|(desired, c)| desired + c).collect();
         let commands =
@@ -132,4 +120,27 @@ pub fn compensate(
         };
     }
     best
+}
+
+/// A correction [m] and tool axes, one a sample, with what `result` is missing at the places of `pace`: `undone` turns the vectors that are
+/// missing into those to add to the commands.
+pub(crate) fn corrected(
+    path: &Path,
+    pace: &Pace,
+    result: &Deviation,
+    (correction, axis): (&[Vector3<f64>], &[Vector3<f64>]),
+    undone: impl Fn(Vec<Vector3<f64>>) -> Vec<Vector3<f64>>,
+) -> (Vec<Vector3<f64>>, Vec<Vector3<f64>>) {
+    let where_to = pace.arc_length.iter();
+    let missing = where_to.clone().zip(&result.actual).map(|(&s, actual)| path.point(s) - actual);
+    let more = undone(missing.collect());
+    let correction = correction.iter().zip(&more).map(|(c, more)| c + more).collect();
+    if !path.is_multi_axis() {
+        return (correction, axis.to_vec());
+    }
+    // The turn that is missing, as a rotation vector: its size is the sine of the angle, small and soon exact.
+    let missing = where_to.zip(&result.axis).map(|(&s, actual)| actual.cross(&path.axis(s)));
+    let turns = undone(missing.collect());
+    let turned = axis.iter().zip(&turns).map(|(axis, turn)| (axis + turn.cross(axis)).normalize());
+    (correction, turned.collect())
 }

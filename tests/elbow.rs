@@ -14,9 +14,7 @@ use armill::robot::{
 use common::{between, refused, run};
 use nalgebra::{Vector3, Vector6};
 use rs_opw_kinematics::kinematic_traits::Kinematics;
-use rs_opw_kinematics::kinematics_impl::OPWKinematics;
 use rs_opw_kinematics::parallelogram::Parallelogram;
-use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
 use serde_json::json;
 use std::sync::Arc;
 
@@ -72,20 +70,7 @@ fn the_forearm_keeps_its_inclination_while_joint_2_alone_turns() {
 #[test]
 fn forward_agrees_with_another_authors_parallelogram() {
     let preset = library::robot("fanuc-r-2000ic-210f").unwrap();
-    let [a1, a2, b, c1, c2, c3, c4] = preset.opw.lengths_mm.map(|mm| mm * 1e-3);
-    let parameters = Parameters {
-        a1,
-        a2,
-        b,
-        c1,
-        c2,
-        c3,
-        c4,
-        offsets: preset.opw.joint_offset_deg.map(f64::to_radians),
-        sign_corrections: preset.opw.joint_sign.map(|sign| sign as i8),
-        dof: 6,
-    };
-    let robot: Arc<dyn Kinematics> = Arc::new(OPWKinematics::new(parameters));
+    let robot: Arc<dyn Kinematics> = Arc::new(common::peer::peer(&preset));
     let peer = Parallelogram { robot, scaling: -1.0, driven: 1, coupled: 2 };
     let ours = Robot::new("", preset.links(), None, preset.joint_compliance)
         .unwrap()

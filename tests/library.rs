@@ -9,34 +9,16 @@ mod common;
 use armill::math::Pose;
 use armill::robot::library::{self, RULE_PAYLOAD, RULE_STIFFNESS};
 use armill::robot::{Joints, Robot, forward, inverse};
+use common::peer::peer;
 use common::{any_joints, run};
 use nalgebra::{Matrix3, Vector3};
 use rs_opw_kinematics::kinematic_traits::Kinematics;
-use rs_opw_kinematics::kinematics_impl::OPWKinematics;
-use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 fn robot(preset: &library::Preset) -> Robot {
     Robot::new(preset.name(), preset.links(), preset.limits(), preset.joint_compliance).unwrap()
-}
-
-/// The same arm by rs-opw-kinematics.
-fn peer(preset: &library::Preset) -> OPWKinematics {
-    let [a1, a2, b, c1, c2, c3, c4] = preset.opw.lengths_mm.map(|length| length * 1e-3);
-    OPWKinematics::new(Parameters {
-        a1,
-        a2,
-        b,
-        c1,
-        c2,
-        c3,
-        c4,
-        offsets: preset.opw.joint_offset_deg.map(f64::to_radians),
-        sign_corrections: preset.opw.joint_sign.map(|sign| sign as i8),
-        dof: 6,
-    })
 }
 
 fn pose_of(peer: &rs_opw_kinematics::pose::Pose) -> Pose {

@@ -5,9 +5,11 @@
 //! that follows the feed makes an error of that. Each pass runs the program as it would be written and adds what is missing, as
 //! [`compensate`](crate::compensation::compensate) does, filed under the instants that its samples stand for.
 
+use crate::compensation;
 use crate::error::Error;
 use crate::export::command::{Command, Course, Style};
 use crate::export::replay::{self, Replay};
+use crate::motion::Trajectory;
 use crate::report::Report;
 use nalgebra::Vector3;
 
@@ -47,23 +49,14 @@ pub fn rehearse(report: &Report, thinning: Option<f64>, style: Style) -> Result<
 
 /// The course with what was missing when its program was run.
 fn corrected(report: &Report, course: &Course, outcome: &Replay) -> Course {
-    let path = &report.plan.path;
+    let Trajectory { sample_time, moving, .. } = outcome.trajectory;
     let undone = |missing: Vec<Vector3<f64>>| {
-        let trajectory = &outcome.trajectory;
-        let change = report.plan.shaper.undo(&missing, trajectory.sample_time, trajectory.moving);
+        let change = report.plan.shaper.undo(&missing, sample_time, moving);
         filed(&change, &outcome.instants, report)
     };
-    let whereto = || outcome.pace.arc_length.iter();
-    let missing = whereto().zip(&outcome.deviation.actual).map(|(&s, actual)| path.point(s) - actual);
-    let more = undone(missing.collect());
-    let correction = course.correction.iter().zip(&more).map(|(c, more)| c + more).collect();
-    let axis = if path.is_multi_axis() {
-        let missing = whereto().zip(&outcome.deviation.axis).map(|(&s, actual)| actual.cross(&path.axis(s)));
-        let turns = undone(missing.collect());
-        course.axis.iter().zip(&turns).map(|(axis, turn)| (axis + turn.cross(axis)).normalize()).collect()
-    } else {
-        course.axis.clone()
-    };
+    let known = (course.correction.as_slice(), course.axis.as_slice());
+    let (correction, axis) =
+        compensation::corrected(&report.plan.path, &outcome.pace, &outcome.deviation, known, undone);
     Course { correction, axis }
 }
 

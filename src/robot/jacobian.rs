@@ -9,14 +9,8 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 
 /// The 6x6 Jacobian of the TCP in the base frame, by the joint values as told: rows v_x, v_y, v_z [m/rad], omega_x, omega_y, omega_z [1].
 pub fn jacobian(robot: &Robot, q: &Joints) -> Matrix6<f64> {
-    let frames = forward::frames(robot, q);
-    let tcp = frames[5].compose(robot.tool()).position;
-    let mut j = Matrix6::zeros();
-    for (i, (k, lever)) in levers(&frames, &tcp).into_iter().enumerate() {
-        let k = k * robot.links()[i].sign;
-        let v = k.cross(&lever);
-        j.set_column(i, &Vector6::new(v.x, v.y, v.z, k.x, k.y, k.z));
-    }
+    let (frames, tip) = frames_and_tip(robot, q);
+    let mut j = columns(robot, levers(&frames, &tip).map(|(k, lever)| (k, k.cross(&lever))));
     if robot.elbow() != Elbow::Serial {
         let follows = j.column(2) * robot.follows();
         j.set_column(1, &(j.column(1) + follows));
@@ -27,10 +21,21 @@ pub fn jacobian(robot: &Robot, q: &Joints) -> Matrix6<f64> {
 /// The Jacobian of the joints' springs: its columns belong to the drives. Where a parallelogram holds the forearm, what gives way at joint 2 turns the
 /// upper arm alone; where only the count differs, the springs are those of the serial arm.
 pub fn spring_jacobian(robot: &Robot, q: &Joints) -> Matrix6<f64> {
+    let (frames, tip) = frames_and_tip(robot, q);
+    columns(robot, springs(robot, &frames, &tip))
+}
+
+/// The frames and the TCP's position.
+fn frames_and_tip(robot: &Robot, q: &Joints) -> ([Pose; 6], Vector3<f64>) {
     let frames = forward::frames(robot, q);
-    let tcp = frames[5].compose(robot.tool()).position;
+    let tip = frames[5].compose(robot.tool()).position;
+    (frames, tip)
+}
+
+/// What unit turns about the joints' axes turn and move, as a matrix by the joints' own count.
+fn columns(robot: &Robot, parts: [(Vector3<f64>, Vector3<f64>); 6]) -> Matrix6<f64> {
     let mut j = Matrix6::zeros();
-    for (i, (k, v)) in springs(robot, &frames, &tcp).into_iter().enumerate() {
+    for (i, (k, v)) in parts.into_iter().enumerate() {
         let (k, v) = (k * robot.links()[i].sign, v * robot.links()[i].sign);
         j.set_column(i, &Vector6::new(v.x, v.y, v.z, k.x, k.y, k.z));
     }

@@ -2,6 +2,8 @@
 #![allow(dead_code, reason = "each test file uses a part of this")]
 
 pub(crate) mod moves;
+#[cfg(not(target_arch = "wasm32"))]
+pub(crate) mod peer;
 pub(crate) mod program;
 
 use armill::robot::{Joints, Link, Robot};
