@@ -11,6 +11,7 @@ mod server;
 mod browser;
 mod checks;
 mod fuzz;
+mod bench;
 
 use std::env;
 use std::process::ExitCode;
@@ -26,6 +27,8 @@ usage: cargo xtask <command>
   npm              make the package for npm in target/npm
   test             check formatting and lints, run all tests: native, in the browser, through the page
   test --native    only what needs no browser
+  bench [samples]  time stages and whole jobs, natively and in Chromium, and kinematics beside other crates: some ten minutes for
+                   the sizes 20000,200000,1000000, a minute for one
   fuzz [target [seconds]]  search for texts that break a reader, the job or an export: each for a minute
 ";
 
@@ -49,6 +52,8 @@ fn run(arguments: &[String]) -> Result<()> {
         ["npm"] => npm::package().map(|_| ()),
         ["test"] => checks::all(),
         ["test", "--native"] => checks::native(),
+        ["bench"] => bench::bench("20000,200000,1000000"),
+        ["bench", sizes] => bench::bench(sizes),
         ["fuzz"] => fuzz::fuzz(None, 60),
         ["fuzz", target] => fuzz::fuzz(Some(target), 60),
         ["fuzz", target, seconds] => {

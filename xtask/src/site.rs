@@ -22,6 +22,8 @@ const STANDALONE: &str = "standalone.html";
 struct Core {
     /// Folder in [`CORES`].
     name: &'static str,
+    /// Cargo's package, whose library it is.
+    package: &'static str,
     /// Cargo's profile; each has a folder of its own in `target`.
     profile: &'static str,
     /// Cargo's options besides.
@@ -33,9 +35,24 @@ struct Core {
 /// The small one gives the first result; the full one follows, for charts and for whatever is not as in the default job. Its limits only
 /// keep it from growing unnoticed.
 const BUILDS: [Core; 2] = [
-    Core { name: "small", profile: "small", options: &["--no-default-features"], limits: [500_000, 200_000] },
-    Core { name: "full", profile: "release", options: &[], limits: [1_200_000, 490_000] },
+    Core {
+        name: "small",
+        package: "armill",
+        profile: "small",
+        options: &["--no-default-features"],
+        limits: [500_000, 200_000],
+    },
+    Core { name: "full", package: "armill", profile: "release", options: &[], limits: [1_200_000, 490_000] },
 ];
+
+/// The full core again, with the benchmark's own functions: nobody loads it but `cargo xtask bench`.
+const BENCH: Core = Core {
+    name: "bench",
+    package: "armill-bench",
+    profile: "release",
+    options: &[],
+    limits: [usize::MAX, usize::MAX],
+};
 
 /// Makes the site in `target/site` and returns that folder. What is up to date stays untouched.
 ///
@@ -58,9 +75,17 @@ pub(crate) fn build() -> Result<PathBuf> {
     Ok(site)
 }
 
+/// Makes the benchmark's core in `folder`.
+///
+/// # Errors
+/// If it does not compile.
+pub(crate) fn bench_core(folder: &Path) -> Result<()> {
+    bind(&compile(&workspace::root()?, &BENCH)?, folder).context("wasm-bindgen failed")
+}
+
 /// Compiles a core and returns the raw module.
 fn compile(root: &Path, core: &Core) -> Result<PathBuf> {
-    let arguments = ["rustc", "--locked", "--target", WASM, "--package", "armill", "--lib"];
+    let arguments = ["rustc", "--locked", "--target", WASM, "--package", core.package, "--lib"];
     let mut command = workspace::cargo(&arguments)?;
     command.args(["--profile", core.profile]).args(core.options);
     // An explicit folder, because the site has to be found in `target` whatever the environment says.
@@ -73,7 +98,7 @@ fn compile(root: &Path, core: &Core) -> Result<PathBuf> {
     // Calls that are not inlined cost little where numbers are computed, and save a tenth of the bytes.
     command.args(["--", "-C", "llvm-args=-inline-threshold=75"]);
     workspace::run(&mut command)?;
-    Ok(root.join("target").join(WASM).join(core.profile).join("armill.wasm"))
+    Ok(root.join("target").join(WASM).join(core.profile).join(core.package.replace('-', "_") + ".wasm"))
 }
 
 /// What the page's form is built from, as JSON text.

@@ -1,0 +1,99 @@
+//! The stages of the default job, each timed alone on what the earlier ones have made.
+
+use std::hint::black_box;
+
+use armill::compensation::compensate;
+use armill::cutting::along;
+use armill::deviation::{Deviation, Plan, Sources, contour, deviate};
+use armill::job::Setup;
+use armill::motion::joints::{JointTrajectory, joint_trajectory};
+use armill::motion::{Pace, Trajectory};
+use armill::{Error, Job, Report};
+
+use crate::Work;
+
+/// The default job as JSON text, sampled so finely that it has about this many samples. Path, physics and passes stay the same, so that
+/// only their number tells the sizes apart.
+pub fn job(samples: usize) -> String {
+    // The default job takes 19.7 s.
+    format!("{{\"version\":1,\"motion\":{{\"sample_time_s\":{}}}}}", 20.0 / samples as f64)
+}
+
+/// A job, and what each of its stages starts from.
+pub struct Stages {
+    text: String,
+    setup: Setup,
+    plan: Plan,
+    joints: JointTrajectory,
+    pace: Pace,
+    before: Deviation,
+    report: Report,
+}
+
+/// The stages in the order of the work. Deviation contains shaper, force and contour error, as the job does; the passes contain all of them.
+pub const STAGES: [Work<Stages>; 9] = [
+    ("reading the job", |s| drop(black_box(read(&s.text)))),
+    ("path: sampling", |s| drop(black_box(Trajectory::new(&s.setup.path, &s.setup.tempo)))),
+    ("motion: joint commands", |s| drop(black_box(joints(&s.setup, &s.plan)))),
+    ("motion: shaper", |s| {
+        drop(black_box((
+            s.plan.shaper.joints(&s.joints.q, s.plan.trajectory.sample_time),
+            s.plan.pace(Sources::ALL),
+        )));
+    }),
+    ("cutting: force", |s| {
+        drop(black_box(along::forces(&s.plan.path, &s.pace, &s.plan.mean_force, &s.plan.chip)));
+    }),
+    ("deviation: contour error", |s| {
+        drop(black_box(contour::contour_errors(&s.plan.path, &s.pace, &s.before.actual)));
+    }),
+    ("deviation: whole", |s| drop(black_box(deviate(&s.plan, &s.pace, &s.joints.q, Sources::ALL)))),
+    ("compensation: all passes", |s| {
+        let Setup { start, goal, .. } = s.setup;
+        drop(black_box(compensate(&s.plan, start, &s.joints.q, &s.before, Sources::ALL, goal, |_| {})));
+    }),
+    ("report: summary", |s| drop(black_box(s.report.summary()))),
+];
+
+/// A whole job: from its text to the figures that a person reads first.
+///
+/// # Errors
+/// What is wrong with the job.
+pub fn whole(text: &str) -> Result<Report, Error> {
+    let report = armill::run_json(text, |_| {})?;
+    drop(black_box(report.summary()));
+    Ok(report)
+}
+
+impl Stages {
+    /// Makes ready what the stages of the default job with about this many samples start from.
+    ///
+    /// # Errors
+    /// If the job does not run.
+    pub fn new(samples: usize) -> Result<Self, Error> {
+        let text = job(samples);
+        let report = whole(&text)?;
+        let (setup, plan) = (report.setup.clone(), report.plan.clone());
+        let (joints, before, pace) = (report.joints.clone(), report.before.clone(), plan.pace(Sources::ALL));
+        Ok(Self { text, setup, plan, joints, pace, before, report })
+    }
+
+    /// The number of samples.
+    pub fn samples(&self) -> usize {
+        self.report.samples()
+    }
+
+    /// The job as text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+fn read(text: &str) -> Result<Setup, Error> {
+    Job::from_json(text)?.setup()
+}
+
+fn joints(setup: &Setup, plan: &Plan) -> Result<JointTrajectory, Error> {
+    let desired = (plan.trajectory.position.as_slice(), plan.trajectory.axis.as_slice());
+    joint_trajectory(&plan.robot, &plan.path, &plan.trajectory, desired, setup.start)
+}

@@ -1,0 +1,260 @@
+//! The results of the benchmarks, read and laid out as one table.
+
+use std::collections::BTreeMap;
+use std::fmt::{self, Display, Formatter};
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use serde_json::{Value, json};
+
+/// Median and least time [ns].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Time {
+    pub(crate) median: f64,
+    pub(crate) least: f64,
+}
+
+impl Time {
+    /// Of times in ms, as the browser's clock tells them.
+    fn of_milliseconds(times: &Value) -> Option<Time> {
+        let mut times: Vec<f64> = times.as_array()?.iter().filter_map(Value::as_f64).collect();
+        times.sort_by(f64::total_cmp);
+        let middle = times.len() / 2;
+        let median =
+            if times.len() % 2 == 1 { times[middle] } else { times.get(middle - 1)?.midpoint(times[middle]) };
+        Some(Time { median: median * 1e6, least: times.first()? * 1e6 })
+    }
+
+    fn json(self) -> Value {
+        json!({ "median_ns": self.median, "least_ns": self.least })
+    }
+}
+
+/// Native times: by group, then by function.
+#[derive(Debug, Default)]
+pub(crate) struct Native(BTreeMap<String, BTreeMap<String, Time>>);
+
+impl Native {
+    /// Reads what criterion has left in its folder.
+    pub(crate) fn read(folder: &Path) -> Result<Native> {
+        let mut native = Native::default();
+        native.gather(folder)?;
+        Ok(native)
+    }
+
+    fn gather(&mut self, folder: &Path) -> Result<()> {
+        for entry in fs::read_dir(folder).with_context(|| format!("no results in {}", folder.display()))? {
+            let path = entry?.path();
+            if path.file_name().is_some_and(|name| name == "new") {
+                self.take(&path)?;
+            } else if path.is_dir() {
+                self.gather(&path)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// One benchmark: what it is, criterion's median, and the least time among its samples.
+    fn take(&mut self, folder: &Path) -> Result<()> {
+        let read =
+            |file: &str| -> Result<Value> { Ok(serde_json::from_slice(&fs::read(folder.join(file))?)?) };
+        let (what, estimates, sample) =
+            (read("benchmark.json")?, read("estimates.json")?, read("sample.json")?);
+        let numbers = |key: &str| sample[key].as_array().into_iter().flatten().filter_map(Value::as_f64);
+        let least = numbers("times").zip(numbers("iters")).map(|(time, rounds)| time / rounds);
+        let time = Time {
+            median: estimates["median"]["point_estimate"].as_f64().context("no median")?,
+            least: least.fold(f64::INFINITY, f64::min),
+        };
+        let word = |key: &str| what[key].as_str().unwrap_or_default().to_owned();
+        self.0.entry(word("group_id")).or_default().insert(word("function_id"), time);
+        Ok(())
+    }
+
+    fn of(&self, group: &str, function: &str) -> Option<Time> {
+        self.0.get(group)?.get(function).copied()
+    }
+}
+
+/// Everything that was measured.
+pub(crate) struct Results {
+    pub(crate) conditions: Vec<String>,
+    pub(crate) sizes: Vec<usize>,
+    pub(crate) native: Native,
+    pub(crate) memory: Vec<(usize, u64)>,
+    pub(crate) chromium: Value,
+}
+
+/// The stages in the order of the work, as `benches/src/stages.rs` names them.
+const STAGES: [&str; 9] = [
+    "reading the job",
+    "path: sampling",
+    "motion: joint commands",
+    "motion: shaper",
+    "cutting: force",
+    "deviation: contour error",
+    "deviation: whole",
+    "compensation: all passes",
+    "report: summary",
+];
+
+const POSES: [&str; 3] = ["forward", "inverse, every solution", "Jacobian"];
+
+/// Poses in one round of `benches/src/poses.rs`.
+const COUNT: f64 = 1000.0;
+
+impl Results {
+    fn chromium(&self, size: usize, place: &str) -> Option<Time> {
+        Time::of_milliseconds(self.chromium["jobs"][size.to_string()].pointer(place)?)
+    }
+
+    fn samples(&self, size: usize) -> u64 {
+        self.chromium["jobs"][size.to_string()]["full"]["samples"].as_u64().unwrap_or_default()
+    }
+
+    /// All of it for other programs, in ns and bytes.
+    pub(crate) fn json(&self) -> Value {
+        let native: BTreeMap<_, BTreeMap<_, _>> = (self.native.0.iter())
+            .map(|(group, times)| (group, times.iter().map(|(name, time)| (name, time.json())).collect()))
+            .collect();
+        json!({
+            "conditions": self.conditions,
+            "native": native,
+            "native_peak_bytes": self.memory.iter().map(|(samples, bytes)| (samples.to_string(), json!(bytes))).collect::<serde_json::Map<_, _>>(),
+            "browser_ms": self.chromium,
+        })
+    }
+
+    fn jobs(&self, f: &mut Formatter<'_>, size: usize) -> fmt::Result {
+        let samples = self.samples(size);
+        let native = |name: &str| self.native.of(&format!("samples {size}"), name);
+        writeln!(
+            f,
+            "| {samples} samples | native ms | least | Chromium ms | least | ratio | native ns a sample |"
+        )?;
+        writeln!(f, "| --- | ---: | ---: | ---: | ---: | ---: | ---: |")?;
+        for stage in STAGES {
+            let browser = self.chromium(size, &format!("/stages/{stage}"));
+            line(f, stage, native(stage), browser, 1e6, samples as f64)?;
+        }
+        let whole = native("whole job");
+        for (name, core) in [("whole job, small core", "small"), ("whole job, full core", "full")] {
+            line(f, name, whole, self.chromium(size, &format!("/{core}/times")), 1e6, samples as f64)?;
+        }
+        let first =
+            |core: &str| self.chromium["jobs"][size.to_string()][core]["first"].as_f64().unwrap_or(f64::NAN);
+        writeln!(
+            f,
+            "\nThe first run in a fresh Worker: {:.0} ms in the small core, {:.0} ms in the full one.\n",
+            first("small"),
+            first("full")
+        )
+    }
+
+    fn poses(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let native = |name: &str| self.native.of("kinematics", name);
+        let ns =
+            |time: Option<Time>| time.map_or("-".to_owned(), |time| format!("{:.0}", time.median / COUNT));
+        writeln!(f, "| ns a pose | Armill | in Chromium | rs-opw-kinematics | k | rs-opw / Armill |")?;
+        writeln!(f, "| --- | ---: | ---: | ---: | ---: | ---: |")?;
+        for name in POSES {
+            let (ours, opw) = (native(name), native(&format!("rs-opw-kinematics: {name}")));
+            let browser = Time::of_milliseconds(&self.chromium["kinematics"][name]);
+            let k = native(&format!("k: {}", name.replace("every solution", "nearest")));
+            writeln!(
+                f,
+                "| {name} | {} | {} | {} | {} | {} |",
+                ns(ours),
+                ns(browser),
+                ns(opw),
+                ns(k),
+                ratio(opw, ours)
+            )?;
+        }
+        writeln!(
+            f,
+            "\nk's inverse iterates to the nearest solution from a degree beside; rs-opw-kinematics takes the Jacobian by differences.\n"
+        )
+    }
+
+    fn memory(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        writeln!(f, "| memory at the peak, MB | native | small core | full core |")?;
+        writeln!(f, "| --- | ---: | ---: | ---: |")?;
+        for (i, &size) in self.sizes.iter().enumerate() {
+            let mega = |bytes: Option<u64>| {
+                bytes.map_or("-".to_owned(), |bytes| format!("{:.0}", bytes as f64 / 1e6))
+            };
+            let core = |core: &str| mega(self.chromium["jobs"][size.to_string()][core]["bytes"].as_u64());
+            let native = mega(self.memory.get(i).map(|(_, bytes)| *bytes));
+            writeln!(
+                f,
+                "| {} samples | {native} | {} | {} |",
+                self.samples(size),
+                core("small"),
+                core("full")
+            )?;
+        }
+        Ok(())
+    }
+}
+
+impl Display for Results {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        for condition in &self.conditions {
+            writeln!(f, "- {condition}")?;
+        }
+        writeln!(f)?;
+        for &size in &self.sizes {
+            self.jobs(f, size)?;
+        }
+        if let [small, .., large] = self.sizes[..] {
+            let whole = |size: usize| self.native.of(&format!("samples {size}"), "whole job");
+            let full = |size: usize| self.chromium(size, "/full/times");
+            let times = self.samples(large) as f64 / self.samples(small).max(1) as f64;
+            writeln!(
+                f,
+                "{times:.1} times the samples take {} times as long natively, {} times in Chromium.\n",
+                ratio(whole(large), whole(small)),
+                ratio(full(large), full(small))
+            )?;
+        }
+        self.poses(f)?;
+        self.memory(f)
+    }
+}
+
+/// One row: medians and least times in `unit` ns, Chromium over native by medians.
+fn line(
+    f: &mut Formatter<'_>,
+    name: &str,
+    native: Option<Time>,
+    browser: Option<Time>,
+    unit: f64,
+    samples: f64,
+) -> fmt::Result {
+    let pair = |time: Option<Time>| match time {
+        Some(Time { median, least }) => format!("{} | {}", digits(median / unit), digits(least / unit)),
+        None => "- | -".to_owned(),
+    };
+    let each = native.map_or("-".to_owned(), |time| format!("{:.0}", time.median / samples));
+    writeln!(f, "| {name} | {} | {} | {} | {each} |", pair(native), pair(browser), ratio(browser, native))
+}
+
+fn ratio(above: Option<Time>, below: Option<Time>) -> String {
+    above.zip(below).map_or("-".to_owned(), |(a, b)| format!("{:.2}", a.median / b.median))
+}
+
+/// Three figures that count.
+fn digits(value: f64) -> String {
+    let places = if value >= 100.0 {
+        0
+    } else if value >= 10.0 {
+        1
+    } else if value >= 1.0 {
+        2
+    } else {
+        3
+    };
+    format!("{value:.places$}")
+}
