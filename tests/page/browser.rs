@@ -218,6 +218,16 @@ impl Page {
         self.client.execute(body, Vec::new()).await.map_err(|error| within(body, error))
     }
 
+    /// Calls a JavaScript function with a module of the page, as `web/js/` has it, and tells what it returned.
+    ///
+    /// # Errors
+    /// If it throws, or the page has no such module.
+    pub async fn with_module(&self, name: &str, function: &str) -> Result<Value> {
+        let scripts = "Promise.all(['./js/start.js', './js/main.js'].map((path) => import(path)))";
+        let module = format!("Object.assign({{}}, ...scripts).module_js_{name}");
+        self.js(&format!("return {scripts}.then((scripts) => ({function})({module}))")).await
+    }
+
     /// Waits until a JavaScript expression is true; one that throws is not true yet.
     ///
     /// # Errors

@@ -156,7 +156,7 @@ fn the_cursor_reads_samples_and_is_one_for_all_charts() -> Result {
         chart.mouse("mouseMoved", (5.0, 5.0), json!({})).await?;
         chart.wait_for("chart.querySelector('.readout b')").await?;
         // It stays in another view, and in space it is a place on each path.
-        let pinned = page.js("return import('./js/cursor.js').then(c => c.cursor())").await?;
+        let pinned = page.with_module("cursor", "({ cursor }) => cursor()").await?;
         let space = Chart::open(page, "path", "path").await?;
         space.wait_for("chart.querySelectorAll('.marks circle').length === 1").await?;
         let values = space.values().await?;
@@ -373,7 +373,8 @@ fn units_are_chosen_for_axes_values_and_files() -> Result {
             "force",
             armill::chart::Units { force: armill::chart::ForceUnit::PoundForce, ..Default::default() },
         )?;
-        page.js("return import('./js/settings.js').then(s => { s.choose('force', 'lbf'); s.choose('length', 'inch'); })").await?;
+        page.with_module("settings", "({ choose }) => { choose('force', 'lbf'); choose('length', 'inch'); }")
+            .await?;
         chart.wait_for("chart.querySelector('svg.plot').textContent.includes('Force, lbf')").await?;
         let ticks = chart
             .js("return [...chart.querySelectorAll('.axis text[text-anchor=end]')].map(t => t.textContent)")
@@ -404,7 +405,7 @@ fn units_are_chosen_for_axes_values_and_files() -> Result {
                 .unwrap()
                 .contains("Contour error, inch")
         );
-        page.js("return import('./js/settings.js').then(s => s.choose('length', 'mm'))").await?;
+        page.with_module("settings", "({ choose }) => choose('length', 'mm')").await?;
         error.wait_for("chart.querySelector('svg.plot').textContent.includes('Contour error, mm')").await
     })
 }

@@ -69,7 +69,7 @@ fn a_chart_leads_to_its_line_and_back() -> Result {
         let lines = crate::common::column(&run(&job("gcode", SLOT)), "program_line");
         let seventh = lines.iter().position(|line| *line == 7.0).ok_or("line 7 does not run")?;
         page.js("const t = document.getElementById('path-text'); const at = t.value.indexOf('G1 Y-40'); t.focus(); t.setSelectionRange(at, at); t.click()").await?;
-        let cursor = page.js("return import('./js/cursor.js').then(cursor => cursor.cursor())").await?;
+        let cursor = page.with_module("cursor", "({ cursor }) => cursor()").await?;
         assert!((cursor.as_f64().unwrap_or(-1.0) - seventh as f64 * 1e-3).abs() < 1e-9, "{cursor}");
         page.wait_for("document.querySelector('#chart-before-after .readout').textContent.includes('line 7 of the program')", 10.0).await?;
         // From the chart to the line: the readout of the place that was clicked leads there.
@@ -138,7 +138,7 @@ fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
         page.js("document.getElementById('path-text-window').scrollTop = 1e9").await?;
         page.wait_for("document.getElementById('path-text-window').textContent.includes('M30')", 5.0).await?;
         page.js("const rows = [...document.querySelectorAll('#path-text-window [data-line]')]; rows.find(row => row.dataset.line === '25000').click()").await?;
-        let cursor = page.js("return import('./js/cursor.js').then(cursor => cursor.cursor())").await?;
+        let cursor = page.with_module("cursor", "({ cursor }) => cursor()").await?;
         assert!(cursor.as_f64().is_some_and(|time| time > 0.1), "{cursor}");
         page.click("#tab-overview").await?;
         page.wait_for("document.querySelector('#chart-before-after svg')", 20.0).await?;

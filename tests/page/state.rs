@@ -7,9 +7,7 @@ use serde_json::json;
 
 /// The fragment that stands for the JSON text of a job, as the page makes it.
 async fn fragment(page: &Page, job: &str) -> Result<String> {
-    let made = page
-        .js(&format!("return import('./js/link.js').then(link => link.fragmentOf({}))", json!(job)))
-        .await?;
+    let made = page.with_module("link", &format!("({{ fragmentOf }}) => fragmentOf({})", json!(job))).await?;
     Ok(made.as_str().unwrap_or_default().to_owned())
 }
 

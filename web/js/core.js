@@ -13,17 +13,34 @@ let events; // { onstart, onprogress, onresult, onerror, oncancel, ontrap }, giv
 let shown = null; // Worker with the shown result
 let spare = null; // Worker to compute in
 let since = null; // when the run in progress began
+let listing; // promise of what a form is built from
+let foreseen; // { json, result, since } of a run that nobody has asked for yet
 let next = null; // the job to compute next: only the latest counts
 let good = null; // the job of the shown result
 let lost = false; // the shown result was lost to a trap and is being computed again
 let core = FIRST_CORE; // the one that a new Worker starts with: the full one once a Worker has needed it
 const modules = {}; // the compiled cores, promises: every Worker starts from the same ones
 
-/** Starts the core, and meanwhile reads what a form is built from: version, default job, fields, presets, formats. */
-export async function start(handlers) {
+/** Begins to load the core, and resolves with what a form is built from: version, default job, fields, presets, formats. */
+export function load() {
+  spare ??= spawn();
+  return (listing ??= readText("pkg/form.json").then(JSON.parse));
+}
+
+/** The same for the page, which hears what happens from now on. */
+export function start(handlers) {
   events = handlers;
-  spare = spawn();
-  return JSON.parse(await readText("pkg/form.json"));
+  return load();
+}
+
+/** Resolves when the first Worker has its core, or never will. */
+export const supplied = () => spare.supplied;
+
+/** Begins to compute a job before the page is ready to ask for it. */
+export function foresee(json) {
+  const result = spare.ask("run", json);
+  result.catch(() => {}); // told to who asks
+  foreseen = { json, result, since: performance.now() };
 }
 
 /** Computes `json`; what is being computed or waits is superseded. Events tell the rest. */
@@ -88,12 +105,13 @@ export const trap = () => askShown("trap").catch(() => {});
 async function compute() {
   while (next !== null) {
     const json = next;
+    const early = foresaw(json);
     const worker = (spare ??= spawn());
     next = null;
-    since = performance.now();
+    since = early?.since ?? performance.now();
     events.onstart();
     try {
-      const result = await worker.ask("run", json);
+      const result = await (early?.result ?? worker.ask("run", json));
       [shown, spare] = [worker, shown ?? spawn()];
       good = json;
       events.onresult(result, performance.now() - since);
@@ -105,6 +123,14 @@ async function compute() {
     }
     since = null;
   }
+}
+
+/** The run foreseen, if it is of this job; any other is given up. */
+function foresaw(json) {
+  const early = foreseen;
+  foreseen = undefined;
+  if (early && early.json !== json) cutOff(CANCELLED);
+  return early?.json === json ? early : undefined;
 }
 
 async function askShown(kind, ...args) {
@@ -152,7 +178,9 @@ function spawn() {
   const worker = startWorker();
   const waiting = new Map();
   let count = 0;
+  let ended; // why it answers no more
   const stop = (reason) => {
+    ended = reason;
     worker.terminate();
     for (const { reject } of waiting.values()) reject(reason);
     waiting.clear();
@@ -160,7 +188,7 @@ function spawn() {
   const fail = ({ message }) => stop({ code: "load", message: message || "The core could not be loaded.", fatal: true });
   const lack = ({ message }) => worker.postMessage({ core: "full", error: { code: "load", message: `${REST} could not be loaded (${message}).` } });
   worker.addEventListener("message", ({ data: { id, value, error, progress, need } }) => {
-    if (progress) return events.onprogress(progress);
+    if (progress) return events?.onprogress(progress);
     if (need) return give(need).catch(lack);
     const question = waiting.get(id);
     waiting.delete(id);
@@ -172,11 +200,12 @@ function spawn() {
     fail(event);
   });
   const give = (name) => moduleOf(name).then((module) => worker.postMessage({ core: (core = name), module }));
-  give(core).catch(fail);
   return {
     stop,
+    supplied: give(core).catch(fail),
     ask: (kind, ...args) =>
       new Promise((resolve, reject) => {
+        if (ended) return reject(ended);
         waiting.set(++count, { resolve, reject });
         worker.postMessage({ id: count, kind, args });
       }),

@@ -104,11 +104,11 @@ try {
   const hello = await core.start(events);
   const fields = fieldsIn(hello.fields, options.inputs);
   job = new Job(await jobOf(options, hello), hello.fields, hello.presets);
+  core.run(job.json); // while the form is built
   form = new Form(byId("form"), job, fields, hello.presets, edited);
   for (const group of document.querySelectorAll(".group")) group.open = !options.inputs.includes("all");
   showPanel(byId("panel-embed"));
   link();
-  core.run(job.json);
 } catch (error) {
   cannotStart(error);
 }

@@ -14,6 +14,9 @@ const parentOf = (path) => path.slice(0, Math.max(0, path.lastIndexOf(".")));
 const keyOf = (path) => path.slice(path.lastIndexOf(".") + 1);
 const decides = (field) => /\.(kind|preset)$/.test(field.path);
 
+/** A job's plain object as the text that is computed and saved. */
+export const textOf = (data) => JSON.stringify(data, null, 2);
+
 export class Job {
   #fields;
   #presets;
@@ -28,7 +31,7 @@ export class Job {
   }
 
   get json() {
-    return JSON.stringify(this.#data, null, 2);
+    return textOf(this.#data);
   }
 
   /** The job and what is kept for the way back, as plain data of its own. */

@@ -20,11 +20,14 @@ import { makeScene } from "./scene/view.js";
 import { onSetting } from "./settings.js";
 import { settingsPanel } from "./settings-panel.js";
 import { shareDialog } from "./share.js";
+import { begun } from "./start.js";
 import { makeTabs } from "./tabs.js";
 import { followTheme } from "./theme.js";
 
 const TYPING_MS = 150; // results follow this long after the last key
 const PATIENCE_MS = 150; // a run that takes longer shows its progress
+
+await begun;
 
 const results = byId("results");
 const scene = makeScene(byId("scene"));

@@ -1,14 +1,13 @@
-// Light or dark as chosen. The page loads this before anything is drawn; "auto" leaves it to the system.
+// Light or dark as chosen; "auto" leaves it to the system.
 
 import { onSetting, setting } from "./settings.js";
 
-function apply() {
+/** Shows the page in the theme chosen. */
+export function applyTheme() {
   const theme = setting("theme");
   if (theme === "auto") delete document.documentElement.dataset.theme;
   else document.documentElement.dataset.theme = theme;
 }
 
-apply();
-
 /** Follows the setting from now on. */
-export const followTheme = () => onSetting((key) => key === "theme" && apply());
+export const followTheme = () => onSetting((key) => key === "theme" && applyTheme());

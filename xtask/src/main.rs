@@ -3,6 +3,7 @@
 
 mod workspace;
 mod modules;
+mod page;
 mod standalone;
 mod site;
 mod docs;

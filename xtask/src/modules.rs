@@ -1,4 +1,4 @@
-//! Puts ES modules together in one script, for the one-file page: there a browser loads no module from beside it.
+//! Puts ES modules together in one script: a browser asks for few files instead of many, and the one-file page has none beside it.
 //!
 //! Each module becomes a block (a block and not a function, for it may wait at its top level), after the modules that it needs:
 //!
@@ -11,23 +11,55 @@
 //!                                             }
 //! ```
 //!
-//! That is all of the language's module syntax that the page uses; anything else is refused.
+//! That is all of the language's module syntax that the page uses; anything else is refused. A script may share modules with an earlier
+//! one: it imports `module_form` from there, so that both have the same.
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 
-/// The script of the module at `entry` and of all that it imports, directly or not. `read` tells the text of a module.
-///
-/// # Errors
-/// If a module cannot be read, uses syntax that this does not know, or needs itself.
-pub(crate) fn bundle(entry: &Path, read: &dyn Fn(&Path) -> Result<String>) -> Result<String> {
-    let mut script = String::from("\"use strict\";\n");
-    add(entry, read, &mut Vec::new(), &mut Vec::new(), &mut script)?;
-    Ok(script)
+/// Modules in one script, in the order in which they run.
+pub(crate) struct Script {
+    /// The last of them, which also gives the script its place.
+    entry: PathBuf,
+    modules: Vec<PathBuf>,
+    /// A block for each.
+    pub(crate) text: String,
 }
 
-/// Appends a module after those that it needs. `open` are the modules that wait for this one, `done` those in the script.
+impl Script {
+    /// The module at `entry` and all that it imports, directly or not, but for those that `earlier` has. `read` tells the text of a module.
+    ///
+    /// # Errors
+    /// If a module cannot be read, uses syntax that this does not know, or needs itself.
+    pub(crate) fn new(
+        entry: &Path,
+        earlier: Option<&Script>,
+        read: &dyn Fn(&Path) -> Result<String>,
+    ) -> Result<Script> {
+        let shared = earlier.map_or(Vec::new(), |script| script.modules.clone());
+        let mut text = String::from("\"use strict\";\n");
+        if let Some(script) = earlier {
+            // Scripts that share lie in the same folder.
+            let file = script.entry.file_name().unwrap_or_default().to_string_lossy();
+            text.push_str(&format!("import {{ {} }} from \"./{file}\";\n", names(&shared)));
+        }
+        let mut done = shared.clone();
+        add(entry, read, &mut Vec::new(), &mut done, &mut text)?;
+        Ok(Script { entry: entry.to_path_buf(), modules: done.split_off(shared.len()), text })
+    }
+
+    /// The script as a module, whose modules others can import.
+    pub(crate) fn shared(&self) -> String {
+        format!("{}export {{ {} }};\n", self.text, names(&self.modules))
+    }
+}
+
+fn names(modules: &[PathBuf]) -> String {
+    modules.iter().map(|path| variable(path)).collect::<Vec<_>>().join(", ")
+}
+
+/// Appends a module after those that it needs. `open` are the modules that wait for this one, `done` those there are already.
 fn add(
     path: &Path,
     read: &dyn Fn(&Path) -> Result<String>,
@@ -168,11 +200,15 @@ fn variable(path: &Path) -> String {
 mod tests {
     use super::*;
 
-    fn bundled(files: &[(&str, &str)]) -> Result<String> {
-        bundle(Path::new(files[0].0), &|path| {
+    fn script(entry: &str, earlier: Option<&Script>, files: &[(&str, &str)]) -> Result<Script> {
+        Script::new(Path::new(entry), earlier, &|path| {
             let file = files.iter().find(|(name, _)| Path::new(name) == path);
             file.map(|(_, text)| (*text).to_owned()).with_context(|| format!("no {}", path.display()))
         })
+    }
+
+    fn bundled(files: &[(&str, &str)]) -> Result<String> {
+        script(files[0].0, None, files).map(|script| script.text)
     }
 
     #[test]
@@ -190,6 +226,27 @@ mod tests {
              const module_js_two = {};\n{\nconst { x: x } = module_pkg_core; \nconst a = x;\nasync function b() {}\nclass D {}\nObject.assign(module_js_two, { a, b, D });\n}\n\
              const module_js_main = {};\n{\nconst start = module_pkg_core.default; const core = module_pkg_core; \nconst { a: a, b: c } = module_js_two; \nstart(core, a, c);\nObject.assign(module_js_main, {  });\n}\n"
         );
+    }
+
+    #[test]
+    fn a_later_script_shares_the_modules_of_an_earlier_one() {
+        let files = [
+            ("js/first.js", "import { x } from \"./both.js\";\nx();\n"),
+            ("js/both.js", "export function x() {}\n"),
+            ("js/own.js", "export const y = 1;\n"),
+            ("js/later.js", "import { x } from \"./both.js\";\nimport { y } from \"./own.js\";\nx(y);\n"),
+        ];
+        let first = script("js/first.js", None, &files).unwrap();
+        assert!(
+            first.shared().ends_with("export { module_js_both, module_js_first };\n"),
+            "{}",
+            first.shared()
+        );
+        let later = script("js/later.js", Some(&first), &files).unwrap();
+        let start = "\"use strict\";\nimport { module_js_both, module_js_first } from \"./first.js\";\nconst module_js_own = {};\n";
+        assert!(later.text.starts_with(start), "{}", later.text);
+        assert!(later.text.contains("const { x: x } = module_js_both;"), "{}", later.text);
+        assert!(later.shared().ends_with("export { module_js_own, module_js_later };\n"));
     }
 
     #[test]

@@ -8,6 +8,9 @@ use std::sync::Arc;
 use std::thread::{self, JoinHandle};
 
 use anyhow::{Context, Result, anyhow};
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use sha2::{Digest, Sha256};
 use tiny_http::{Header, Method, Request, Response};
 
 /// The port that `serve` tries first, and how many after it.
@@ -18,7 +21,7 @@ const THREADS: usize = 6;
 
 /// Sent with every answer of the site. The policy is the page's own, repeated because a worker only obeys its own answer's.
 const STRICT: &[&str] = &[
-    "Cache-Control: no-store",
+    CACHE,
     "X-Content-Type-Options: nosniff",
     "Referrer-Policy: no-referrer",
     "Content-Security-Policy: default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; \
@@ -26,7 +29,10 @@ const STRICT: &[&str] = &[
 ];
 
 /// What a host of documentation sends: the pages of rustdoc and mdBook have scripts in them.
-const PLAIN: &[&str] = &["Cache-Control: no-store"];
+const PLAIN: &[&str] = &[CACHE];
+
+/// A browser keeps what it got, with the code that it made of it, and asks each time whether that still holds.
+const CACHE: &str = "Cache-Control: no-cache";
 
 /// A running server; it lives as long as the process.
 pub(crate) struct Server {
@@ -96,7 +102,7 @@ fn answer(site: &Path, request: Request, headers: &[&str]) {
     let mut response = match request.method() {
         Method::Get | Method::Head => match find(site, request.url()) {
             Found::File(path) => match fs::read(&path) {
-                Ok(content) => reply(200, media_type(&path), content),
+                Ok(content) => fresh(&request, media_type(&path), content),
                 Err(_) => not_found(),
             },
             Found::Folder(location) => with(reply(308, TEXT, Vec::new()), &format!("Location: {location}")),
@@ -119,6 +125,15 @@ fn reply(status: u16, media_type: &str, content: Vec<u8>) -> Reply {
     // The length is known, so it is told; tiny_http would send large files in chunks.
     let response = Response::from_data(content).with_status_code(status).with_chunked_threshold(usize::MAX);
     with(response, &format!("Content-Type: {media_type}"))
+}
+
+/// A file's content under its tag, or that what the browser has with this tag still holds.
+fn fresh(request: &Request, media_type: &str, content: Vec<u8>) -> Reply {
+    let tag = format!("\"{}\"", BASE64_STANDARD.encode(Sha256::digest(&content)));
+    let asked = request.headers().iter().find(|header| header.field.equiv("If-None-Match"));
+    let holds = asked.is_some_and(|header| header.value.as_str() == tag);
+    let response = if holds { reply(304, media_type, Vec::new()) } else { reply(200, media_type, content) };
+    with(response, &format!("ETag: {tag}"))
 }
 
 fn not_found() -> Reply {
@@ -219,9 +234,15 @@ mod tests {
 
     /// Head and body of the answer to a raw request.
     fn ask(server: &Server, method: &str, path: &str) -> (String, Vec<u8>) {
+        ask_with(server, method, path, "")
+    }
+
+    /// The same with more lines in the head.
+    fn ask_with(server: &Server, method: &str, path: &str, lines: &str) -> (String, Vec<u8>) {
         let address = server.url.strip_prefix("http://").unwrap().strip_suffix('/').unwrap();
         let mut stream = TcpStream::connect(address).unwrap();
-        write!(stream, "{method} {path} HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n\r\n").unwrap();
+        write!(stream, "{method} {path} HTTP/1.1\r\nHost: {address}\r\n{lines}Connection: close\r\n\r\n")
+            .unwrap();
         let mut answer = Vec::new();
         stream.read_to_end(&mut answer).unwrap();
         let end = answer.windows(4).position(|window| window == b"\r\n\r\n").unwrap();
@@ -248,6 +269,21 @@ mod tests {
         assert!(ask(&server, "GET", "/a%20b.js").0.contains("Content-Type: text/javascript"));
         assert!(ask(&server, "GET", "/pkg?q").0.contains("Location: /pkg/?q"));
         assert!(ask(&server, "POST", "/").0.starts_with("HTTP/1.1 405"));
+    }
+
+    #[test]
+    fn what_a_browser_has_is_not_sent_again_until_it_changes() {
+        let parent = site();
+        let server = Server::start_anywhere(&parent.path().join("site")).unwrap();
+        let (head, _) = ask(&server, "GET", "/a%20b.js");
+        let tag = head.lines().find_map(|line| line.strip_prefix("ETag: ")).unwrap();
+        let lines = format!("If-None-Match: {tag}\r\n");
+        let (head, body) = ask_with(&server, "GET", "/a%20b.js", &lines);
+        assert!(head.starts_with("HTTP/1.1 304") && body.is_empty(), "{head}");
+        assert!(STRICT.iter().all(|header| head.contains(header)), "{head}");
+        fs::write(parent.path().join("site/a b.js"), "2").unwrap();
+        let (head, body) = ask_with(&server, "GET", "/a%20b.js", &lines);
+        assert!(head.starts_with("HTTP/1.1 200") && body == b"2", "{head}");
     }
 
     #[test]

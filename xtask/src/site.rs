@@ -9,6 +9,7 @@ use std::time::SystemTime;
 
 use anyhow::{Context, Result, ensure};
 
+use crate::page;
 use crate::standalone::{self, compressed};
 use crate::workspace::{self, WASM};
 
@@ -69,8 +70,10 @@ pub(crate) fn build() -> Result<PathBuf> {
         weigh(core.name, &folder.join("armill_bg.wasm"), core.limits)?;
     }
     update(&form()?, &site.join(standalone::FORM))?;
-    mirror(&root.join("web"), &site, &[CORES, STANDALONE])?;
-    update(standalone::page(&site)?.as_bytes(), &site.join(STANDALONE))?;
+    let (web, joined) = (root.join("web"), root.join("target/page"));
+    page::join(&web, &site.join(CORES), &joined)?;
+    mirror(&joined, &site, &[CORES, STANDALONE])?;
+    update(standalone::page(&web, &site)?.as_bytes(), &site.join(STANDALONE))?;
     println!("The site is in target/site");
     Ok(site)
 }
@@ -174,7 +177,11 @@ pub(crate) fn mirror(original: &Path, copy: &Path, besides: &[&str]) -> Result<(
     Ok(())
 }
 
-fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
+/// What is in a folder.
+///
+/// # Errors
+/// If it cannot be read.
+pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
     let list = fs::read_dir(folder).with_context(|| format!("cannot list {}", folder.display()))?;
     list.map(|entry| Ok(entry?.path())).collect()
 }

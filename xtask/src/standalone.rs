@@ -12,7 +12,8 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use sha2::{Digest, Sha256};
 
-use crate::modules::bundle;
+use crate::modules::Script;
+use crate::page::text_of;
 
 /// What the one-file page has in place of `web/js/files.js`.
 const FILES: &str = include_str!("files.js");
@@ -20,21 +21,21 @@ const FILES: &str = include_str!("files.js");
 /// What it has in place of `web/js/worker.js`.
 const WORKER: &str = include_str!("worker.js");
 
+/// Lines of the page about files beside it: what is needed early, and the first script, whose modules are in the other.
+const BESIDE: [&str; 2] = ["<link rel=\"preload\"", "<script type=\"module\" src=\"js/start.js\""];
+
 /// What the page's form is built from.
 pub(crate) const FORM: &str = "pkg/form.json";
 
 /// Folder of files that the page reads as text.
 const EXAMPLES: &str = "examples";
 
-/// Makes `standalone.html` of the page in `site` and returns its text.
+/// Makes `standalone.html` of the page in `web` and what is made for it in `site`, and returns its text.
 ///
 /// # Errors
 /// If a file cannot be read, or the page uses something that one file cannot hold.
-pub(crate) fn page(site: &Path) -> Result<String> {
-    let read = |path: &Path| {
-        let file = site.join(path);
-        fs::read_to_string(&file).with_context(|| format!("cannot read {}", file.display()))
-    };
+pub(crate) fn page(web: &Path, site: &Path) -> Result<String> {
+    let read = |path: &Path| text_of(web, &site.join("pkg"), path);
     let module = |path: &Path| match path.to_str() {
         Some("js/files.js") => Ok(FILES.to_owned()),
         Some("js/worker.js") => Ok(WORKER.to_owned()),
@@ -44,18 +45,26 @@ pub(crate) fn page(site: &Path) -> Result<String> {
     let mut policy = Policy::default();
 
     // What stands in the page does not need to be waited for.
-    let html = read(Path::new("index.html"))?.replace(" blocking=\"render\"", "");
+    let html: String = read(Path::new("index.html"))?
+        .split_inclusive('\n')
+        .filter(|line| !BESIDE.iter().any(|start| line.trim_start().starts_with(start)))
+        .collect();
     let html = html.replace("\"icon.svg\"", &format!("\"{icon}\""));
     let html = replaced(&html, "<link rel=\"stylesheet\" href=\"", ">", |rest| {
         let (file, media) = rest.split_once('"').context("a stylesheet without an address")?;
         Ok(format!("<style{media}>{}</style>", policy.style(read(Path::new(file))?)?))
     })?;
     let html = replaced(&html, "<script type=\"module\" src=\"", "\"></script>", |file| {
-        Ok(format!("<script type=\"module\">{}</script>", policy.script(bundle(Path::new(file), &module)?)?))
+        Ok(format!(
+            "<script type=\"module\">{}</script>",
+            policy.script(Script::new(Path::new(file), None, &module)?.text)?
+        ))
     })?;
     // A browser starts no module from a Blob of a page on disk, and a classic script knows no `import.meta`. The glue
     // only asks for it when it is to load the core itself.
-    let worker = bundle(Path::new("js/worker.js"), &module)?.replace("import.meta.url", "location.href");
+    let worker = Script::new(Path::new("js/worker.js"), None, &module)?
+        .text
+        .replace("import.meta.url", "location.href");
     ensure!(!worker.contains("</script"), "the Worker's script would end early in HTML");
     let core = fs::read(site.join("pkg/full/armill_bg.wasm")).context("cannot read the core")?;
     let data =

@@ -1,0 +1,21 @@
+// What does not wait for the rest of the page: its colours, and the core with the job that the page opens with.
+
+import { kept } from "./autosave.js";
+import * as core from "./core.js";
+import { textOf } from "./job.js";
+import { holdsJob } from "./link.js";
+import { applyTheme } from "./theme.js";
+
+applyTheme();
+
+const PATIENCE_MS = 100; // on a slow line the page does not wait for the core
+
+/** Has the job computed while the form is built. A link's is checked first, so it waits for the page. */
+async function begin() {
+  const hello = await core.load();
+  if (!holdsJob(location.hash)) core.foresee(textOf(kept()?.job ?? hello.job));
+  await core.supplied();
+}
+
+/** Settled when the Worker has all that it needs for the first result: from then on the page is not in its way. */
+export const begun = Promise.race([begin().catch(() => {}), new Promise((resolve) => setTimeout(resolve, PATIENCE_MS))]);
