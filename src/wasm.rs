@@ -158,17 +158,17 @@ impl Run {
         }
         let heads: Vec<_> = self
             .report
-            .columns()
+            .series()
             .into_iter()
-            .map(|column| Head { key: column.key, label: column.label, unit: column.unit })
+            .map(|series| Head { key: series.key, label: series.label, unit: series.unit })
             .collect();
         object(&heads)
     }
 
     /// One column, one value a sample.
     pub fn column(&self, key: &str) -> Result<Float64Array, JsValue> {
-        match self.report.columns().into_iter().find(|column| column.key == key) {
-            Some(column) => Ok(Float64Array::from(column.values.as_slice())),
+        match self.report.series().into_iter().find(|series| series.key == key) {
+            Some(series) => Ok(Float64Array::from(series.column().values.as_slice())),
             None => Err(thrown(&Error::Invalid {
                 field: "column".into(),
                 value: format!("\"{key}\""),

@@ -6,18 +6,30 @@ use crate::export::command::{Block, Command};
 use crate::export::header::{self, number};
 use crate::export::thin::Point;
 use crate::report::Report;
+use crate::report::columns::Series;
 use crate::units::MM;
 use std::fmt::Write;
+use std::ops::Range;
 
 /// All columns of the report.
 pub fn columns(report: &Report) -> String {
-    table(&report.columns())
+    rows(report, 0..report.samples())
+}
+
+/// Some samples of all columns, with the header above the first: a long run is a gigabyte of text, so it is written in parts.
+pub fn rows(report: &Report, samples: Range<usize>) -> String {
+    let part = |series: &Series| Column::new(series.key.as_str(), "", "", series.values(samples.clone()));
+    let columns: Vec<_> = report.series().iter().map(part).collect();
+    let text = table(&columns);
+    match text.split_once('\n') {
+        Some((_, rows)) if samples.start > 0 => rows.to_owned(),
+        _ => text,
+    }
 }
 
 /// The path to command: time, compensated position in the base frame, joint commands.
 pub fn compensated(report: &Report) -> String {
-    let wanted = |column: &Column| column.key == "time_s" || column.key.starts_with("compensated_");
-    table(&report.columns().into_iter().filter(wanted).collect::<Vec<_>>())
+    table(&chosen(report, "compensated_"))
 }
 
 /// The path to command as points in the workpiece frame with the tool axis (tip to spindle) and the speed of the move that ends there;
@@ -42,14 +54,17 @@ pub fn path(report: &Report, command: &Command) -> String {
 
 /// The joint commands at the sample time, not thinned.
 pub fn joints(report: &Report) -> String {
-    let wanted = |column: &Column| column.key == "time_s" || column.key.starts_with("compensated_q");
-    let columns: Vec<_> = report
-        .columns()
-        .into_iter()
-        .filter(wanted)
-        .map(|column| Column { key: column.key.replace("compensated_", ""), ..column })
-        .collect();
+    let mut columns = chosen(report, "compensated_q");
+    for column in &mut columns {
+        column.key = column.key.replace("compensated_", "");
+    }
     remarks(&header::lines(report, None)) + &table(&columns)
+}
+
+/// The time and the columns whose keys start like this.
+fn chosen(report: &Report, start: &str) -> Vec<Column> {
+    let wanted = |series: &&Series| series.key == "time_s" || series.key.starts_with(start);
+    report.series().iter().filter(wanted).map(Series::column).collect()
 }
 
 fn remarks(lines: &[String]) -> String {

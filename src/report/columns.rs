@@ -1,115 +1,189 @@
 //! The columns of a report: one row a sample, units in the names.
 
 use crate::column::Column;
-use crate::deviation::Sources;
 use crate::report::{Report, norms_mm};
 use crate::robot::Joints;
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
+use std::ops::Range;
 use xxhash_rust::xxh3::Xxh3;
 
-impl Report {
-    /// All columns. Desired, forces and positions are in the base frame.
-    pub fn columns(&self) -> Vec<Column> {
-        let trajectory = &self.plan.trajectory;
-        let scaled = |values: &[f64], unit: f64| values.iter().map(|v| v / unit).collect::<Vec<f64>>();
-        let time = (0..trajectory.len()).map(|k| k as f64 * trajectory.sample_time).collect();
-        let mut columns = vec![
-            Column::new("time_s", "Time", "s", time),
-            Column::new("arc_length_mm", "Arc length", "mm", scaled(&trajectory.pace.arc_length, MM)),
-        ];
-        columns.extend(xyz("desired", "Desired", "mm", &trajectory.position, MM));
-        columns.extend(joints("q", "Joint", &self.joints.q));
-        columns.extend(joints("shaped_q", "Shaped joint", &self.before.q));
-        columns.extend(xyz("force", "Force", "n", &self.before.force, 1.0));
-        columns.extend(xyz("deflection", "Deflection", "mm", &self.before.deflection, MM));
-        columns.extend(xyz("actual", "Actual", "mm", &self.before.actual, MM));
-        let norm =
-            |key: &str, label: &str, errors: &[Vector3<f64>]| Column::new(key, label, "mm", norms_mm(errors));
-        columns.push(norm("contour_error_mm", "Contour error before", &self.before.contour_error));
-        columns.extend(xyz("compensated", "Compensated", "mm", &self.commanded(), MM));
-        columns.push(norm("after_contour_error_mm", "Contour error after", &self.after.contour_error));
-        columns.push(Column::new("feed_mm_s", "Feed", "mm/s", scaled(&trajectory.pace.speed, MM)));
-        let force_alone = &self.deflection_only.contour_error;
-        columns.push(norm("deflection_contour_error_mm", "Contour error by deflection alone", force_alone));
-        let shaping_alone = &self.shaping_only.contour_error;
-        columns.push(norm("shaping_contour_error_mm", "Contour error by shaping alone", shaping_alone));
-        columns.extend(xyz("shaped", "Shaped", "mm", &self.shaping_only.actual, MM));
-        columns.extend(xyz("after_actual", "Actual after", "mm", &self.after.actual, MM));
-        columns.extend(joints("compensated_q", "Compensated joint", &self.compensation.q));
-        let tracking: Vec<_> = trajectory
-            .position
-            .iter()
-            .zip(&self.before.actual)
-            .map(|(desired, actual)| desired - actual)
-            .collect();
-        columns.push(norm("tracking_error_mm", "Tracking error before (eq. 5.1)", &tracking));
-        for (axis, name) in ["i", "j", "k"].into_iter().enumerate() {
-            let values = trajectory.axis.iter().map(|v| v[axis]).collect();
-            columns.push(Column::new(format!("tool_axis_{name}"), format!("Tool axis {name}"), "", values));
-        }
-        for (axis, name) in ["i", "j", "k"].into_iter().enumerate() {
-            let values = self.compensation.axis.iter().map(|v| v[axis]).collect();
-            columns.push(Column::new(
-                format!("compensated_axis_{name}"),
-                format!("Compensated axis {name}"),
-                "",
-                values,
-            ));
-        }
-        let tilt = |key, label, errors: &[f64]| Column::new(key, label, "deg", scaled(errors, DEG));
-        columns.push(tilt("axis_error_deg", "Tool axis error before", &self.before.axis_error));
-        columns.push(tilt("after_axis_error_deg", "Tool axis error after", &self.after.axis_error));
-        // As the force has it: a shaped tool arrives later, and between cutting and not it is partly both.
-        let mut cuts = self.plan.pace(Sources::ALL).engaged;
-        for share in cuts.iter_mut().filter(|share| (**share - share.round()).abs() < 1e-12) {
-            *share = share.round();
-        }
-        columns.push(Column::new("cuts", "Cuts", "", cuts));
-        let path = &self.plan.path;
-        let lines =
-            trajectory.pace.arc_length.iter().map(|&s| path.moves()[path.locate(s).0].line as f64).collect();
-        columns.push(Column::new("program_line", "Line of the program", "", lines));
-        if self.spin.is_some() {
-            let angles = trajectory.pace.arc_length.iter().map(|&s| path.spin(s) / DEG).collect();
-            columns.push(Column::new("spin_deg", "Spin about the tool axis", "deg", angles));
-        }
-        columns
+/// A column of a report whose values are only made when they are asked for: of a long run, all columns at once are half a gigabyte.
+pub struct Series<'a> {
+    /// See [`Column::key`].
+    pub key: String,
+    /// See [`Column::label`].
+    pub label: String,
+    /// See [`Column::unit`].
+    pub unit: &'static str,
+    values: Box<dyn Fn(Range<usize>) -> Vec<f64> + 'a>,
+    samples: usize,
+}
+
+impl<'a> Series<'a> {
+    fn new(
+        key: impl Into<String>,
+        label: impl Into<String>,
+        unit: &'static str,
+        samples: usize,
+        values: impl Fn(Range<usize>) -> Vec<f64> + 'a,
+    ) -> Self {
+        Self { key: key.into(), label: label.into(), unit, values: Box::new(values), samples }
     }
 
-    /// Hash over the bits of all columns (XXH3, 128 bit): the same job gives the same one natively and in every browser.
-    pub fn fingerprint(&self) -> String {
-        fingerprint(&self.columns())
+    /// The column.
+    pub fn column(&self) -> Column {
+        Column::new(self.key.as_str(), self.label.as_str(), self.unit, self.values(0..self.samples))
+    }
+
+    /// Its values at some samples.
+    pub fn values(&self, samples: Range<usize>) -> Vec<f64> {
+        (self.values)(samples.start.min(self.samples)..samples.end.min(self.samples))
     }
 }
 
-/// Hash over names and bits of columns.
-pub fn fingerprint(columns: &[Column]) -> String {
-    let mut hash = Xxh3::new();
-    let mut bytes = Vec::new();
-    for column in columns {
-        hash.update(column.key.as_bytes());
-        bytes.clear();
-        bytes.extend(column.values.iter().flat_map(|value| value.to_le_bytes()));
-        hash.update(&bytes);
+impl Report {
+    /// All columns at once; [`Report::series`] makes one at a time.
+    pub fn columns(&self) -> Vec<Column> {
+        self.series().iter().map(Series::column).collect()
     }
-    format!("{:032x}", hash.digest128())
+
+    /// What the columns are, in their order. Desired, forces and positions are in the base frame.
+    pub fn series(&self) -> Vec<Series<'_>> {
+        let trajectory = &self.plan.trajectory;
+        let count = trajectory.len();
+        let time = |samples: Range<usize>| samples.map(|k| k as f64 * trajectory.sample_time).collect();
+        let mut series = vec![
+            Series::new("time_s", "Time", "s", count, time),
+            scaled("arc_length_mm", "Arc length", "mm", &trajectory.pace.arc_length, MM),
+        ];
+        series.extend(xyz("desired", "Desired", "mm", &trajectory.position, MM));
+        series.extend(joints("q", "Joint", &self.joints.q));
+        series.extend(joints("shaped_q", "Shaped joint", &self.before.q));
+        series.extend(xyz("force", "Force", "n", &self.before.force, 1.0));
+        series.extend(xyz("deflection", "Deflection", "mm", &self.before.deflection, MM));
+        series.extend(xyz("actual", "Actual", "mm", &self.before.actual, MM));
+        series.push(norm("contour_error_mm", "Contour error before", &self.before.contour_error));
+        let (desired, correction) = (&trajectory.position, &self.compensation.correction);
+        series.extend(xyz_of("compensated", "Compensated", "mm", count, move |axis, samples| {
+            samples.map(|k| (desired[k][axis] + correction[k][axis]) / MM).collect()
+        }));
+        series.push(norm("after_contour_error_mm", "Contour error after", &self.after.contour_error));
+        series.push(scaled("feed_mm_s", "Feed", "mm/s", &trajectory.pace.speed, MM));
+        let force_alone = &self.deflection_only.contour_error;
+        series.push(norm("deflection_contour_error_mm", "Contour error by deflection alone", force_alone));
+        let shaping_alone = &self.shaping_only.contour_error;
+        series.push(norm("shaping_contour_error_mm", "Contour error by shaping alone", shaping_alone));
+        series.extend(xyz("shaped", "Shaped", "mm", &self.shaping_only.actual, MM));
+        series.extend(xyz("after_actual", "Actual after", "mm", &self.after.actual, MM));
+        series.extend(joints("compensated_q", "Compensated joint", &self.compensation.q));
+        let actual = &self.before.actual;
+        let tracking =
+            |samples: Range<usize>| samples.map(|k| (desired[k] - actual[k]).norm() / MM).collect();
+        series.push(Series::new(
+            "tracking_error_mm",
+            "Tracking error before (eq. 5.1)",
+            "mm",
+            count,
+            tracking,
+        ));
+        series.extend(ijk("tool_axis", "Tool axis", &trajectory.axis));
+        series.extend(ijk("compensated_axis", "Compensated axis", &self.compensation.axis));
+        series.push(scaled("axis_error_deg", "Tool axis error before", "deg", &self.before.axis_error, DEG));
+        series.push(scaled(
+            "after_axis_error_deg",
+            "Tool axis error after",
+            "deg",
+            &self.after.axis_error,
+            DEG,
+        ));
+        // As the force has it: a shaped tool arrives later, and between cutting and not it is partly both.
+        series.push(Series::new("cuts", "Cuts", "", count, |samples| {
+            let shaped = self.plan.shaper.apply(&trajectory.pace.engaged, trajectory.sample_time);
+            let whole =
+                |share: &f64| if (share - share.round()).abs() < 1e-12 { share.round() } else { *share };
+            shaped[samples].iter().map(whole).collect()
+        }));
+        let (path, along) = (&self.plan.path, &trajectory.pace.arc_length);
+        series.push(Series::new("program_line", "Line of the program", "", count, move |samples| {
+            along[samples].iter().map(|&s| path.moves()[path.locate(s).0].line as f64).collect()
+        }));
+        if self.spin.is_some() {
+            series.push(Series::new("spin_deg", "Spin about the tool axis", "deg", count, move |samples| {
+                along[samples].iter().map(|&s| path.spin(s) / DEG).collect()
+            }));
+        }
+        series
+    }
+
+    /// Hash over names and bits of all columns (XXH3, 128 bit): the same job gives the same one natively and in every browser.
+    pub fn fingerprint(&self) -> String {
+        let mut hash = Xxh3::new();
+        let mut bytes = Vec::new();
+        for series in self.series() {
+            hash.update(series.key.as_bytes());
+            bytes.clear();
+            bytes.extend(series.values(0..self.samples()).iter().flat_map(|value| value.to_le_bytes()));
+            hash.update(&bytes);
+        }
+        format!("{:032x}", hash.digest128())
+    }
+}
+
+/// A column of numbers in other units.
+fn scaled<'a>(key: &str, label: &str, unit: &'static str, values: &'a [f64], factor: f64) -> Series<'a> {
+    Series::new(key, label, unit, values.len(), move |samples| {
+        values[samples].iter().map(|v| v / factor).collect()
+    })
+}
+
+/// The lengths of vectors.
+fn norm<'a>(key: &str, label: &str, errors: &'a [Vector3<f64>]) -> Series<'a> {
+    Series::new(key, label, "mm", errors.len(), |samples| norms_mm(&errors[samples]))
 }
 
 /// Columns `key_x_unit`, `key_y_unit`, `key_z_unit`.
-fn xyz(key: &str, label: &str, unit: &'static str, vectors: &[Vector3<f64>], factor: f64) -> [Column; 3] {
+fn xyz<'a>(
+    key: &str,
+    label: &str,
+    unit: &'static str,
+    vectors: &'a [Vector3<f64>],
+    factor: f64,
+) -> [Series<'a>; 3] {
+    xyz_of(key, label, unit, vectors.len(), move |axis, samples| {
+        vectors[samples].iter().map(|v| v[axis] / factor).collect()
+    })
+}
+
+/// The same of values by axis.
+fn xyz_of<'a>(
+    key: &str,
+    label: &str,
+    unit: &'static str,
+    samples: usize,
+    values: impl Fn(usize, Range<usize>) -> Vec<f64> + Copy + 'a,
+) -> [Series<'a>; 3] {
     let read = if unit == "n" { "N" } else { unit };
     [0, 1, 2].map(|axis| {
         let name = ["x", "y", "z"][axis];
-        let values = vectors.iter().map(|v| v[axis] / factor).collect();
-        Column::new(format!("{key}_{name}_{unit}"), format!("{label} {name}"), read, values)
+        let (key, label) = (format!("{key}_{name}_{unit}"), format!("{label} {name}"));
+        Series::new(key, label, read, samples, move |samples| values(axis, samples))
+    })
+}
+
+/// Columns `key_i`, `key_j`, `key_k`.
+fn ijk<'a>(key: &str, label: &str, axes: &'a [Vector3<f64>]) -> [Series<'a>; 3] {
+    [0, 1, 2].map(|axis| {
+        let name = ["i", "j", "k"][axis];
+        let values = move |samples: Range<usize>| axes[samples].iter().map(|v| v[axis]).collect();
+        Series::new(format!("{key}_{name}"), format!("{label} {name}"), "", axes.len(), values)
     })
 }
 
 /// Columns `key1_deg` to `key6_deg`.
-fn joints(key: &str, label: &str, q: &[Joints]) -> [Column; 6] {
+fn joints<'a>(key: &str, label: &str, q: &'a [Joints]) -> [Series<'a>; 6] {
     [0, 1, 2, 3, 4, 5].map(|i| {
-        let values = q.iter().map(|q| q[i] / DEG).collect();
-        Column::new(format!("{key}{}_deg", i + 1), format!("{label} {}", i + 1), "deg", values)
+        let values = move |samples: Range<usize>| q[samples].iter().map(|q| q[i] / DEG).collect();
+        Series::new(format!("{key}{}_deg", i + 1), format!("{label} {}", i + 1), "deg", q.len(), values)
     })
 }

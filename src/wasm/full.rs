@@ -63,6 +63,11 @@ impl Run {
         }
     }
 
+    /// Some rows of `columns-csv`, of the samples `from` up to but without `to`; the first comes with the header.
+    pub fn columns_csv(&self, from: usize, to: usize) -> String {
+        export::csv::rows(&self.report, from..to)
+    }
+
     /// Contour error [mm] that comes out of a program (`gcode`, `apt` or `path-csv`), read back and sent through the model.
     #[wasm_bindgen(unchecked_return_type = "Statistics")]
     pub fn replay(&self, format: &str) -> Result<JsValue, JsValue> {

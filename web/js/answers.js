@@ -1,6 +1,7 @@
 // The Worker's side of core.js: owns one Run of the WebAssembly core and answers questions about it.
 
 const PROGRESS_MS = 40;
+const ROWS = 20_000; // of a file written at a time
 const FULL = new Set(["export", "replay", "thesis", "identify", "extent", "survey"]); // questions that only the full core answers
 
 let armill; // the core in use: the small or the full one, behind the same interface
@@ -33,7 +34,7 @@ const answers = {
   track: (most) => run.track(most),
   chart: (name, options) => run.chart(name, options),
   data: (name, units) => run.chart_data(name, units),
-  export: (format) => run.export(format),
+  export: (format) => (format === "columns-csv" ? columnsFile() : run.export(format)),
   replay: (format) => run.replay(format),
   /** Makes ready for the next job: with the first result shown, there is time to load the full core. */
   async prepare() {
@@ -53,6 +54,14 @@ const answers = {
   survey: (json, places) => surveyOf(json).places(places),
   trap: () => armill.trap(),
 };
+
+/** All columns as a file. A long run is a gigabyte of text, more than a string holds: the browser keeps the parts on its disk. */
+function columnsFile() {
+  const samples = run.column("time_s").length;
+  const parts = [];
+  for (let from = 0; from < samples; from += ROWS) parts.push(new Blob([run.columns_csv(from, from + ROWS)]));
+  return new Blob(parts);
+}
 
 function release() {
   run?.free();

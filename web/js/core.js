@@ -87,7 +87,7 @@ export const frames = (sample) => askShown("frames", sample);
 /** The paths of the shown result in at most about `most` rows, as a Float64Array. */
 export const track = (most) => askShown("track", most);
 
-/** The shown result as text, "columns-csv" or "compensated-csv". */
+/** The shown result as text; "columns-csv" as a Blob of it. */
 export const exported = (format) => askShown("export", format);
 
 /** Mean and largest contour error [mm] of the shown result's program, read back and run. */

@@ -2,7 +2,7 @@
 
 import { make } from "./dom.js";
 
-/** Saves `text` under `name`; nothing leaves the browser. */
+/** Saves `text`, a string or a Blob, under `name`; nothing leaves the browser. */
 export function download(name, type, text) {
   const address = URL.createObjectURL(new Blob([text], { type }));
   make("a", { href: address, download: name }).click();
