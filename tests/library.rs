@@ -8,10 +8,10 @@ mod common;
 
 use armill::math::Pose;
 use armill::robot::library::{self, RULE_PAYLOAD, RULE_STIFFNESS};
-use armill::robot::{Joints, Robot, forward, inverse};
+use armill::robot::{Joints, Robot, compliance, forward, inverse, jacobian};
 use common::peer::peer;
 use common::{any_joints, run};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use rs_opw_kinematics::kinematic_traits::Kinematics;
 use serde_json::json;
 use std::collections::BTreeSet;
@@ -114,9 +114,54 @@ fn forward_and_inverse_agree_with_another_authors() {
     let [places, turns, angles] = [places, turns, angles].map(quantiles);
     println!("q75, q99, max: position {places:?} m, rotation {turns:?}, {count} solutions {angles:?} rad");
     assert!(count > 20_000, "{count} solutions were compared");
-    // Both are double precision over 3 m: rounding.
+    // Both are double precision over 3 m: rounding. Up to 0.05 from a singularity angles have twenty times that of the pose, and sums of them more.
     assert!(places[2] < 1e-14 && turns[2] < 1e-14);
     assert!(angles[0] < 1e-14 && angles[1] < 1e-13 && angles[2] < 1e-11, "{angles:?}");
+}
+
+/// Differences of the other author's forward model stand for the Jacobian, and C_x = J C_theta J^T (eq. 3.48) is built from them.
+#[test]
+fn jacobian_and_compliance_agree_with_differences_of_another_authors_poses() {
+    let mut random = fastrand::Rng::with_seed(43);
+    let (mut jacobians, mut compliances) = (Vec::new(), Vec::new());
+    let h = 1e-4;
+    for preset in library::robots() {
+        let (ours, theirs) = (robot(&preset), peer(&preset));
+        for _ in 0..60 {
+            let q = any_joints(&mut random);
+            let pose = |i: usize, step: f64| {
+                let mut q: [f64; 6] = q.into();
+                q[i] += step;
+                pose_of(&theirs.forward(&q))
+            };
+            let columns: [Vector6<f64>; 6] = std::array::from_fn(|i| {
+                // Four points: the error is of the fourth power of the step.
+                let difference = |f: &dyn Fn(&Pose) -> Vector3<f64>| {
+                    let at = |part: f64| f(&pose(i, part * h));
+                    ((at(1.0) - at(-1.0)) * 8.0 - (at(2.0) - at(-2.0))) / (12.0 * h)
+                };
+                let here = pose(i, 0.0);
+                let way = difference(&|pose| pose.position);
+                let axis = |k: usize| here.rotation.column(k).into_owned();
+                let turned =
+                    |k: usize| axis(k).cross(&difference(&|pose| pose.rotation.column(k).into_owned()));
+                let turn = (turned(0) + turned(1) + turned(2)) / 2.0;
+                Vector6::new(way.x, way.y, way.z, turn.x, turn.y, turn.z)
+            });
+            let j = Matrix6::from_columns(&columns);
+            jacobians.push((jacobian::jacobian(&ours, &q) - j).norm() / j.norm());
+            let c = j * Matrix6::from_diagonal(&preset.joint_compliance.into()) * j.transpose();
+            compliances.push((compliance::cartesian_compliance(&ours, &q) - c).norm() / c.norm());
+        }
+    }
+    let count = jacobians.len();
+    let [jacobians, compliances] = [jacobians, compliances].map(quantiles);
+    println!("q75, q99, max of {count}: Jacobian {jacobians:?}, compliance {compliances:?}, relative");
+    assert!(count > 4000);
+    // Rounding of poses over the step, 4e-16 * 3 m / 1e-4, is a few 1e-12 of a lever arm; the step's fourth power is less.
+    for [q75, q99, max] in [jacobians, compliances] {
+        assert!(q75 < 1e-11 && q99 < 2e-11 && max < 1e-10, "{q75}, {q99}, {max}");
+    }
 }
 
 #[test]

@@ -1,0 +1,193 @@
+//! The cut by sums over small steps of height and angle (eqs. 4.1 to 4.7), and the tool as a beam of small slices.
+
+use nalgebra::Vector3;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Where the part stands.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Part {
+    /// Between two immersion angles [rad].
+    Angles(f64, f64),
+    /// Right of the feed, so deep in the tool's way [m].
+    Right(f64),
+    /// Left of the feed.
+    Left(f64),
+    /// On both sides.
+    Both,
+}
+
+/// Cutting coefficients as a job gives them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Stock {
+    /// Tangential, radial and axial [N/m^2]; the same of the edge [N/m].
+    Linear([f64; 3], [f64; 3]),
+    /// k_c1.1 [N/mm^2], m_c, radial and axial share, whether the line is the secant, the chip it is made at [m], if that is given.
+    Kienzle { kc11: f64, mc: f64, radial: f64, axial: f64, secant: bool, chip: Option<f64> },
+}
+
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Cut {
+    /// [m]
+    pub(crate) diameter: f64,
+    pub(crate) flutes: f64,
+    /// [m]
+    pub(crate) corner: f64,
+    /// [m]
+    pub(crate) depth: f64,
+    pub(crate) part: Part,
+    pub(crate) stock: Stock,
+    /// [deg]
+    pub(crate) rake: f64,
+    /// Feed per tooth [m]; `None`: from the feed.
+    pub(crate) chip: Option<f64>,
+    /// Revolutions in a second.
+    pub(crate) spindle: f64,
+    /// Feed of the job [m/s].
+    pub(crate) feed: f64,
+}
+
+/// Force for 1 m of feed per tooth, and without any, in the cutting frame.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Force {
+    pub(crate) cutting: Vector3<f64>,
+    pub(crate) edge: Vector3<f64>,
+}
+
+impl Cut {
+    /// Feed per tooth [m].
+    pub(crate) fn per_tooth(&self, speed: f64, spindle: Option<f64>) -> f64 {
+        self.chip.unwrap_or(speed / (self.flutes * spindle.unwrap_or(self.spindle)))
+    }
+
+    /// Calls `each` for every bit of one edge and every angle at which it is in the part: immersion angle, angle of the edge's normal to the axis, height,
+    /// length of the edge, step of the angle.
+    fn sweep(&self, mut each: impl FnMut(f64, f64, f64, f64, f64)) {
+        let outer = self.diameter / 2.0;
+        let mut bits = Vec::new();
+        if self.corner > 0.0 {
+            let radius = |kappa: f64| outer - self.corner + self.corner * kappa.sin();
+            let top = (1.0 - self.depth / self.corner).clamp(0.0, 1.0).acos();
+            // Below this the corner does not come to the part's plane.
+            let plane = match self.part {
+                Part::Left(depth) | Part::Right(depth) => outer - depth,
+                _ => f64::NEG_INFINITY,
+            };
+            let low = (0..=60).fold((0.0, top), |(a, b): (f64, f64), _| {
+                if radius((a + b) / 2.0) > plane { (a, (a + b) / 2.0) } else { ((a + b) / 2.0, b) }
+            });
+            let low = if radius(0.0) >= plane { 0.0 } else { low.1 };
+            // Steps that grow evenly from there: the angle of engagement starts like a square root.
+            let count = 300;
+            for k in 0..count {
+                let (a, b) = (f64::from(k) / f64::from(count), f64::from(k + 1) / f64::from(count));
+                let kappa = low + (top - low) * ((a + b) / 2.0).powi(2);
+                let edge = self.corner * (top - low) * (b * b - a * a);
+                bits.push((radius(kappa), kappa, edge * kappa.sin(), edge));
+            }
+        }
+        if self.depth > self.corner {
+            let rest = self.depth - self.corner;
+            bits.push((outer, FRAC_PI_2, rest, rest));
+        }
+        let steps = if self.corner > 0.0 { 300 } else { 3000 };
+        for (radius, kappa, height, edge) in bits {
+            // A tooth at the angle phi is at the height radius cos(phi) above the plane through the axis along the feed.
+            let (from, to) = match self.part {
+                Part::Angles(from, to) => (from, to),
+                Part::Both => (0.0, PI),
+                Part::Left(depth) | Part::Right(depth) => {
+                    let share = (outer - depth) / radius;
+                    if share >= 1.0 {
+                        continue;
+                    }
+                    let angle = share.max(-1.0).acos();
+                    if matches!(self.part, Part::Left(_)) { (0.0, angle) } else { (PI - angle, PI) }
+                }
+            };
+            let step = (to - from) / f64::from(steps);
+            for k in 0..steps {
+                each(from + step * (f64::from(k) + 0.5), kappa, height, edge, step);
+            }
+        }
+    }
+
+    /// Mean thickness of the chip [m] at the feed per tooth `c`.
+    fn mean_chip(&self, c: f64) -> f64 {
+        let (mut sum, mut way) = (0.0, 0.0);
+        self.sweep(|phi, kappa, _, edge, step| {
+            sum += c * phi.sin() * kappa.sin() * edge * step;
+            way += edge * step;
+        });
+        sum / way
+    }
+
+    /// Whether coefficients are to be made for the mean of chips below a micrometre, where no table reaches.
+    pub(crate) fn too_thin(&self) -> bool {
+        let made = matches!(self.stock, Stock::Kienzle { chip: None, .. });
+        let mean = || self.mean_chip(self.per_tooth(self.feed, None));
+        // Without any contact it is no number.
+        made && (mean().is_nan() || mean() < 1e-6)
+    }
+
+    /// Cutting [N/m^2] and edge coefficients [N/m].
+    fn coefficients(&self) -> ([f64; 3], [f64; 3]) {
+        match self.stock {
+            Stock::Linear(cutting, edge) => (cutting, edge),
+            Stock::Kienzle { kc11, mc, radial, axial, secant, chip } => {
+                let at = chip.unwrap_or_else(|| self.mean_chip(self.per_tooth(self.feed, None)));
+                // Force for each metre of edge [N/m] over the chip [m], and its slope by central differences.
+                let force = |h: f64| kc11 * 1e3 * (h * 1e3).powf(1.0 - mc) * (1.0 - self.rake / 100.0);
+                let slope = (force(at * 1.00001) - force(at * 0.99999)) / (at * 2e-5);
+                let (k, e) = if secant { (force(at) / at, 0.0) } else { (slope, force(at) - slope * at) };
+                ([k, k * radial, k * axial], [e, e * radial, e * axial])
+            }
+        }
+    }
+
+    /// Mean over a revolution of the force of all teeth.
+    pub(crate) fn mean_force(&self) -> Force {
+        let ([ktc, krc, kac], [kte, kre, kae]) = self.coefficients();
+        let mut force = Force { cutting: Vector3::zeros(), edge: Vector3::zeros() };
+        self.sweep(|phi, kappa, _, edge, step| {
+            let (sin, cos) = phi.sin_cos();
+            let (out, along) = (Vector3::new(sin, cos, 0.0), Vector3::new(-cos, sin, 0.0));
+            // Away from the part along the normal, and along the profile.
+            let normal = -(out * kappa.sin() - Vector3::z() * kappa.cos());
+            let profile = out * kappa.cos() + Vector3::z() * kappa.sin();
+            let push = |[t, r, a]: [f64; 3]| along * t + normal * r + profile * a;
+            let share = self.flutes * edge * step / TAU;
+            force.cutting += push([ktc, krc, kac]) * (sin * kappa.sin() * share);
+            force.edge += push([kte, kre, kae]) * share;
+        });
+        force
+    }
+}
+
+/// A bar clamped in its holder.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Beam {
+    /// [Pa]
+    pub(crate) modulus: f64,
+    /// Length, fluted length, diameter of the tool, diameter of the shank [m].
+    pub(crate) lengths: [f64; 4],
+}
+
+impl Beam {
+    /// Way [m/N] and turn [rad/N] of the tip: the moment's curvature, summed up from the holder on.
+    pub(crate) fn tip(&self) -> (f64, f64) {
+        let [length, fluted, tool, shank] = self.lengths;
+        let border = fluted.min(length);
+        let (mut way, mut turn) = (0.0, 0.0);
+        for (from, to, diameter) in [(0.0, border, 0.8 * tool), (border, length, shank)] {
+            let count = 2000;
+            let step = (to - from) / f64::from(count);
+            for k in 0..count {
+                let x = from + step * (f64::from(k) + 0.5);
+                let curvature = x / (self.modulus * PI * diameter.powi(4) / 64.0);
+                way += curvature * x * step;
+                turn += curvature * step;
+            }
+        }
+        (way, turn)
+    }
+}
