@@ -9,13 +9,14 @@
 //!
 //! [`Shaper::undo`]: crate::motion::Shaper::undo
 
-use crate::deviation::{Deviation, Plan, Sources, contour, deviate};
+use crate::deviation::{Deviation, Passage, Plan, contour, deviate};
 use crate::error::Error;
+use crate::motion::Trajectory;
 use crate::motion::joints::{StartBranch, joint_trajectory};
-use crate::motion::{Pace, Trajectory};
 use crate::path::Path;
 use crate::robot::Joints;
 use nalgebra::Vector3;
+use std::sync::Arc;
 
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,7 +37,7 @@ pub struct Compensation {
     /// Joint commands for the corrected path [rad].
     pub q: Vec<Joints>,
     /// What becomes of them: the same model, sent through again.
-    pub result: Deviation,
+    pub result: Arc<Deviation>,
     /// Largest contour error before the first pass and after each [m].
     pub history_max: Vec<f64>,
     /// Mean contour error before the first pass and after each [m].
@@ -54,20 +55,19 @@ const AIM: f64 = 0.1;
 /// A pass that leaves more than this share of the error is no improvement.
 const IMPROVEMENT: f64 = 0.99;
 
-/// Corrects the path for the sources in `acting` until the largest contour error is well within the tolerance (a tenth of it), the
+/// Corrects the path for the sources that act in `passage` until the largest contour error is well within the tolerance (a tenth of it), the
 /// passes are used up, or a pass no longer improves; the best pass is kept. A path that is within the tolerance is left alone. `before` is [`deviate`] of the joint commands `q` with the same sources.
 ///
 /// `on_pass` is told the number of passes done.
 pub fn compensate(
     plan: &Plan,
+    passage: &Passage,
     start: StartBranch,
     q: &[Joints],
-    before: &Deviation,
-    acting: Sources,
+    before: &Arc<Deviation>,
     goal: Goal,
     mut on_pass: impl FnMut(usize),
 ) -> Compensation {
-    let pace = plan.pace(acting);
     let (mean, max) = contour::mean_and_max(&before.contour_error);
     let mut best = Compensation {
         correction: vec![Vector3::zeros(); q.len()],
@@ -86,10 +86,10 @@ pub fn compensate(
         }
         let Trajectory { sample_time, moving, .. } = plan.trajectory;
         let undone = |missing: Vec<Vector3<f64>>| {
-            if acting.shaping { plan.shaper.undo(&missing, sample_time, moving) } else { missing }
+            if passage.acting.shaping { plan.shaper.undo(&missing, sample_time, moving) } else { missing }
         };
         let (correction, axis) =
-            corrected(&plan.path, &pace, &best.result, (&best.correction, &best.axis), undone);
+            corrected(&plan.path, passage, &best.result, (&best.correction, &best.axis), undone);
         let positions: Vec<_> =
             plan.trajectory.position.iter().zip(&correction).map(|(desired, c)| desired + c).collect();
         let commands =
@@ -100,7 +100,7 @@ pub fn compensate(
                     break;
                 }
             };
-        let result = deviate(plan, &pace, &commands, acting);
+        let result = Arc::new(deviate(plan, passage, &commands));
         let (mean, max) = contour::mean_and_max(&result.contour_error);
         on_pass(pass);
         let least = best.history_max[best.passes];
@@ -122,24 +122,24 @@ pub fn compensate(
     best
 }
 
-/// A correction [m] and tool axes, one a sample, with what `result` is missing at the places of `pace`: `undone` turns the vectors that are
+/// A correction [m] and tool axes, one a sample, with what `result` is missing at the places of `passage`: `undone` turns the vectors that are
 /// missing into those to add to the commands.
 pub(crate) fn corrected(
     path: &Path,
-    pace: &Pace,
+    passage: &Passage,
     result: &Deviation,
     (correction, axis): (&[Vector3<f64>], &[Vector3<f64>]),
     undone: impl Fn(Vec<Vector3<f64>>) -> Vec<Vector3<f64>>,
 ) -> (Vec<Vector3<f64>>, Vec<Vector3<f64>>) {
-    let where_to = pace.arc_length.iter();
-    let missing = where_to.clone().zip(&result.actual).map(|(&s, actual)| path.point(s) - actual);
+    let missing = passage.target.iter().zip(&result.actual).map(|(target, actual)| target - actual);
     let more = undone(missing.collect());
     let correction = correction.iter().zip(&more).map(|(c, more)| c + more).collect();
     if !path.is_multi_axis() {
         return (correction, axis.to_vec());
     }
     // The turn that is missing, as a rotation vector: its size is the sine of the angle, small and soon exact.
-    let missing = where_to.zip(&result.axis).map(|(&s, actual)| actual.cross(&path.axis(s)));
+    let wanted = passage.pace.arc_length.iter().map(|&s| path.axis(s));
+    let missing = wanted.zip(&result.axis).map(|(wanted, actual)| actual.cross(&wanted));
     let turns = undone(missing.collect());
     let turned = axis.iter().zip(&turns).map(|(axis, turn)| (axis + turn.cross(axis)).normalize());
     (correction, turned.collect())

@@ -63,7 +63,38 @@ pub fn pow(x: f64, y: f64) -> f64 {
 
 /// The angle equal to `angle` modulo a full turn that is nearest to `near` [rad].
 pub fn nearest_turn(angle: f64, near: f64) -> f64 {
-    angle - TAU * ((angle - near) / TAU).round()
+    let turns = (angle - near) / TAU;
+    // Rounded by what WebAssembly has an instruction for; `round` is a call there.
+    angle - TAU * (turns + 0.5_f64.copysign(turns)).trunc()
+}
+
+/// An angle by its sine and cosine: what a closed form finds first, and what a rotation is made of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turn {
+    /// Sine.
+    pub sin: f64,
+    /// Cosine.
+    pub cos: f64,
+}
+
+impl Turn {
+    /// Of an angle [rad].
+    pub fn of(angle: f64) -> Self {
+        let (sin, cos) = sin_cos(angle);
+        Self { sin, cos }
+    }
+
+    /// From the direction of one point (x, y) to that of another; none where a point is the origin.
+    pub fn between(from: (f64, f64), to: (f64, f64)) -> Self {
+        let (dot, cross) = (from.0 * to.0 + from.1 * to.1, from.0 * to.1 - from.1 * to.0);
+        let size = (dot * dot + cross * cross).sqrt();
+        if size > 0.0 { Self { sin: cross / size, cos: dot / size } } else { Self { sin: 0.0, cos: 1.0 } }
+    }
+
+    /// The angle [rad], in (-pi, pi].
+    pub fn angle(self) -> f64 {
+        atan2(self.sin, self.cos)
+    }
 }
 
 /// Angle between two directions [rad], in [0, pi]; neither needs unit length.
@@ -142,6 +173,17 @@ mod tests {
         for (angle, near, expected) in [(0.1, 6.2, 0.1 + TAU), (-3.0, 3.0, -3.0 + TAU), (1.0, 0.5, 1.0)] {
             assert!((nearest_turn(angle, near) - expected).abs() < 1e-15, "{angle} near {near}");
         }
+    }
+
+    #[test]
+    fn a_turn_is_its_angle() {
+        for (from, to) in [(0.3, 2.0), (-3.0, 3.0), (1.0, 1.0), (2.0, -1.5)] {
+            let at = |angle: f64, size: f64| (size * cos(angle), size * sin(angle));
+            let turn = Turn::between(at(from, 1e-3), at(to, 2e3));
+            assert!((turn.angle() - nearest_turn(to - from, 0.0)).abs() < 1e-15, "{from} to {to}");
+            assert!((turn.sin - Turn::of(to - from).sin).abs() < 1e-15);
+        }
+        assert_eq!(Turn::between((0.0, 0.0), (1.0, 2.0)).angle(), 0.0);
     }
 
     #[test]

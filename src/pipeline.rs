@@ -4,12 +4,14 @@
 mod spin;
 
 use crate::compensation::{Goal, compensate};
-use crate::deviation::{Plan, Source, Sources, contour, deviate};
+use crate::deviation::{Passage, Plan, Source, Sources, contour, deviate, deviate_and_shape};
 use crate::error::Error;
 use crate::job::Job;
 use crate::motion::Trajectory;
 use crate::motion::joints::joint_trajectory;
 use crate::report::{Report, Warning, warning};
+use nalgebra::Vector3;
+use std::sync::Arc;
 
 /// How far a run has come.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,9 +49,9 @@ pub fn run_json(text: &str, on_progress: impl FnMut(Stage)) -> Result<Report, Er
 /// # Errors
 /// See [`run`].
 pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report, Error> {
-    // Reading, if there is a program to read; inverse, three deviations, the passes and the final run: weighed alike.
+    // Reading, if there is a program to read; inverse, two deviations, the passes and the final run: weighed alike.
     let reading = if job.path.text.is_some() { 1.0 } else { 0.0 };
-    let steps = reading + 5.0 + job.compensation.max_passes as f64;
+    let steps = reading + 4.0 + job.compensation.max_passes as f64;
     let setup =
         job.setup_with(|share| on_progress(Stage { fraction: share / steps, name: "reading the program" }))?;
     let mut tell = |step: usize, name| on_progress(Stage { fraction: (reading + step as f64) / steps, name });
@@ -72,32 +74,40 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
     let joints = joint_trajectory(&plan.robot, &plan.path, &plan.trajectory, desired, setup.start)?;
     plan.robot = plan.robot.touched_off_at(&joints.q[0]);
     let plan = plan;
-    let deviation = |acting: Sources| deviate(&plan, &plan.pace(acting), &joints.q, acting);
     tell(1, "deflection");
-    let deflection_only = deviation(Sources::only(Source::Deflection));
+    let on_time = Passage::new(&plan, &plan.trajectory.pace, Sources::only(Source::Deflection));
+    let deflection_only = Arc::new(deviate(&plan, &on_time, &joints.q));
     tell(2, "shaping");
-    let shaping_only = deviation(Sources::only(Source::Shaping));
-    tell(3, "contour error");
-    let before = deviation(Sources::ALL);
-    tell(4, "compensation");
+    let shaped_pace = plan.pace(Sources::ALL);
+    let passage = Passage::new(&plan, &shaped_pace, Sources::ALL);
+    let (before, shaping_only) = deviate_and_shape(&plan, &passage, &joints.q);
+    let (before, shaping_only) = (Arc::new(before), Arc::new(shaping_only));
+    tell(3, "compensation");
     let compensation = {
-        let known = match setup.sources {
-            Sources { deflection: true, shaping: false } => &deflection_only,
-            Sources { deflection: false, shaping: true } => &shaping_only,
-            _ => &before,
+        let without_force;
+        let (known, passage) = match setup.sources {
+            Sources { deflection: true, shaping: false } => (&deflection_only, &on_time),
+            Sources { deflection: false, shaping: true } => {
+                let force = vec![Vector3::zeros(); joints.q.len()];
+                without_force = Passage { acting: setup.sources, force, ..passage.clone() };
+                (&shaping_only, &without_force)
+            }
+            _ => (&before, &passage),
         };
         let goal = match setup.sources {
             Sources { deflection: false, shaping: false } => Goal { max_passes: 0, ..setup.goal },
             _ => setup.goal,
         };
-        let on_pass = |pass| tell(4 + pass, "compensation");
-        compensate(&plan, setup.start, &joints.q, known, acting_in_loop(setup.sources), goal, on_pass)
+        let on_pass = |pass| tell(3 + pass, "compensation");
+        compensate(&plan, passage, setup.start, &joints.q, known, goal, on_pass)
     };
-    let after = if acting_in_loop(setup.sources) == Sources::ALL {
-        compensation.result.clone()
-    } else {
-        deviate(&plan, &plan.pace(Sources::ALL), &compensation.q, Sources::ALL)
+    let after = match setup.sources {
+        Sources { deflection: true, shaping: false } | Sources { deflection: false, shaping: true } => {
+            Arc::new(deviate(&plan, &passage, &compensation.q))
+        }
+        _ => compensation.result.clone(),
     };
+    let axis_error = [&before, &after].map(|deviation| deviation.axis_errors(&plan.path, &shaped_pace));
     #[cfg(feature = "full")]
     let spin = setup.freedom.map(|freedom| spin::gain(&plan, &setup, &freedom, &joints.q, &before));
     #[cfg(not(feature = "full"))]
@@ -114,14 +124,10 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
         before,
         compensation,
         after,
+        axis_error,
         warnings,
         alone: Default::default(),
     };
     report.warnings.extend(warning::spindle(&report));
     Ok(report)
-}
-
-/// The sources that act while the correction is sought: those to be compensated; all, if none is.
-fn acting_in_loop(sources: Sources) -> Sources {
-    if sources == (Sources { deflection: false, shaping: false }) { Sources::ALL } else { sources }
 }

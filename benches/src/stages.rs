@@ -1,10 +1,11 @@
 //! The stages of the default job, each timed alone on what the earlier ones have made.
 
 use std::hint::black_box;
+use std::sync::Arc;
 
 use armill::compensation::compensate;
 use armill::cutting::along;
-use armill::deviation::{Deviation, Plan, Sources, contour, deviate};
+use armill::deviation::{Deviation, Passage, Plan, Sources, contour, deviate};
 use armill::job::Setup;
 use armill::motion::joints::{JointTrajectory, joint_trajectory};
 use armill::motion::{Pace, Trajectory};
@@ -26,7 +27,7 @@ pub struct Stages {
     plan: Plan,
     joints: JointTrajectory,
     pace: Pace,
-    before: Deviation,
+    before: Arc<Deviation>,
     report: Report,
 }
 
@@ -45,12 +46,12 @@ pub const STAGES: [Work<Stages>; 9] = [
         drop(black_box(along::forces(&s.plan.path, &s.pace, &s.plan.mean_force, &s.plan.chip)));
     }),
     ("deviation: contour error", |s| {
-        drop(black_box(contour::contour_errors(&s.plan.path, &s.pace, &s.before.actual)));
+        drop(black_box(contour::contour_errors(&s.plan.path, &s.passage(), &s.before.actual)));
     }),
-    ("deviation: whole", |s| drop(black_box(deviate(&s.plan, &s.pace, &s.joints.q, Sources::ALL)))),
+    ("deviation: whole", |s| drop(black_box(deviate(&s.plan, &s.passage(), &s.joints.q)))),
     ("compensation: all passes", |s| {
         let Setup { start, goal, .. } = s.setup;
-        drop(black_box(compensate(&s.plan, start, &s.joints.q, &s.before, Sources::ALL, goal, |_| {})));
+        drop(black_box(compensate(&s.plan, &s.passage(), start, &s.joints.q, &s.before, goal, |_| {})));
     }),
     ("report: summary", |s| drop(black_box(s.report.summary()))),
 ];
@@ -74,8 +75,14 @@ impl Stages {
         let text = job(samples);
         let report = whole(&text)?;
         let (setup, plan) = (report.setup.clone(), report.plan.clone());
-        let (joints, before, pace) = (report.joints.clone(), report.before.clone(), plan.pace(Sources::ALL));
+        let (joints, before, pace) =
+            (report.joints.clone(), report.before.clone(), plan.pace(Sources::ALL).into_owned());
         Ok(Self { text, setup, plan, joints, pace, before, report })
+    }
+
+    /// Where the tool is, and the force on it.
+    fn passage(&self) -> Passage<'_> {
+        Passage::new(&self.plan, &self.pace, Sources::ALL)
     }
 
     /// The number of samples.

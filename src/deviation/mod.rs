@@ -3,4 +3,4 @@
 pub mod contour;
 pub mod source;
 
-pub use source::{Deviation, Plan, Source, Sources, deviate, deviate_under};
+pub use source::{Deviation, Passage, Plan, Source, Sources, deviate, deviate_and_shape};

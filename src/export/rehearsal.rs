@@ -6,6 +6,7 @@
 //! [`compensate`](crate::compensation::compensate) does, filed under the instants that its samples stand for.
 
 use crate::compensation;
+use crate::deviation::{Passage, Sources};
 use crate::error::Error;
 use crate::export::command::{Command, Course, Style};
 use crate::export::replay::{self, Replay};
@@ -55,8 +56,10 @@ fn corrected(report: &Report, course: &Course, outcome: &Replay) -> Course {
         filed(&change, &outcome.instants, report)
     };
     let known = (course.correction.as_slice(), course.axis.as_slice());
-    let (correction, axis) =
-        compensation::corrected(&report.plan.path, &outcome.pace, &outcome.deviation, known, undone);
+    let Replay { pace, deviation, .. } = outcome;
+    let path = &report.plan.path;
+    let passage = Passage::under(path, pace, Sources::ALL, deviation.force.clone());
+    let (correction, axis) = compensation::corrected(path, &passage, deviation, known, undone);
     Course { correction, axis }
 }
 

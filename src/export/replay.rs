@@ -6,7 +6,7 @@
 //! never stray further from those points than they may be thinned.
 
 use crate::cutting::along;
-use crate::deviation::{Deviation, Plan, Sources, contour, deviate_under};
+use crate::deviation::{Deviation, Passage, Plan, Sources, contour, deviate};
 use crate::error::Error;
 use crate::export::command::Course;
 use crate::export::{Export, Options, export};
@@ -92,7 +92,7 @@ pub fn run(report: &Report, course: &Course, program: &Program) -> Result<Replay
     let instants = instants(&course.positions(report), &own).ok_or_else(empty)?;
     let (trajectory, share) = standing_for(report, &own, &instants);
     let plan = Plan { trajectory, ..report.plan.clone() };
-    let pace = plan.pace(Sources::ALL);
+    let pace = plan.pace(Sources::ALL).into_owned();
     let share = plan.shaper.apply(&share, own.sample_time);
     let mut force = along::forces(&plan.path, &pace, &plan.mean_force, &plan.chip);
     for ((force, share), &s) in force.iter_mut().zip(share).zip(&pace.arc_length) {
@@ -100,7 +100,7 @@ pub fn run(report: &Report, course: &Course, program: &Program) -> Result<Replay
         let along = axis * axis.dot(force);
         *force = along + (*force - along) * share;
     }
-    let deviation = deviate_under(&plan, &pace, &q, force, Sources::ALL);
+    let deviation = deviate(&plan, &Passage::under(&plan.path, &pace, Sources::ALL, force), &q);
     Ok(Replay { trajectory: plan.trajectory, pace, deviation, instants })
 }
 

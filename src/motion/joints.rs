@@ -89,18 +89,9 @@ pub(crate) fn first_solution(robot: &Robot, tcp: &Pose, start: StartBranch) -> R
 
 /// The solution nearest to the one before.
 pub(crate) fn next_solution(robot: &Robot, tcp: &Pose, last: &Solution) -> Result<Solution, Error> {
-    if let Some(solution) = inverse::continued(robot, tcp, last)
-        && inverse::closes(robot, tcp, &solution.q)
-    {
+    if let Some(solution) = inverse::continued(robot, tcp, last) {
         return Ok(solution);
     }
-    let candidates = inverse::candidates(robot, tcp, &last.q, None)?;
-    match candidates.nearest(&last.q) {
-        Some(solution) if inverse::closes(robot, tcp, &solution.q) => Ok(*solution),
-        // The closed form lost digits for this one; take the nearest that closes.
-        _ => inverse::inverse(robot, tcp, &last.q)?
-            .nearest(&last.q)
-            .copied()
-            .ok_or_else(|| inverse::unclosed(tcp)),
-    }
+    let solutions = inverse::inverse(robot, tcp, &last.q)?;
+    solutions.nearest(&last.q).copied().ok_or_else(|| inverse::unclosed(tcp))
 }

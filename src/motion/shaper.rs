@@ -98,6 +98,8 @@ fn extra_insensitive(frequency: f64, damping: f64) -> Vec<Impulse> {
 
 /// Iterations of [`Shaper::undo`]: enough to leave 1e-3 of what passes the shaper at more than 70 % of its amplitude.
 const UNDO_STEPS: usize = 10;
+/// Samples that are shaped together.
+const STRETCH: usize = 256;
 
 /// A shaper ready for use: the same for all joints.
 #[derive(Debug, Clone, PartialEq)]
@@ -158,13 +160,25 @@ impl Shaper {
                 taps.push((whole as usize + 1, amplitude * part));
             }
         }
-        let Some((&(first, share), rest)) = taps.split_first() else { return command.to_vec() };
-        let past = |k: usize, delay: usize| command[k.saturating_sub(delay)];
-        (0..command.len())
-            .map(|k| {
-                rest.iter().fold(past(k, first) * share, |sum, &(delay, share)| sum + past(k, delay) * share)
-            })
-            .collect()
+        let (Some((&(first, share), rest)), Some(&start)) = (taps.split_first(), command.first()) else {
+            return command.to_vec();
+        };
+        let mut shaped: Vec<T> =
+            (0..command.len()).map(|k| command[k.saturating_sub(first)] * share).collect();
+        // Tap by tap over stretches that stay in the processor's cache.
+        for (stretch, from) in shaped.chunks_mut(STRETCH).zip((0..).step_by(STRETCH)) {
+            for &(delay, share) in rest {
+                let held = delay.saturating_sub(from).min(stretch.len());
+                let (before, after) = stretch.split_at_mut(held);
+                for now in before {
+                    *now = *now + start * share;
+                }
+                for (now, past) in after.iter_mut().zip(&command[(from + held).saturating_sub(delay)..]) {
+                    *now = *now + *past * share;
+                }
+            }
+        }
+        shaped
     }
 
     /// The change of a command after which its shaped form has changed by `wanted`, as nearly as a shaper allows.

@@ -35,6 +35,7 @@ impl Segment {
     pub fn length(&self) -> f64 {
         match self {
             Segment::Line { from, to } => (to - from).norm(),
+            Segment::Arc { radius, sweep, rise: 0.0, .. } => radius * sweep,
             Segment::Arc { radius, sweep, rise, .. } => math::hypot(radius * sweep, *rise),
         }
     }

@@ -1,6 +1,6 @@
 //! A free spin in the pipeline: chosen before the run, compared with the fixed one after it.
 
-use crate::deviation::{Deviation, Plan, Source, Sources, contour, deviate};
+use crate::deviation::{Deviation, Passage, Plan, Source, Sources, contour, deviate};
 use crate::error::Error;
 use crate::job::Setup;
 use crate::motion::Trajectory;
@@ -16,7 +16,7 @@ pub(super) fn chosen(plan: &Plan, setup: &Setup, freedom: &Freedom) -> Path {
     let stations = Trajectory::stations(&plan.path, &setup.tempo, spin::STATIONS);
     let acting = Sources::only(Source::Deflection);
     let errors = |at: &[usize], q: &[Joints]| {
-        let errors = deviate(plan, &stations.pace.at(at), q, acting).contour_error;
+        let errors = deviate(plan, &Passage::new(plan, &stations.pace.at(at), acting), q).contour_error;
         errors.iter().map(|error| error.norm_squared()).collect()
     };
     let best = |calm| {
@@ -63,8 +63,10 @@ pub(super) fn gain(
     before: &Deviation,
 ) -> SpinGain {
     let fixed = Plan { path: setup.path.clone(), ..plan.clone() };
+    let pace = fixed.pace(Sources::ALL);
     let compared = commanded(&fixed, setup).ok().map(|held| {
-        let before = deviate(&fixed, &fixed.pace(Sources::ALL), &held.q, Sources::ALL);
+        let passage = Passage::new(&fixed, &pace, Sources::ALL);
+        let before = deviate(&fixed, &passage, &held.q);
         Effort::of(&fixed, &held.q, &before)
     });
     SpinGain::new(plan, freedom, setup.spin, Effort::of(plan, q, before), compared)
@@ -85,6 +87,6 @@ fn outcome(plan: &Plan, setup: &Setup, acting: Sources, spin: &Spin) -> (bool, f
         let ranges = tried.robot.limits().into_iter().flatten();
         ranges.zip(q.iter()).all(|((low, high), q)| (low..=high).contains(&q))
     };
-    let before = deviate(&tried, &tried.pace(acting), &joints.q, acting);
+    let before = deviate(&tried, &Passage::new(&tried, &tried.pace(acting), acting), &joints.q);
     (!joints.q.iter().all(inside), contour::mean_and_max(&before.contour_error).1)
 }

@@ -6,6 +6,7 @@
 //! contour error. A length is negative where that part alone would pull the tip back.
 
 use crate::deviation::Deviation;
+use crate::math::Pose;
 use crate::report::Report;
 use crate::robot::{compliance, forward};
 use crate::units::MM;
@@ -50,51 +51,72 @@ impl Parts {
 impl Report {
     /// What each joint's spring adds to the tip's deflection before compensation at a sample, base frame [m].
     pub fn deflection_by_joint(&self, sample: usize) -> [Vector3<f64>; 6] {
-        let Deviation { q, force, .. } = &self.before;
         let robot = &self.plan.robot;
-        let frames = forward::frames(robot, &q[sample]);
+        let frames = forward::frames(robot, &self.before.q[sample]);
         let tip = frames[5].compose(robot.tool()).position;
-        compliance::by_joint(robot, &q[sample], &frames, &tip, &force[sample]).map(|(moved, _)| moved)
+        self.given_way(sample, &frames, &tip)
+    }
+
+    fn given_way(&self, sample: usize, frames: &[Pose; 6], tip: &Vector3<f64>) -> [Vector3<f64>; 6] {
+        let Deviation { q, force, .. } = &*self.before;
+        compliance::by_joint(&self.plan.robot, &q[sample], frames, tip, &force[sample])
+            .map(|(moved, _)| moved)
     }
 
     /// What the contour error before compensation is made of.
     pub fn budget(&self) -> Budget {
-        let mut mean = Parts::default();
-        let (mut worst, mut sample) = (Parts::default(), 0);
-        for k in 0..self.samples() {
-            let parts = self.parts(k);
-            for (sum, part) in mean.joints.iter_mut().zip(parts.joints) {
-                *sum += part;
-            }
-            mean.tool += parts.tool;
-            mean.shaping += parts.shaping;
-            mean.total += parts.total;
-            if parts.total > worst.total {
-                (worst, sample) = (parts, k);
-            }
-        }
-        let count = self.samples() as f64;
-        let mean_mm = Parts {
-            joints: mean.joints.map(|sum| sum / count),
-            tool: mean.tool / count,
-            shaping: mean.shaping / count,
-            total: mean.total / count,
-        };
-        let time_s = sample as f64 * self.plan.trajectory.sample_time;
-        Budget { sample, time_s, worst_mm: worst, mean_mm, sentence: sentence(&worst) }
+        self.budget_and_walls().0
     }
 
-    fn parts(&self, k: usize) -> Parts {
+    /// Its parts at a sample where the arm's frames and tip are these.
+    pub(super) fn parts(&self, k: usize, frames: &[Pose; 6], tip: &Vector3<f64>) -> Parts {
         let error = self.before.contour_error[k];
         let total = error.norm();
         let Some(away) = (-error).try_normalize(0.0) else { return Parts::default() };
-        let joints = self.deflection_by_joint(k).map(|moved| moved.dot(&away) / MM);
+        let joints = self.given_way(k, frames, tip).map(|moved| moved.dot(&away) / MM);
         let shaping = (-error - self.before.deflection[k]).dot(&away) / MM;
         let tool = match self.plan.bending {
             Some(_) => self.before.deflection[k].dot(&away) / MM - joints.iter().sum::<f64>(),
             None => 0.0,
         };
         Parts { joints, tool, shaping, total: total / MM }
+    }
+}
+
+/// A budget while it is added up.
+#[derive(Default)]
+pub(super) struct Sum {
+    sum: Parts,
+    worst: Parts,
+    sample: usize,
+    count: f64,
+}
+
+impl Sum {
+    pub(super) fn take(&mut self, k: usize, parts: Parts) {
+        let Self { sum, worst, .. } = self;
+        for (sum, part) in sum.joints.iter_mut().zip(parts.joints) {
+            *sum += part;
+        }
+        sum.tool += parts.tool;
+        sum.shaping += parts.shaping;
+        sum.total += parts.total;
+        self.count += 1.0;
+        if parts.total > worst.total {
+            (self.worst, self.sample) = (parts, k);
+        }
+    }
+
+    pub(super) fn budget(&self, sample_time: f64) -> Budget {
+        let Self { sum, worst, sample, count } = *self;
+        let mean_mm = Parts {
+            joints: sum.joints.map(|sum| sum / count),
+            tool: sum.tool / count,
+            shaping: sum.shaping / count,
+            total: sum.total / count,
+        };
+        let time_s = sample as f64 * sample_time;
+        Budget { sample, time_s, worst_mm: worst, mean_mm, sentence: sentence(&worst) }
     }
 }
 

@@ -89,14 +89,9 @@ impl Report {
         ));
         series.extend(ijk("tool_axis", "Tool axis", &trajectory.axis));
         series.extend(ijk("compensated_axis", "Compensated axis", &self.compensation.axis));
-        series.push(scaled("axis_error_deg", "Tool axis error before", "deg", &self.before.axis_error, DEG));
-        series.push(scaled(
-            "after_axis_error_deg",
-            "Tool axis error after",
-            "deg",
-            &self.after.axis_error,
-            DEG,
-        ));
+        let [before, after] = &self.axis_error;
+        series.push(scaled("axis_error_deg", "Tool axis error before", "deg", before, DEG));
+        series.push(scaled("after_axis_error_deg", "Tool axis error after", "deg", after, DEG));
         // As the force has it: a shaped tool arrives later, and between cutting and not it is partly both.
         series.push(Series::new("cuts", "Cuts", "", count, |samples| {
             let shaped = self.plan.shaper.apply(&trajectory.pace.engaged, trajectory.sample_time);
@@ -122,8 +117,11 @@ impl Report {
         let mut bytes = Vec::new();
         for series in self.series() {
             hash.update(series.key.as_bytes());
-            bytes.clear();
-            bytes.extend(series.values(0..self.samples()).iter().flat_map(|value| value.to_le_bytes()));
+            let values = series.values(0..self.samples());
+            bytes.resize(8 * values.len(), 0);
+            for (place, value) in bytes.chunks_exact_mut(8).zip(&values) {
+                place.copy_from_slice(&value.to_le_bytes());
+            }
             hash.update(&bytes);
         }
         format!("{:032x}", hash.digest128())

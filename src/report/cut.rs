@@ -2,8 +2,9 @@
 
 use crate::cutting::along;
 use crate::cutting::material::Model;
-use crate::deviation::Sources;
-use crate::report::Report;
+use crate::cutting::surface::Wall;
+use crate::deviation::{Plan, Sources};
+use crate::report::{Budget, Report, budget};
 use crate::robot::{compliance, forward};
 use crate::units::{DEG, KILOWATT, MINUTE, MM, N_PER_MM, N_PER_MM2};
 use nalgebra::Vector3;
@@ -80,23 +81,23 @@ impl Report {
     /// The walls that the cut leaves, with the deviation into the part (negative: material is left standing) by the mean force and at the instants
     /// when the edge makes the wall, both taken as static: mean over all samples that cut and all heights, and the largest.
     pub fn walls(&self) -> Vec<Figures> {
+        self.budget_and_walls().1
+    }
+
+    /// [`Report::budget`] and [`Report::walls`], both from one visit to the arm at each sample.
+    pub(super) fn budget_and_walls(&self) -> (Budget, Vec<Figures>) {
+        let Plan { path, robot, trajectory, .. } = &self.plan;
         let pace = self.plan.pace(Sources::ALL);
-        let path = &self.plan.path;
-        let robot = &self.plan.robot;
-        let walls = self.setup.cut.walls();
-        let (mut mean, mut instant) =
-            (vec![Spread::default(); walls.len()], vec![Spread::default(); walls.len()]);
-        let (mut mean_force, mut instant_force) = (mean.clone(), mean.clone());
-        if walls.is_empty() {
-            return Vec::new();
-        }
+        let mut budget = budget::Sum::default();
+        let mut walls: Vec<_> = self.setup.cut.walls().into_iter().map(Standing::new).collect();
         along::each(path, &pace, |k, x, axis| {
-            if pace.engaged[k] < 0.5 {
+            let frames = forward::frames(robot, &self.before.q[k]);
+            let tip = frames[5].compose(robot.tool());
+            budget.take(k, self.parts(k, &frames, &tip.position));
+            if pace.engaged[k] < 0.5 || walls.is_empty() {
                 return;
             }
             let y = axis.cross(&x);
-            let frames = forward::frames(robot, &self.before.q[k]);
-            let tip = frames[5].compose(robot.tool());
             let (index, _) = path.locate(pace.arc_length[k]);
             let c = self.plan.chip.at(pace.speed[k], path.moves()[index].spindle);
             let mean_of_turn = self.plan.mean_force.at(c);
@@ -117,28 +118,59 @@ impl Report {
                 moved += bending.deflection(&-tip.rotation.column(2), &y).0;
             }
             let moved = Vector3::new(moved.dot(&x), moved.dot(&y), moved.dot(&axis));
-            for (at, wall) in walls.iter().enumerate() {
-                mean_force[at].take(wall.side * mean_of_turn.y);
-                mean[at].take(wall.side * (constant + moved.dot(&mean_of_turn)));
-                for force in wall.instants.iter().map(|force| force.at(c)) {
-                    instant_force[at].take(wall.side * force.y);
-                    instant[at].take(wall.side * (constant + moved.dot(&force)));
-                }
+            for wall in &mut walls {
+                wall.take(c, mean_of_turn, |force| constant + moved.dot(force));
             }
         });
-        let figures = |at: usize| {
-            Figures::from([
-                ("side", walls[at].side),
-                ("mean_force_n", mean_force[at].mean()),
-                ("instant_force_n", instant_force[at].mean()),
-                ("instant_force_max_n", instant_force[at].largest),
-                ("by_mean_force_mm", mean[at].mean() / MM),
-                ("by_mean_force_max_mm", mean[at].largest / MM),
-                ("at_instant_mm", instant[at].mean() / MM),
-                ("at_instant_max_mm", instant[at].largest / MM),
-            ])
-        };
-        (0..walls.len()).map(figures).collect()
+        (budget.budget(trajectory.sample_time), walls.iter().map(Standing::figures).collect())
+    }
+}
+
+/// A wall and what stands of it, while the samples are visited.
+struct Standing {
+    wall: Wall,
+    /// Feed per tooth of the last sample [m], and the forces of the wall's instants at it [N].
+    chip: f64,
+    instants: Vec<Vector3<f64>>,
+    mean_force: Spread,
+    instant_force: Spread,
+    by_mean: Spread,
+    at_instant: Spread,
+}
+
+impl Standing {
+    fn new(wall: Wall) -> Self {
+        let [mean_force, instant_force, by_mean, at_instant] = [Spread::default(); 4];
+        let instants = Vec::new();
+        Self { wall, chip: f64::NAN, instants, mean_force, instant_force, by_mean, at_instant }
+    }
+
+    /// A sample with the feed per tooth `c` [m] and the mean force `mean` [N] in {T}; `across` is how far a force moves the tip along y of {T} [m].
+    fn take(&mut self, c: f64, mean: Vector3<f64>, across: impl Fn(&Vector3<f64>) -> f64) {
+        if c != self.chip {
+            self.chip = c;
+            self.instants = self.wall.instants.iter().map(|force| force.at(c)).collect();
+        }
+        let side = self.wall.side;
+        self.mean_force.take(side * mean.y);
+        self.by_mean.take(side * across(&mean));
+        for force in &self.instants {
+            self.instant_force.take(side * force.y);
+            self.at_instant.take(side * across(force));
+        }
+    }
+
+    fn figures(&self) -> Figures {
+        Figures::from([
+            ("side", self.wall.side),
+            ("mean_force_n", self.mean_force.mean()),
+            ("instant_force_n", self.instant_force.mean()),
+            ("instant_force_max_n", self.instant_force.largest),
+            ("by_mean_force_mm", self.by_mean.mean() / MM),
+            ("by_mean_force_max_mm", self.by_mean.largest / MM),
+            ("at_instant_mm", self.at_instant.mean() / MM),
+            ("at_instant_max_mm", self.at_instant.largest / MM),
+        ])
     }
 }
 

@@ -18,12 +18,12 @@ pub use summary::{Statistics, Summary};
 pub use warning::Warning;
 
 use crate::compensation::{Compensation, compensate};
-use crate::deviation::{Deviation, Plan, Source, Sources, contour};
+use crate::deviation::{Deviation, Passage, Plan, Source, Sources, contour};
 use crate::job::Setup;
 use crate::motion::joints::JointTrajectory;
 use crate::units::MM;
 use nalgebra::Vector3;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// Everything that was computed for a job.
 #[derive(Debug, Clone)]
@@ -37,15 +37,17 @@ pub struct Report {
     /// What the free spin brings, if it is free.
     pub spin: Option<SpinGain>,
     /// The desired path commanded, only cutting forces acting.
-    pub deflection_only: Deviation,
+    pub deflection_only: Arc<Deviation>,
     /// The desired path commanded, only the shaper acting.
-    pub shaping_only: Deviation,
+    pub shaping_only: Arc<Deviation>,
     /// The desired path commanded, every source acting.
-    pub before: Deviation,
+    pub before: Arc<Deviation>,
     /// The path to command instead.
     pub compensation: Compensation,
     /// The compensated path commanded, every source acting.
-    pub after: Deviation,
+    pub after: Arc<Deviation>,
+    /// Angle between actual and desired tool axis before and after, one a sample [rad].
+    pub axis_error: [Vec<f64>; 2],
     /// What is odd but workable.
     pub warnings: Vec<Warning>,
     /// See [`Report::alone`]; computed when first asked for.
@@ -71,7 +73,10 @@ impl Report {
         };
         let Setup { start, goal, .. } = self.setup;
         place.get_or_init(|| {
-            compensate(&self.plan, start, &self.joints.q, known, Sources::only(source), goal, |_| {})
+            let acting = Sources::only(source);
+            let pace = self.plan.pace(acting);
+            let passage = Passage::new(&self.plan, &pace, acting);
+            compensate(&self.plan, &passage, start, &self.joints.q, known, goal, |_| {})
         })
     }
 

@@ -199,6 +199,7 @@ impl Report {
             self.joints.q.first().map_or(0.0, |q| q[3] / DEG)
         );
         let material = self.setup.stock.material;
+        let (budget, walls) = self.budget_and_walls();
         Summary {
             fingerprint: self.fingerprint(),
             samples: self.samples(),
@@ -208,16 +209,16 @@ impl Report {
             material: material.map_or("Own numbers", |material| material.name).to_owned(),
             material_note: material.map_or(String::new(), Material::note),
             cut: self.cut_figures(),
-            walls: self.walls(),
+            walls,
             before_mm: Before {
                 deflection: statistics(&self.deflection_only),
                 shaping: statistics(&self.shaping_only),
                 both: statistics(&self.before),
             },
-            budget: self.budget(),
+            budget,
             after_mm: statistics(&self.after),
-            before_axis_deg: Statistics::of_angles(&self.before.axis_error),
-            after_axis_deg: Statistics::of_angles(&self.after.axis_error),
+            before_axis_deg: Statistics::of_angles(&self.axis_error[0]),
+            after_axis_deg: Statistics::of_angles(&self.axis_error[1]),
             passes: self.compensation.passes,
             converged: self.compensation.converged,
             tolerance_mm: self.setup.goal.tolerance / MM,

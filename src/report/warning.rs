@@ -124,7 +124,7 @@ pub(crate) fn warnings(
 const LOOKS: usize = 200;
 
 fn springs(plan: &Plan, compensation: &Compensation, warnings: &mut Vec<Warning>) {
-    let (Some(burden), Deviation { q, force, .. }) = (plan.robot.burden(), &compensation.result) else {
+    let (Some(burden), Deviation { q, force, .. }) = (plan.robot.burden(), &*compensation.result) else {
         return;
     };
     let unsettled = |k: usize| !equilibrium(&plan.robot, burden, &q[k], &force[k]).converged;
@@ -277,16 +277,16 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
         warnings.push(Warning::new("runout", message));
     }
     // At rest in a corner the heading only turns.
-    let slope = |k: usize| {
+    let sine = |k: usize| {
         if trajectory.pace.speed[k] == 0.0 && k > 0 && k + 1 < trajectory.moving {
             return 0.0;
         }
         let along: f64 = trajectory.pace.heading[k].dot(&trajectory.axis[k]) * trajectory.pace.engaged[k];
-        angle_of_sine(along.abs())
+        along.abs()
     };
-    let slopes: Vec<f64> = (0..trajectory.len()).map(slope).collect();
-    if let Some(range) = range(slopes.len(), |k| slopes[k] > RAMP) {
-        let steepest = slopes.iter().fold(0.0_f64, |a, b| a.max(*b)) / DEG;
+    let steep = math::sin(RAMP);
+    if let Some(range) = range(trajectory.len(), |k| sine(k) > steep) {
+        let steepest = angle_of_sine((0..trajectory.len()).map(sine).fold(0.0, f64::max)) / DEG;
         let message = format!(
             "the tool climbs or dives at up to {steepest:.0} deg; the force model takes the cut across the tool axis only and knows no plunging"
         );

@@ -47,9 +47,11 @@ pub(crate) fn by_joint(
             sag.next().map_or((moved, turned), |(zero, twist)| (moved - zero, turned - twist))
         });
     }
-    let mut joint = robot.compliance().iter();
-    jacobian::springs(robot, frames, tip).map(|(k, v)| {
-        let turned = joint.next().map_or(0.0, |c| c * v.dot(force));
-        (v * turned, k * turned)
-    })
+    let mut parts = jacobian::springs(robot, frames, tip);
+    for (part, c) in parts.iter_mut().zip(robot.compliance().iter()) {
+        let (k, v) = *part;
+        let turned = c * v.dot(force);
+        *part = (v * turned, k * turned);
+    }
+    parts
 }

@@ -5,7 +5,7 @@
 //! with the twist signs and the offsets a_1, a_3 and b kept as parameters. Other arms are solved numerically, with the same answers.
 
 use crate::error::Error;
-use crate::math::{self, Pose};
+use crate::math::{self, PI, Pose, Turn};
 use crate::robot::model::Geometry;
 use crate::robot::{Joints, Robot, forward, numerical};
 use nalgebra::{Matrix3, Vector3};
@@ -91,12 +91,19 @@ const NUMERICAL: &str = "an arm without a closed form";
 /// # Errors
 /// [`Error::Unreachable`] with the distance and the reach if no branch gets there; [`Error::Invalid`] if some do and none closes.
 pub fn inverse(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solutions, Error> {
-    let mut solutions = candidates(robot, tcp, near, None)?;
-    for slot in &mut solutions.all {
-        if slot.is_some_and(|solution| !closes(robot, tcp, &solution.q)) {
-            *slot = None;
+    let solutions = match robot.geometry() {
+        Ok(geometry) => {
+            let mut solutions = Solutions::none();
+            each(robot, geometry, tcp, near, None, &mut |solution| {
+                solutions.add(solution);
+            })?;
+            solutions
         }
-    }
+        Err(_) => {
+            Error::unless_full(NUMERICAL)?;
+            numerical::solutions(robot, tcp, near)?
+        }
+    };
     match solutions.iter().next() {
         Some(_) => Ok(solutions),
         None => Err(unclosed(tcp)),
@@ -105,11 +112,14 @@ pub fn inverse(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solutions, Er
 
 /// Whether the forward model puts the TCP where it was asked for.
 pub(crate) fn closes(robot: &Robot, tcp: &Pose, q: &Joints) -> bool {
-    let reached = forward::forward(robot, q);
+    is_near(tcp, &forward::forward(robot, q))
+}
+
+fn is_near(tcp: &Pose, reached: &Pose) -> bool {
     (reached.position - tcp.position).norm() <= CLOSURE && (reached.rotation - tcp.rotation).norm() <= CLOSURE
 }
 
-/// The solution on the branch `last` is on, if it is certain that no other branch comes nearer to it; not yet put back into the forward model.
+/// The solution on the branch `last` is on, if it is certain that no other branch comes nearer to it.
 ///
 /// Another wrist turns q4 by half a turn; another elbow turns q3 by twice the elbow angle; another shoulder turns q1 by more than a
 /// quarter turn where the wrist centre is further ahead than beside. What is less than half as far from `last` is the nearest.
@@ -118,26 +128,28 @@ pub(crate) fn continued(robot: &Robot, tcp: &Pose, last: &Solution) -> Option<So
         Error::unless_full(NUMERICAL).ok()?;
         return numerical::continued(robot, tcp, last);
     };
-    let solution = *candidates(robot, tcp, &last.q, Some(last.branch)).ok()?.iter().next()?;
-    let certain = solution.margin.shoulder >= geometry.lateral.abs()
-        && (solution.q - last.q).norm() < solution.margin.elbow.min(FRAC_PI_4);
-    certain.then_some(solution)
+    let mut found = None;
+    each(robot, geometry, tcp, &last.q, Some(last.branch), &mut |solution| found = Some(solution)).ok()?;
+    found.filter(|solution| {
+        solution.margin.shoulder >= geometry.lateral.abs()
+            && (solution.q - last.q).norm() < solution.margin.elbow.min(FRAC_PI_4)
+    })
 }
 
-/// The closed form itself, not yet put back into the forward model: every branch, or one.
-pub(crate) fn candidates(
+/// The closed form itself: calls `take` with the solution of every branch, or of one, that the forward model confirms.
+///
+/// Angles are carried as sines and cosines; what they are in radians is asked once, at the end.
+fn each(
     robot: &Robot,
+    g: &Geometry,
     tcp: &Pose,
     near: &Joints,
     only: Option<Branch>,
-) -> Result<Solutions, Error> {
-    let Ok(g) = robot.geometry() else {
-        Error::unless_full(NUMERICAL)?;
-        return numerical::solutions(robot, tcp, near);
-    };
+    take: &mut dyn FnMut(Solution),
+) -> Result<(), Error> {
     let links = robot.links();
     let serial = robot.serial(near);
-    let flange = tcp.compose(&robot.tool().inverse());
+    let flange = tcp.compose(robot.flange());
 
     // Wrist centre (eq. 3.9), in frame 0 turned by alpha_0 and moved to axis 1.
     let wrist = flange.position - flange.rotation.column(2) * links[5].d;
@@ -148,105 +160,109 @@ pub(crate) fn candidates(
 
     // Theta_1 (eq. 3.13): turned back by it, the wrist centre lies in the arm's plane, at `lateral` beside axis 1.
     let beside = -g.sin_1 * g.lateral;
-    let radius = math::hypot(x, y);
-    let forward_squared = radius * radius - beside * beside;
+    let radius_squared = x * x + y * y;
+    let forward_squared = radius_squared - beside * beside;
     if forward_squared < -1e-12 {
-        return Err(unreachable(tcp, radius, (beside.abs(), f64::INFINITY)));
+        return Err(unreachable(tcp, radius_squared.sqrt(), (beside.abs(), f64::INFINITY)));
     }
     let forward_reach = forward_squared.max(0.0).sqrt();
-    let bearing = math::atan2(y, x);
 
-    let mut all = [None; 8];
+    let mut reached = false;
     let mut nearest_miss: Option<f64> = None;
-    for (shoulder, sign) in [(true, 1.0), (false, -1.0)] {
-        if only.is_some_and(|branch| branch.front != shoulder) {
+    for (front, sign) in [(true, 1.0), (false, -1.0)] {
+        if only.is_some_and(|branch| branch.front != front) {
             continue;
         }
         let ahead = sign * forward_reach;
-        let theta_1 = bearing - math::atan2(beside, ahead);
+        let theta_1 = Turn::between((ahead, beside), (x, y));
         // The wrist centre in the plane of the arm, from axis 2.
         let (px, py) = (ahead - links[1].a, g.sin_1 * z);
-        let distance = math::hypot(px, py);
+        let distance_squared = px * px + py * py;
 
         // Theta_3 (eq. 3.15): the law of cosines between upper arm and forearm.
-        let cos_elbow = (px * px + py * py - g.upper * g.upper - g.fore * g.fore) / (2.0 * g.upper * g.fore);
+        let cos_elbow = (distance_squared - g.upper * g.upper - g.fore * g.fore) / (2.0 * g.upper * g.fore);
         if cos_elbow.abs() > 1.0 + 1e-12 {
+            let distance = distance_squared.sqrt();
             let miss = |d: f64| if d > g.upper.abs() { d - robot.reach().1 } else { robot.reach().0 - d };
             if nearest_miss.is_none_or(|d| miss(distance) < miss(d)) {
                 nearest_miss = Some(distance);
             }
             continue;
         }
-        let sin_elbow = (1.0 - cos_elbow * cos_elbow).max(0.0).sqrt();
-        for (elbow, sin_elbow) in [(true, sin_elbow), (false, -sin_elbow)] {
-            if only.is_some_and(|branch| branch.elbow_positive != elbow) {
+        reached = true;
+        let cos_elbow = cos_elbow.clamp(-1.0, 1.0);
+        let sin_elbow = (1.0 - cos_elbow * cos_elbow).sqrt();
+        let angle_1 = theta_1.angle();
+        for (elbow_positive, sin_elbow) in [(true, sin_elbow), (false, -sin_elbow)] {
+            if only.is_some_and(|branch| branch.elbow_positive != elbow_positive) {
                 continue;
             }
-            let elbow_angle = math::atan2(sin_elbow, cos_elbow);
-            let theta_3 = elbow_angle - g.fore_angle;
+            let theta_3 = Turn::between(g.fore_direction, (cos_elbow, sin_elbow));
             // Theta_2 (eq. 3.14): the direction to the wrist centre less the arm's own.
-            let theta_2 =
-                math::atan2(py, px) - math::atan2(g.cos_2 * g.fore * sin_elbow, g.upper + g.fore * cos_elbow);
-            let arm = arm_rotation(robot, [theta_1, theta_2, theta_3]);
-            let wrist = wrist_angles(robot, g, &(arm.transpose() * flange.rotation), near);
-            for (positive, [theta_4, theta_5, theta_6], sin_wrist) in wrist {
-                if only.is_some_and(|branch| branch.wrist_positive != positive) {
+            let own = (g.upper + g.fore * cos_elbow, g.cos_2 * g.fore * sin_elbow);
+            let theta_2 = Turn::between(own, (px, py));
+            // Orientation of frame 3 turned by alpha_3, so that joint 4 turns about its z axis (eqs. 3.16-3.18, left side).
+            let arm = [theta_1, theta_2, theta_3].into_iter().zip(robot.twists);
+            let arm =
+                arm.fold(Matrix3::identity(), |outer, (theta, twist)| forward::turned(&outer, twist, theta));
+            let arm = forward::turned(&arm, robot.twists[3], Turn { sin: 0.0, cos: 1.0 });
+            let angles = [angle_1, theta_2.angle(), theta_3.angle()];
+            let (wrist, sin_wrist) = wrist_turns(robot, g, &(arm.transpose() * flange.rotation), near);
+            let wrist_angles = wrist.map(Turn::angle);
+            for wrist_positive in [true, false] {
+                if only.is_some_and(|branch| branch.wrist_positive != wrist_positive) {
                     continue;
                 }
-                let theta = [theta_1, theta_2, theta_3, theta_4, theta_5, theta_6];
+                let [mut theta_4, mut theta_5, mut theta_6] = wrist;
+                let mut theta =
+                    [angles[0], angles[1], angles[2], wrist_angles[0], wrist_angles[1], wrist_angles[2]];
+                // The other wrist: joints 4 and 6 half a turn on, joint 5 bent the other way.
+                if !wrist_positive && sin_wrist > WRIST_SINGULAR {
+                    theta_4 = Turn { sin: -theta_4.sin, cos: -theta_4.cos };
+                    theta_5 = Turn { sin: -theta_5.sin, ..theta_5 };
+                    theta_6 = Turn { sin: -theta_6.sin, cos: -theta_6.cos };
+                    theta = [theta[0], theta[1], theta[2], theta[3] - PI, -theta[4], theta[5] - PI];
+                }
+                let turns = [theta_1, theta_2, theta_3, theta_4, theta_5, theta_6];
+                if !is_near(tcp, &forward::chain(robot, &turns)[5].compose(robot.tool())) {
+                    continue;
+                }
                 let q = Joints::from_fn(|i, _| math::nearest_turn(links[i].joint(theta[i]), serial[i]));
-                let q = robot.told(&q);
-                let branch = Branch { front: shoulder, elbow_positive: elbow, wrist_positive: positive };
-                let margin = Margin { shoulder: forward_reach, elbow: sin_elbow.abs(), wrist: sin_wrist };
-                let index = 4 * usize::from(!shoulder) + 2 * usize::from(!elbow) + usize::from(!positive);
-                all[index] = Some(Solution { q, branch, margin });
+                take(Solution {
+                    q: robot.told(&q),
+                    branch: Branch { front, elbow_positive, wrist_positive },
+                    margin: Margin { shoulder: forward_reach, elbow: sin_elbow.abs(), wrist: sin_wrist },
+                });
             }
         }
     }
     match nearest_miss {
-        Some(distance) if all.iter().all(Option::is_none) => Err(unreachable(tcp, distance, robot.reach())),
-        _ => Ok(Solutions { all }),
+        Some(distance) if !reached => Err(unreachable(tcp, distance, robot.reach())),
+        _ => Ok(()),
     }
 }
 
-/// Orientation of frame 3 turned by alpha_3, so that joint 4 turns about its z axis (eqs. 3.16-3.18, left side).
-fn arm_rotation(robot: &Robot, theta: [f64; 3]) -> Matrix3<f64> {
-    let mut rotation: Matrix3<f64> = Matrix3::identity();
-    for (i, angle) in theta.into_iter().enumerate() {
-        let (sin, cos) = math::sin_cos(angle);
-        rotation =
-            rotation * about_x(robot.twists[i]) * Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
-    }
-    rotation * about_x(robot.twists[3])
-}
-
-fn about_x((cos, sin): (f64, f64)) -> Matrix3<f64> {
-    Matrix3::new(1.0, 0.0, 0.0, 0.0, cos, -sin, 0.0, sin, cos)
-}
-
-/// Theta_4, theta_5, theta_6 from M = Rz(theta_4) Rx(alpha_4) Rz(theta_5) Rx(alpha_5) Rz(theta_6) (eqs. 3.17-3.21):
-/// both wrists, each with |sin theta_5|.
+/// Theta_4, theta_5, theta_6 from M = Rz(theta_4) Rx(alpha_4) Rz(theta_5) Rx(alpha_5) Rz(theta_6) (eqs. 3.17-3.21) with the positive
+/// wrist, and |sin theta_5|.
 ///
 /// With alpha_5 = -alpha_4 the middle is Ry(b), b = -sin(alpha_4) theta_5, and M are Euler angles ZYZ;
 /// with equal twists a half turn about x follows, which also turns theta_6 round.
-fn wrist_angles(robot: &Robot, g: &Geometry, m: &Matrix3<f64>, near: &Joints) -> [(bool, [f64; 3], f64); 2] {
+fn wrist_turns(robot: &Robot, g: &Geometry, m: &Matrix3<f64>, near: &Joints) -> ([Turn; 3], f64) {
     let equal = g.sin_4 == g.sin_5;
     let m = if equal { m * Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0)) } else { *m };
-    let sin_b = math::hypot(m[(0, 2)], m[(1, 2)]);
-    [true, false].map(|positive| {
-        let sign = if positive { 1.0 } else { -1.0 };
-        let theta_4 = if sin_b > WRIST_SINGULAR {
-            math::atan2(sign * m[(1, 2)], sign * m[(0, 2)])
-        } else {
-            robot.links()[3].theta(near[3])
-        };
-        let (sin_4, cos_4) = math::sin_cos(theta_4);
-        // Rz(-theta_4) M = Ry(b) Rz(theta_6): exact whatever theta_4, so the pose closes near the singularity too.
-        let b = math::atan2(cos_4 * m[(0, 2)] + sin_4 * m[(1, 2)], m[(2, 2)]);
-        let theta_6 =
-            math::atan2(cos_4 * m[(1, 0)] - sin_4 * m[(0, 0)], cos_4 * m[(1, 1)] - sin_4 * m[(0, 1)]);
-        (positive, [theta_4, -g.sin_4 * b, if equal { -theta_6 } else { theta_6 }], sin_b)
-    })
+    let sin_b = (m[(0, 2)] * m[(0, 2)] + m[(1, 2)] * m[(1, 2)]).sqrt();
+    let theta_4 = if sin_b > WRIST_SINGULAR {
+        Turn { sin: m[(1, 2)] / sin_b, cos: m[(0, 2)] / sin_b }
+    } else {
+        Turn::of(robot.links()[3].theta(near[3]))
+    };
+    // Rz(-theta_4) M = Ry(b) Rz(theta_6): exact whatever theta_4, so the pose closes near the singularity too.
+    let Turn { sin: sin_4, cos: cos_4 } = theta_4;
+    let ahead = (1.0, 0.0);
+    let b = Turn::between(ahead, (m[(2, 2)], cos_4 * m[(0, 2)] + sin_4 * m[(1, 2)]));
+    let across = (cos_4 * m[(1, 1)] - sin_4 * m[(0, 1)], cos_4 * m[(1, 0)] - sin_4 * m[(0, 0)]);
+    let theta_6 = Turn::between(ahead, if equal { (across.0, -across.1) } else { across });
+    ([theta_4, Turn { sin: -g.sin_4 * b.sin, ..b }, theta_6], sin_b)
 }
 
 /// The pose is within reach, but rounding keeps every branch from it.

@@ -48,7 +48,10 @@ pub(crate) fn springs(
     frames: &[Pose; 6],
     tip: &Vector3<f64>,
 ) -> [(Vector3<f64>, Vector3<f64>); 6] {
-    let mut springs = levers(frames, tip).map(|(k, lever)| (k, k.cross(&lever)));
+    let mut springs = levers(frames, tip);
+    for (k, lever) in &mut springs {
+        *lever = k.cross(lever);
+    }
     if robot.elbow() == Elbow::Parallelogram {
         let share = held(robot);
         let (k, v) = springs[2];

@@ -72,8 +72,8 @@ pub fn robots() -> impl Iterator<Item = Preset> {
 /// # Errors
 /// [`Error::Invalid`] with the keys most like it: there are too many to name.
 pub fn robot(id: &str) -> Result<Preset, Error> {
-    if let Some(preset) = robots().find(|preset| preset.id == id) {
-        return Ok(preset);
+    if let Some((row, _)) = rows(ROBOTS).zip(names()).find(|(_, [key, ..])| *key == id) {
+        return Ok(preset(row));
     }
     Error::unless_full("a robot of the library")?;
     let mut keys: Vec<_> = names().map(|[key, ..]| (strsim::jaro_winkler(id, key), key)).collect();

@@ -70,8 +70,8 @@ pub(crate) struct Geometry {
     pub(crate) upper: f64,
     /// Distance from axis 3 to the wrist centre [m].
     pub(crate) fore: f64,
-    /// Angle of the wrist centre in frame 3 [rad].
-    pub(crate) fore_angle: f64,
+    /// The wrist centre in frame 3: its x and y [m].
+    pub(crate) fore_direction: (f64, f64),
     /// Offset of the arm's plane from axis 1, along axis 2 [m].
     pub(crate) lateral: f64,
 }
@@ -96,6 +96,7 @@ pub struct Robot {
     limits: Option<[(f64, f64); 6]>,
     compliance: Joints,
     tool: Pose,
+    flange: Pose,
     elbow: Elbow,
     burden: Option<Box<Burden>>,
     sag: [(Vector3<f64>, Vector3<f64>); 6],
@@ -161,6 +162,7 @@ impl Robot {
             limits,
             compliance: Joints::from(compliance),
             tool: Pose::identity(),
+            flange: Pose::identity(),
             elbow: Elbow::Serial,
             burden: None,
             sag: [(Vector3::zeros(), Vector3::zeros()); 6],
@@ -172,6 +174,7 @@ impl Robot {
     /// The same arm with its TCP placed on the flange.
     pub fn with_tool(mut self, tool: Pose) -> Self {
         self.tool = tool;
+        self.flange = tool.inverse();
         self
     }
 
@@ -270,6 +273,11 @@ impl Robot {
         &self.tool
     }
 
+    /// The flange in the TCP's frame.
+    pub(crate) fn flange(&self) -> &Pose {
+        &self.flange
+    }
+
     /// Smallest and largest distance of the wrist centre from axis 2 [m]; of an arm that is solved numerically a bound: from frame 1's
     /// origin, all links in line.
     pub fn reach(&self) -> (f64, f64) {
@@ -332,7 +340,7 @@ impl Geometry {
             cos_2,
             upper: links[2].a,
             fore,
-            fore_angle: math::atan2(across, along),
+            fore_direction: (along, across),
             lateral: links[1].d + cos_2 * links[2].d,
         })
     }

@@ -109,7 +109,7 @@ pub(crate) type Pinned = (&'static str, Vec<(&'static str, Value)>, &'static str
 pub(crate) fn pinned() -> [Pinned; 5] {
     use serde_json::json;
     [
-        ("default", vec![], "105198a3961c0d1a82267525b76f9d82"),
+        ("default", vec![], "b9a0ae157aaa99129337315dd101bce7"),
         (
             "rounded rectangle, EI in Hz, chip from feed, tilted part, offset tool",
             vec![
@@ -123,7 +123,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("workpiece_frame", json!({"xyz_mm":[10,20,30],"rpy_deg":[10,-20,30]})),
                 ("tool_frame", json!({"xyz_mm":[0,50,120],"rpy_deg":[0,30,0]})),
             ],
-            "a85dabc9b95eaa37cdd2251f6209482f",
+            "1363f9c418854ec44303a2893b5408b2",
         ),
         (
             "points, ZVDD, another branch",
@@ -132,7 +132,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("shaper", json!({"kind":"zvdd","frequency_rad_s":60,"damping":0.02})),
                 ("start_branch", json!({"shoulder":"front","elbow":"negative","wrist":"flipped"})),
             ],
-            "13ad1969899d822e028b50861133df17",
+            "c2db303a2e4734486a72a31a28912b38",
         ),
         (
             "arc without shaper",
@@ -143,7 +143,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ),
                 ("shaper", json!("none")),
             ],
-            "b9d2bcdbe6c99b66c04bad4ab0c33652",
+            "db4b807465f2c93f6e18bf69a611fe82",
         ),
         (
             "ball nose by catalogue constants, conventional milling, a tool that bends",
@@ -157,7 +157,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("cutting.engagement", json!("conventional")),
                 ("cutting.radial_depth_mm", json!(2.5)),
             ],
-            "c2a464be53b5351cb1395d938475790a",
+            "7fb433cc4b5e2d687ccb9cfab1ad241a",
         ),
     ]
 }
