@@ -9,8 +9,12 @@ mod common;
 mod accessibility;
 #[path = "page/arm.rs"]
 mod arm;
+#[path = "page/chart.rs"]
+mod chart;
 #[path = "page/charts.rs"]
 mod charts;
+#[path = "page/cursor.rs"]
+mod cursor;
 #[path = "page/cut.rs"]
 mod cut;
 #[path = "page/embed.rs"]
@@ -19,6 +23,8 @@ mod embed;
 mod identify;
 #[path = "page/loading.rs"]
 mod loading;
+#[path = "page/pinned.rs"]
+mod pinned;
 #[path = "page/placement.rs"]
 mod placement;
 #[path = "page/policy.rs"]
@@ -35,6 +41,8 @@ mod standalone;
 mod reading;
 #[path = "page/state.rs"]
 mod state;
+#[path = "page/zoom.rs"]
+mod zoom;
 
 use armill::Report;
 use armill::column::Column;

@@ -74,12 +74,35 @@ fn a_frame_shows_what_its_address_asks_for() -> Result {
 }
 
 #[test]
+fn a_frame_shows_scene_budget_and_units_if_asked_to() -> Result {
+    visit("/embed.html#show=budget+scene&units=inch&inputs=none&charts=none", DESKTOP, async |page| {
+        let report = run(&[]);
+        answers(page, &report).await?;
+        page.wait_for("document.querySelector('#scene canvas').width > 300", 20.0).await?;
+        let summary = report.summary();
+        assert_eq!(page.text("#budget-sentence").await?, summary.budget.sentence);
+        let cells = listed(page, "#figures td", "textContent").await?;
+        let first = cells[0].as_str().unwrap_or_default().parse::<f64>()?;
+        assert!((first - summary.before_mm.both.mean / 25.4).abs() <= 0.5e-6, "{first}");
+        assert_eq!(listed(page, "[data-unit=length]", "textContent").await?, json!(["in", "in", "in", "in"]));
+        assert_eq!(page.js("return localStorage.length").await?, 0, "nothing is stored");
+        page.goto("embed.html").await?;
+        answers(page, &report).await?;
+        assert_eq!(listed(page, "#scene, #budget", "hidden").await?, json!([true, true]));
+        assert_eq!(listed(page, "[data-unit=length]", "textContent").await?, json!(["mm", "mm", "mm", "mm"]));
+        Ok(())
+    })
+}
+
+#[test]
 fn what_cannot_be_shown_is_said() -> Result {
     visit("/embed.html#preset=unobtainium", DESKTOP, async |page| {
         let wrong = [
             ("preset=unobtainium", "preset \"unobtainium\", which is none of staubli-rx90"),
             ("theme=pink", "theme \"pink\", which is none of auto, light, dark"),
             ("inputs=motion+colour", "inputs \"colour\", which is none of none, robot"),
+            ("show=pie", "show \"pie\", which is none of none, scene, budget"),
+            ("units=inch+furlong", "units \"furlong\", which is none of mm, inch, N, lbf"),
             ("charts=pie", "charts \"pie\", which is none of none, overview, before-after"),
             ("job=1.AAAA", "The link could not be opened"),
             ("job={\"version\":1,\"motion\":{\"feed\":1}}", "feed"),

@@ -300,32 +300,3 @@ fn a_result_is_shared_in_three_forms() -> Result {
         Ok(())
     })
 }
-
-#[test]
-fn a_pinned_result_stands_beside_the_next() -> Result {
-    visit("/", DESKTOP, async |page| {
-        current(page).await?;
-        page.click("#pin").await?;
-        page.type_into("#motion-feed_mm_s", "50").await?;
-        let (a, b) = (run(&[]), run(&[("motion.feed_mm_s", json!(50))]));
-        shows(page, &b).await?;
-        let difference = async |id: &str| {
-            let told = page
-                .js(&format!("return document.getElementById('{id}').closest('.number').querySelector('.versus').dataset.value"))
-                .await?;
-            Ok::<f64, Box<dyn std::error::Error>>(told.as_str().ok_or("no difference")?.parse()?)
-        };
-        let (before, after) = (a.summary(), b.summary());
-        assert_eq!(difference("before-max").await?, after.before_mm.both.max - before.before_mm.both.max);
-        assert_eq!(difference("after-max").await?, after.after_mm.max - before.after_mm.max);
-        assert_eq!(difference("duration").await?, after.duration_s - before.duration_s);
-        let rows = page.js("return [...document.querySelectorAll('#compare tbody tr')].map(row => [...row.cells].map(cell => cell.textContent))").await?;
-        assert_eq!(rows, json!([["Feed", "100 mm/s", "50 mm/s"]]));
-        page.click("#back-to-a").await?;
-        shows(page, &a).await?;
-        assert_eq!(difference("before-max").await?, 0.0);
-        page.click("#unpin").await?;
-        assert_eq!(page.js("return document.querySelector('.versus') === null && document.querySelector('#compare').hidden").await?, true);
-        Ok(())
-    })
-}

@@ -5,12 +5,14 @@
 //   preset  changes to the default job by name: a robot, a material, an example program ("al-7075-t6 pocket")
 //   inputs  which inputs show: groups and fields ("motion path.radius_mm"), "all" (default) or "none"
 //   charts  which charts show: by name or view ("before-after joints"), or "none"; default "before-after"
+//   show    what else shows: "scene" (paths and arm in space), "budget" (which joint and source errs how much); default "none"
+//   units   what lengths and forces are read in: "mm" or "inch", "N" or "lbf"; default "mm N"
 //   theme   "light", "dark" or "auto" (default)
 //   height  in pixels; without it the frame is as high as what it holds
 //   title   what assistive tools call the frame
 //   src     where embed.html is, if it is not where this script came from
 
-const HANDED_ON = ["preset", "inputs", "charts", "theme"];
+const HANDED_ON = ["preset", "inputs", "charts", "show", "units", "theme"];
 const FIRST_HEIGHT = 480; // until the frame tells
 const TALLEST = 20_000; // a frame that asks for more is not ours
 

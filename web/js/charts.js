@@ -8,6 +8,7 @@ import { onSetting } from "./settings.js";
 let available = []; // { name, title, view, figure, kind } of the shown result
 let panel = null;
 let turn = 0; // drawing that is no longer the latest one stops
+let beside = null; // the core's answers about the pinned result
 let range = null; // of time, in all charts over the run [s]
 const figures = new Map(); // chart name -> Figure
 
@@ -15,6 +16,14 @@ const figures = new Map(); // chart name -> Figure
 export function setCharts(list) {
   available = list;
   for (const figure of figures.values()) figure.forget();
+  draw();
+}
+
+/** Draws another result's curves with those of the shown one, or none if `values` is null. */
+export function setBeside(values) {
+  if (values === beside) return;
+  beside = values;
+  for (const figure of figures.values()) figure.beside = values;
   draw();
 }
 
@@ -49,6 +58,7 @@ function link(from, x) {
 function figureOf(entry) {
   if (!figures.has(entry.name)) {
     const figure = new Figure(entry, link);
+    figure.beside = beside;
     if (figure.kind === "time") figure.zoom(range, null, true);
     figures.set(entry.name, figure);
   }

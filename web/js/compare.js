@@ -1,7 +1,10 @@
-// A pinned result, A, beside the shown one, B: every figure with its difference, and the inputs that differ.
+// A pinned result, A, beside the shown one, B: every figure with its difference, the inputs that differ, the curves in the charts.
+// It stays pinned in this tab when the page is loaded again.
 
+import { setBeside } from "./charts.js";
 import { byId, make } from "./dom.js";
 import { formatNumber } from "./number.js";
+import { Pinned } from "./pinned.js";
 import { forceText, lengthText } from "./units.js";
 import { inWords } from "./words.js";
 
@@ -14,15 +17,59 @@ const FIGURES = {
   duration: { of: ({ duration_s }) => duration_s, text: formatNumber },
 };
 
-let pinned = null; // { json, job, summary }
+const KEY = "armill-pin";
+
+let pinned = null; // { json, summary, values }: values draws its charts
 
 /** The pinned result, or null. */
 export const pinnedResult = () => pinned;
 
-/** Pins a result `{ json, job, summary }`, the shown one, or none. */
+/** Pins the shown result, `{ json, job, summary }`. */
 export function pin(shown) {
-  pinned = shown;
+  pinned?.values.stop();
+  pinned = { json: shown.json, summary: shown.summary, values: new Pinned(shown.json) };
+  keep(shown.json);
   showCompared(shown);
+}
+
+export function unpin(shown) {
+  pinned?.values.stop();
+  pinned = null;
+  keep(null);
+  showCompared(shown);
+}
+
+/** Pins again what was pinned before a reload. `current()` is the shown result. */
+export async function restorePin(current) {
+  const json = kept();
+  if (!json) return;
+  const values = new Pinned(json);
+  try {
+    const summary = await values.summary();
+    if (pinned) return values.stop();
+    pinned = { json, summary, values };
+    showCompared(current());
+  } catch {
+    values.stop(); // an older Armill's job, perhaps
+    keep(null);
+  }
+}
+
+function kept() {
+  try {
+    return sessionStorage.getItem(KEY);
+  } catch {
+    return null; // denied
+  }
+}
+
+function keep(json) {
+  try {
+    if (json === null) sessionStorage.removeItem(KEY);
+    else sessionStorage.setItem(KEY, json);
+  } catch {
+    // Denied or full: it is pinned until the page is left.
+  }
 }
 
 /** Shows what is compared: the pinned result with `shown`. */
@@ -31,6 +78,7 @@ export function showCompared(shown) {
   box.hidden = !pinned;
   for (const [id, figure] of Object.entries(FIGURES)) showFigure(byId(id), figure, shown);
   if (pinned) showInputs(box, shown);
+  setBeside(pinned && pinned.json !== shown.json ? pinned.values : null);
 }
 
 function showFigure(output, { of, text }, shown) {

@@ -70,7 +70,7 @@ export const placeInFront = (json) => (spare ??= spawn()).ask("place", json);
 export const thesis = () => (spare ??= spawn()).ask("thesis");
 
 /** A Worker of its own, `{ ask(kind, ...args) }`, for what has nothing to do with the shown result. */
-export const helper = () => spawn();
+export const helper = () => spawn(() => {});
 
 /** One chart of the shown result, drawn at `options.width` pixels. */
 export const chart = (name, options) => askShown("chart", name, options);
@@ -174,7 +174,7 @@ function moduleOf(name) {
 }
 
 /** A Worker that answers `ask(kind, ...args)` with a promise. */
-function spawn() {
+function spawn(onprogress = (progress) => events?.onprogress(progress)) {
   const worker = startWorker();
   const waiting = new Map();
   let count = 0;
@@ -188,7 +188,7 @@ function spawn() {
   const fail = ({ message }) => stop({ code: "load", message: message || "The core could not be loaded.", fatal: true });
   const lack = ({ message }) => worker.postMessage({ core: "full", error: { code: "load", message: `${REST} could not be loaded (${message}).` } });
   worker.addEventListener("message", ({ data: { id, value, error, progress, need } }) => {
-    if (progress) return events?.onprogress(progress);
+    if (progress) return onprogress(progress);
     if (need) return give(need).catch(lack);
     const question = waiting.get(id);
     waiting.delete(id);

@@ -2,18 +2,23 @@
 // nothing is stored, and no message is listened to.
 
 import * as core from "./core.js";
+import { showBudget } from "./budget.js";
 import { setCharts, showPanel } from "./charts.js";
 import { byId, debounced, make, sentence } from "./dom.js";
 import { Form } from "./form.js";
 import { chartsIn, fieldsIn, jobOf, optionsIn } from "./guest.js";
 import { Job } from "./job.js";
 import { fragmentOf } from "./link.js";
-import { formatError, formatNumber } from "./number.js";
+import { formatNumber } from "./number.js";
+import { makeScene } from "./scene/view.js";
+import { lend } from "./settings.js";
+import { errorText, forceUnit, lengthUnit } from "./units.js";
 
 const TYPING_MS = 150; // results follow this long after the last key
 
 const results = byId("results");
 let options; // what the host page asks for
+let scene; // if it is asked for
 let job;
 let form;
 
@@ -47,6 +52,8 @@ const events = {
   onprogress: ({ stage }) => say(`Computing: ${stage}`),
   onresult({ summary, charts }, took) {
     show(summary);
+    scene?.show(summary);
+    if (options.show.includes("budget")) showBudget(summary.budget);
     try {
       setCharts(chartsIn(charts, options.charts).map((chart) => ({ ...chart, view: "embed" })));
     } catch ({ message }) {
@@ -74,7 +81,7 @@ function show({ verdict, before_mm, after_mm, fingerprint }) {
   for (const [row, { mean, max }] of [[".before", before_mm.both], [".after", after_mm]]) {
     const cells = byId("figures").querySelectorAll(`${row} td`);
     [mean, max].forEach((value, i) => {
-      cells[i].textContent = formatError(value);
+      cells[i].textContent = errorText(value);
       cells[i].dataset.value = String(value);
     });
   }
@@ -86,6 +93,14 @@ async function link() {
   const { json } = job;
   const fragment = await fragmentOf(json);
   if (json === job.json) byId("open").href = `index.html#${fragment}`;
+}
+
+/** Shows the parts asked for, in the units asked for. */
+function furnish() {
+  lend(options.units);
+  for (const unit of document.querySelectorAll("[data-unit]")) unit.textContent = unit.dataset.unit === "force" ? forceUnit() : lengthUnit();
+  for (const part of ["scene", "budget"]) byId(part).hidden = !options.show.includes(part);
+  if (options.show.includes("scene")) scene = makeScene(byId("scene"));
 }
 
 /** Tells the page around how high this one is. That is no secret, so it may be any page. */
@@ -100,7 +115,8 @@ try {
   options = optionsIn(location.hash);
   byId("form").addEventListener("submit", (event) => event.preventDefault());
   if (options.theme !== "auto") document.documentElement.dataset.theme = options.theme;
-  results.dataset.charts = options.charts.join(" ");
+  results.dataset.views = [...options.charts, ...options.show].filter((name) => name !== "none").join(" ");
+  furnish();
   const hello = await core.start(events);
   const fields = fieldsIn(hello.fields, options.inputs);
   job = new Job(await jobOf(options, hello), hello.fields, hello.presets);

@@ -4,6 +4,8 @@ import { readText } from "./files.js";
 import { jobIn } from "./link.js";
 
 const THEMES = ["auto", "light", "dark"];
+const PARTS = ["none", "scene", "budget"];
+const UNITS = { mm: "length", inch: "length", N: "force", lbf: "force" }; // what each is a unit of
 const words = (text) => text.split(/[\s,]+/).filter(Boolean);
 
 /** The options in a fragment, with what holds for those that are not given. */
@@ -11,8 +13,14 @@ export function optionsIn(fragment) {
   const given = new URLSearchParams(fragment.slice(1));
   const theme = given.get("theme") || "auto";
   if (!THEMES.includes(theme)) throw unknown("theme", theme, THEMES);
+  const show = words(given.get("show") ?? "none");
+  for (const part of show) if (!PARTS.includes(part)) throw unknown("show", part, PARTS);
+  const units = words(given.get("units") ?? "mm N");
+  for (const unit of units) if (!UNITS[unit]) throw unknown("units", unit, Object.keys(UNITS));
   return {
     theme,
+    show,
+    units: Object.fromEntries([...["mm", "N"], ...units].map((unit) => [UNITS[unit], unit])),
     job: given.get("job"),
     preset: words(given.get("preset") ?? ""),
     inputs: words(given.get("inputs") ?? "all"),

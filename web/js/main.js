@@ -3,7 +3,7 @@
 import * as core from "./core.js";
 import { setCharts, showPanel } from "./charts.js";
 import { setCursor } from "./cursor.js";
-import { pin, pinnedResult, showCompared } from "./compare.js";
+import { pin, pinnedResult, restorePin, showCompared, unpin } from "./compare.js";
 import { makeArmView } from "./arm-view.js";
 import { byId, debounced, make, sentence } from "./dom.js";
 import { download } from "./download.js";
@@ -104,10 +104,12 @@ const events = {
   },
   onresult({ summary, charts }, took) {
     idle();
+    const first = !shown;
     shown = { json: core.shownJob(), summary, get job() { return job.of(JSON.parse(this.json)); } };
     showFigures();
     takeLines(summary);
     setCharts(charts);
+    if (first) restorePin(() => shown);
     scene.show(summary);
     identify.look();
     placement.look();
@@ -289,7 +291,7 @@ function wireResultTools() {
   const share = shareDialog();
   byId("share").addEventListener("click", () => share({ ...shown, job: shown.job, standard }));
   byId("pin").addEventListener("click", () => pin(shown));
-  byId("unpin").addEventListener("click", () => (pin(null), byId("pin").focus()));
+  byId("unpin").addEventListener("click", () => (unpin(shown), byId("pin").focus()));
   byId("back-to-a").addEventListener("click", () => session.load(JSON.parse(pinnedResult().json)));
   settingsPanel(byId("settings"));
   followTheme();

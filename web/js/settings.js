@@ -27,6 +27,9 @@ export function choose(key, value) {
   for (const follow of followers) follow(key, value);
 }
 
+/** Takes over values for this visit, and remembers nothing. */
+export const lend = (lent) => void Object.assign(values, lent);
+
 /** Calls `follow(key, value)` whenever a setting changes; returns a function that ends it. */
 export function onSetting(follow) {
   followers.add(follow);

@@ -23,6 +23,16 @@ export function drawingOf(chart) {
   return svg;
 }
 
+/** Puts another drawing's curves below those of this one, whose axes are the same. */
+export function layBelow(svg, other) {
+  const curves = ":scope > g:has(.series)";
+  const first = svg.querySelector(curves);
+  for (const layer of other.querySelectorAll(curves)) {
+    layer.classList.add("pinned");
+    first?.before(layer);
+  }
+}
+
 /** Moves and stretches the data of a drawing to where they stand with the axes `x` and `y`. */
 export function moveDrawing(svg, { plot, x: drawnX, y: drawnY }, { x, y }) {
   const [left, right] = [fractionOf(drawnX, x.min), fractionOf(drawnX, x.max)];

@@ -6,7 +6,7 @@ import { make } from "../dom.js";
 import { download } from "../download.js";
 import { lineAt, showLine } from "../program.js";
 import { setting } from "../settings.js";
-import { drawingOf, moveDrawing } from "./drawing.js";
+import { drawingOf, layBelow, moveDrawing } from "./drawing.js";
 import { csvText, pngOf, svgText } from "./export.js";
 import { listen } from "./gestures.js";
 import { Legend, sample } from "./legend.js";
@@ -18,6 +18,7 @@ import { between, fractionOf, nearest, ranged, scaled, shifted, valueAt } from "
 const REACH_PX = 60; // a path in space is read off from no further away
 
 export class Figure {
+  beside = null; // draws the same chart of another result and has its values, like the constructor's `values`
   #plot = make("div", { className: "drawing", tabIndex: 0, role: "slider", "aria-describedby": "chart-keys" });
   #table = make("div", { className: "chart-table", tabIndex: 0, role: "region", hidden: true });
   #caption = make("figcaption");
@@ -83,8 +84,20 @@ export class Figure {
       this.#plot.style.setProperty("min-height", `${size.height}px`);
       const { x, y } = this.#view;
       const options = { ...size, ...units(), hidden: this.#legend.hidden, ...(x && { x_range: x }), ...(y && { y_range: y }) };
-      this.#show(await this.#values.chart(this.name, options));
+      this.#show(await this.#drawn(options));
     }
+  }
+
+  /** The core's drawing, and the other result's on the same axes, which then hold both. Pictures of space magnify too differently for that. */
+  async #drawn(options) {
+    const own = await this.#values.chart(this.name, options);
+    const other = this.plane ? null : await this.beside?.chart(this.name, options).catch(() => null);
+    if (!other) return { own };
+    const [x, y] = ["x", "y"].map((axis) => joined(own[axis].full, other[axis].full));
+    const both = { ...options, x_range: this.#view.x ?? x, y_range: this.#view.y ?? y };
+    const drawn = await Promise.all([this.#values, this.beside].map((values) => values.chart(this.name, both)));
+    [drawn[0].x.full, drawn[0].y.full] = [x, y];
+    return { own: drawn[0], other: drawn[1] };
   }
 
   /** Says below it why it is not drawn. */
@@ -110,15 +123,16 @@ export class Figure {
     return { width, height: Math.round(height) };
   }
 
-  #show(chart) {
+  #show({ own: chart, other }) {
     this.#chart = chart;
     this.#svg = drawingOf(chart);
+    if (other) layBelow(this.#svg, drawingOf(other));
     this.#plot.replaceChildren(this.#svg, this.#marks.node);
     const { width, height } = chart;
     for (const [name, value] of Object.entries({ width, height, viewBox: `0 0 ${width} ${height}` })) this.#marks.node.setAttribute(name, value);
     this.#title.textContent = chart.title;
     this.#caption.textContent = chart.description;
-    this.#legend.show(chart.series);
+    this.#legend.show(chart.series, Boolean(other));
     this.#move();
     this.#fill();
     this.follow(cursor());
@@ -388,5 +402,8 @@ export class Figure {
     file(format === "svg" ? "image/svg+xml" : "image/png", format === "svg" ? svg : await pngOf(svg));
   }
 }
+
+/** The range that holds both. */
+const joined = (a, b) => [Math.min(a[0], b[0]), Math.max(a[1], b[1])];
 
 const units = () => ({ length: setting("length"), force: setting("force") });

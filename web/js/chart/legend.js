@@ -21,13 +21,14 @@ export class Legend {
     return this.#keys.filter((key) => this.#hidden.has(key));
   }
 
-  /** Takes over the series of a drawing. */
-  show(series) {
-    const said = JSON.stringify(series);
+  /** Takes over the series of a drawing, and says whether a pinned result's are below them. */
+  show(series, pinned) {
+    const said = JSON.stringify([series, pinned]);
     if (this.node.dataset.series === said) return; // buttons keep the focus
     this.node.dataset.series = said;
     this.#keys = series.map(({ key }) => key);
     this.node.replaceChildren(...series.map(entry));
+    if (pinned) this.node.append(make("li", { className: "pinned" }, sample({ key: "", class: "" }), "A (thin)"));
     rove(this.node);
     this.#mark();
   }
