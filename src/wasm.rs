@@ -188,10 +188,10 @@ impl Run {
         Float64Array::from(self.report.track(most).as_slice())
     }
 
-    /// Every chart.
+    /// Every chart that has something to show.
     #[wasm_bindgen(unchecked_return_type = "ChartEntry[]")]
     pub fn charts(&self) -> Result<JsValue, JsValue> {
-        object(&chart::CATALOG.to_vec())
+        object(&chart::charts_of(&self.report))
     }
 
     /// One chart, drawn in the size asked for.

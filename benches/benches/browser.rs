@@ -21,6 +21,10 @@ const CAPABILITIES: &str = include_str!("../../.cargo/webdriver.json");
 /// Longest that one question may take; a million samples of every stage take minutes on a slow machine.
 const PATIENCE: Duration = Duration::from_secs(1200);
 
+/// How often the page is opened again, and the pause between.
+const WARM_VISITS: usize = 15;
+const PAUSE: Duration = Duration::from_secs(1);
+
 fn main() -> Outcome {
     let file = env::var("ARMILL_BENCH_RESULT")?;
     let sizes: Vec<usize> =
@@ -43,9 +47,13 @@ async fn measured(sizes: &[usize]) -> Outcome<Value> {
 async fn all(client: &Client, sizes: &[usize]) -> Outcome<Value> {
     let wait = TimeoutConfiguration::new(Some(PATIENCE), None, None);
     client.update_timeouts(wait).await?;
-    client.goto(&format!("{}bench/index.html", env::var("ARMILL_SITE_URL")?)).await?;
+    let site = env::var("ARMILL_SITE_URL")?;
+    println!("Chromium: first result");
+    let first = first_results(client, &site).await?;
+    client.goto(&format!("{site}bench/index.html")).await?;
     println!("Chromium: kinematics");
     let mut result = json!({ "kinematics": ask(client, &[json!("kinematics")]).await?, "jobs": {} });
+    result["first_result"] = json!(first);
     for &samples in sizes {
         println!("Chromium: {samples} samples");
         result["jobs"][samples.to_string()] = json!({
@@ -57,6 +65,24 @@ async fn all(client: &Client, sizes: &[usize]) -> Outcome<Value> {
     let agent = client.execute("return navigator.userAgent", Vec::new()).await?;
     result["browser"] = agent;
     Ok(result)
+}
+
+/// From opening the page to its first result [ms]: the first time with nothing cached, then again and again.
+async fn first_results(client: &Client, site: &str) -> Outcome<Vec<Value>> {
+    let script = "const [done] = arguments; \
+                  const look = () => { \
+                    const [mark] = performance.getEntriesByName('first result'); \
+                    mark ? done(mark.startTime) : setTimeout(look, 50); \
+                  }; \
+                  look();";
+    let mut times = Vec::new();
+    for visit in 0..=WARM_VISITS {
+        client.goto(&format!("{site}index.html?visit={visit}")).await?;
+        times.push(client.execute_async(script, Vec::new()).await?);
+        // The compiled code goes into the browser's cache, and the full core comes, after that.
+        tokio::time::sleep(PAUSE).await;
+    }
+    Ok(times)
 }
 
 /// Asks a Worker of its own, so that each starts with fresh memory.

@@ -35,8 +35,11 @@ const fn entry(
     Entry { name, title, view, figure, kind }
 }
 
+/// Of interest only where the spin is free.
+const SPIN: &str = "spin";
+
 /// All charts, in the order of the page.
-pub const CATALOG: [Entry; 27] = [
+pub const CATALOG: [Entry; 28] = [
     entry("before-after", "Contour error before and after compensation", "overview", "5.18", "time"),
     entry("actual-path", "Desired and actual path, deviation magnified", "overview", "5.7", "space"),
     entry("convergence", "Contour error left after each pass", "overview", "", "curve"),
@@ -68,9 +71,15 @@ pub const CATALOG: [Entry; 27] = [
     entry("joint-4", "Joint 4, original and shaped", "joints", "4.11", "time"),
     entry("joint-5", "Joint 5, original and shaped", "joints", "4.11", "time"),
     entry("joint-6", "Joint 6, original and shaped", "joints", "4.11", "time"),
+    entry(SPIN, "Spin about the tool axis", "joints", "", "time"),
     entry("shaper-step", "Unit step, original and shaped", "shaper", "4.10", "curve"),
     entry("shaper-robustness", "Vibration left if the frequency is misjudged", "shaper", "", "curve"),
 ];
+
+/// The charts that have something to show of a report.
+pub fn charts_of(report: &Report) -> Vec<Entry> {
+    CATALOG.into_iter().filter(|entry| entry.name != SPIN || report.spin.is_some()).collect()
+}
 
 /// Draws the chart `name` of a report.
 ///
@@ -131,6 +140,7 @@ fn content(report: &Report, name: &str, units: Units) -> Result<Content, Error> 
             (sheet::BOTH, &report.before.contour_error),
         ]),
         "joints" => sheet.joints(),
+        SPIN => sheet.spin(),
         "shaper-step" => sheet.step(),
         "shaper-robustness" => sheet.robustness(),
         _ => match name.strip_prefix("joint-").and_then(|joint| joint.parse::<usize>().ok()) {

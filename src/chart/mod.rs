@@ -16,6 +16,6 @@ mod frame;
 mod scale;
 mod trace;
 
-pub use catalog::{CATALOG, Entry, chart, data};
+pub use catalog::{CATALOG, Entry, chart, charts_of, data};
 pub use plot::{Chart, Options};
 pub use unit::{ForceUnit, Units};

@@ -278,6 +278,23 @@ impl Sheet<'_> {
         self.over_time(format!("Ranges in deg: {}.", texts.join(", ")), y, curves)
     }
 
+    /// The spin over time, and the fixed angle that a free one is compared with.
+    pub(super) fn spin(&self) -> Content {
+        let plan = &self.report.plan;
+        let values: Vec<f64> =
+            plan.trajectory.pace.arc_length.iter().map(|&s| plan.path.spin(s) / DEG).collect();
+        let mut description = format!("From {:.1} to {:.1} deg", min(&values), max(&values));
+        let count = values.len();
+        let mut curves = vec![Curve { key: "spin", label: "Chosen", class: "s1", values }];
+        if let Some(gain) = &self.report.spin {
+            description += &format!(", compared with {:.1} deg all along", gain.fixed_deg);
+            let values = vec![gain.fixed_deg; count];
+            curves.push(Curve { key: "fixed", label: "Fixed", class: "desired", values });
+        }
+        let y = Axis { label: "Angle", unit: "deg", ..Axis::default() };
+        self.over_time(format!("{description}."), y, curves)
+    }
+
     pub(super) fn shaped_joint(&self, joint: usize) -> Content {
         let original = degrees(&self.report.joints.q, joint);
         let shaped = degrees(&self.report.before.q, joint);

@@ -1,6 +1,7 @@
 //! What the arm carries, what its joints give, and how it may spin the tool, entered on the page.
 
 use crate::browser::{DESKTOP, Result, visit};
+use crate::chart::{Chart, column};
 use crate::common::run;
 use crate::{current, shows, text, unfold};
 use serde_json::json;
@@ -47,8 +48,20 @@ fn a_free_spin_says_what_it_gains() -> Result {
         let summary = serde_json::to_value(report.summary()).unwrap();
         let said = text(page, "spin-gain").await?;
         assert!(said.contains(summary["spin"]["sentence"].as_str().unwrap()), "{said}");
+        let chart = Chart::open(page, "joints", "spin").await?;
+        for across in [0.1, 0.6] {
+            chart.hover(across).await?;
+            let values = chart.values().await?;
+            let sample = column(&report, "time_s").iter().position(|t| *t == values[0]).unwrap();
+            assert_eq!(values[1..], [column(&report, "spin_deg")[sample], 0.0]);
+        }
+        page.js("document.getElementById('tab-overview').click()").await?;
         page.choose("#spin-mode", "fixed").await?;
         current(page).await?;
+        page.js("document.getElementById('tab-joints').click()").await?;
+        page.wait_for("document.querySelector('#chart-joints svg.plot')", 10.0).await?;
+        page.wait_for("!document.querySelector('#panel-joints #chart-spin')", 10.0).await?;
+        page.js("document.getElementById('tab-overview').click()").await?;
         page.wait_for("!document.getElementById('spin-gain').checkVisibility()", 10.0).await
     })
 }

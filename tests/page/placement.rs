@@ -81,3 +81,23 @@ fn a_place_is_taken_by_click_or_key_and_given_back_by_undo() -> Result {
         page.wait_for(&format!("{place}[0] !== 0"), 5.0).await
     })
 }
+
+#[test]
+fn a_map_is_cancelled_and_computed_again() -> Result {
+    visit("/", DESKTOP, async |page| {
+        open(page).await?;
+        page.choose("#placement-steps", "41").await?;
+        let cancel = "document.querySelector('#placement-cancel')";
+        page.wait_for(&format!("!{cancel}.disabled"), 10.0).await?;
+        page.js(&format!("{cancel}.click()")).await?;
+        let says = |text: &str| {
+            format!("document.querySelector('#placement-status').textContent.includes('{text}')")
+        };
+        page.wait_for(&says("Cancelled"), 10.0).await?;
+        page.wait_for(&format!("{cancel}.disabled"), 10.0).await?;
+        // Nothing goes on behind it, and another map starts with Workers of its own.
+        page.choose("#placement-steps", "11").await?;
+        page.wait_for(&says("121 places in"), 60.0).await?;
+        current(page).await
+    })
+}

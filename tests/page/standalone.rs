@@ -22,6 +22,7 @@ fn the_one_file_page_works_from_disk() -> Result {
         page.type_into("#motion-feed_mm_s", "80").await?;
         shows(page, &run(&[("motion.feed_mm_s", json!(80))])).await?;
         page.wait_for("document.querySelector('#chart-before-after svg .series')", 20.0).await?;
+        assert_eq!(page.js("return document.getElementById('share-embed')").await?, json!(null));
         // The examples are inside.
         page.choose("#examples", "rim.csv").await?;
         current(page).await?;

@@ -12,6 +12,9 @@ export async function readText(path) {
 /** The core that a Worker starts with: it has all that the first result needs. */
 export const FIRST_CORE = "small";
 
+/** Whether embed.html is beside the page. */
+export const EMBEDDABLE = true;
+
 /** A compiled core, `small` or `full`. */
 export async function compileCore(name) {
   const load = () => fetch(urlOf(`pkg/${name}/armill_bg.wasm`));

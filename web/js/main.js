@@ -109,6 +109,7 @@ const events = {
     showFigures();
     takeLines(summary);
     setCharts(charts);
+    if (first) performance.mark("first result"); // for whoever measures
     if (first) restorePin(() => shown);
     scene.show(summary);
     identify.look();

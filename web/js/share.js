@@ -2,6 +2,7 @@
 
 import { byId, make } from "./dom.js";
 import { download } from "./download.js";
+import { EMBEDDABLE } from "./files.js";
 import { fragmentOf, LONGEST_LINK } from "./link.js";
 import { markdown } from "./markdown.js";
 import { formatNumber } from "./number.js";
@@ -9,7 +10,7 @@ import { formatNumber } from "./number.js";
 const FORMS = {
   link: { title: "Link", note: "The whole job is in the link itself. Whoever opens it computes the same result; nothing is stored on a server." },
   markdown: { title: "Markdown", note: "For a report or a message: verdict, figures, inputs that differ from the default, and the link." },
-  embed: { title: "Embed", note: "For a page of your own: a frame that shows this job." },
+  ...(EMBEDDABLE && { embed: { title: "Embed", note: "For a page of your own: a frame that shows this job." } }),
 };
 
 /** Makes the dialog; the function it returns opens it for `{ json, job, standard, summary }`. */

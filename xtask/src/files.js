@@ -12,6 +12,9 @@ export async function readText(path) {
 /** The core that a Worker starts with, here the only one. */
 export const FIRST_CORE = "full";
 
+/** Whether embed.html is beside the page. */
+export const EMBEDDABLE = false;
+
 /** The compiled core. */
 export function compileCore() {
   const packed = Uint8Array.from(atob(textOf("core")), (character) => character.charCodeAt(0));

@@ -152,6 +152,22 @@ impl Results {
         )
     }
 
+    fn first_result(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let times = self.chromium["first_result"].as_array().map_or(&[][..], Vec::as_slice);
+        let Some((cold, warm)) = times.split_first() else { return Ok(()) };
+        if let Some(Time { median, least }) = Time::of_milliseconds(&json!(warm)) {
+            writeln!(
+                f,
+                "From opening the page to its first result: {:.0} ms with nothing cached; {:.0} ms after that, the median of {} visits, {:.0} ms at least.\n",
+                cold.as_f64().unwrap_or(f64::NAN),
+                median / 1e6,
+                warm.len(),
+                least / 1e6
+            )?;
+        }
+        Ok(())
+    }
+
     fn poses(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let native = |name: &str| self.native.of("kinematics", name);
         let ns =
@@ -205,6 +221,7 @@ impl Display for Results {
             writeln!(f, "- {condition}")?;
         }
         writeln!(f)?;
+        self.first_result(f)?;
         for &size in &self.sizes {
             self.jobs(f, size)?;
         }
