@@ -5,7 +5,8 @@
 
 import { FIRST_CORE, compileCore, readText, startWorker } from "./files.js";
 
-const SUPERSEDE_MS = 400; // a run older than this is cut off when a newer job arrives; a younger one may finish
+const SUPERSEDE_MS = [400, 1500]; // a run older than this is cut off when a newer job arrives; a younger one may finish
+const LARGE = 100_000; // samples: a Worker that has held more is not used again, for its memory never shrinks
 const REST = "The part of the calculator that draws charts, reads programs and writes files";
 const CANCELLED = { code: "cancelled", message: "Cancelled." };
 
@@ -15,6 +16,7 @@ let spare = null; // Worker to compute in
 let since = null; // when the run in progress began
 let listing; // promise of what a form is built from
 let foreseen; // { json, result, since } of a run that nobody has asked for yet
+let lasted = 0; // how long the shown result took [ms]
 let next = null; // the job to compute next: only the latest counts
 let good = null; // the job of the shown result
 let lost = false; // the shown result was lost to a trap and is being computed again
@@ -48,8 +50,11 @@ export function run(json) {
   lost = false;
   next = json;
   if (since === null) compute();
-  else if (performance.now() - since > SUPERSEDE_MS) cutOff(CANCELLED);
+  else if (performance.now() - since > patience()) cutOff(CANCELLED);
 }
+
+/** Twice as long as the last run took, within bounds: whoever pushes a number on and on sees results all the same. */
+const patience = () => Math.min(SUPERSEDE_MS[1], Math.max(SUPERSEDE_MS[0], 2 * lasted));
 
 /** Stops the run in progress, at once. */
 export function cancel() {
@@ -112,9 +117,12 @@ async function compute() {
     events.onstart();
     try {
       const result = await (early?.result ?? worker.ask("run", json));
+      worker.large = result.summary.samples > LARGE;
+      if (shown?.large) retire(shown);
       [shown, spare] = [worker, shown ?? spawn()];
       good = json;
-      events.onresult(result, performance.now() - since);
+      lasted = performance.now() - since;
+      events.onresult(result, lasted);
       spare.ask("prepare").catch(() => {}); // who needs the full core is told that it is missing
     } catch (error) {
       if (error.fatal) retire(worker);
@@ -154,6 +162,17 @@ function recover(error) {
   if (since === null) compute();
 }
 
+/** A long run that another core must go on with: in a Worker of its own, or both cores' memory would be held at once. */
+function again(worker, name) {
+  core = name;
+  retire(worker);
+  if (since !== null) return; // a newer job's result is on its way
+  spare?.stop(CANCELLED);
+  spare = null;
+  next = good;
+  compute();
+}
+
 function cutOff(reason) {
   const worker = spare;
   spare = spawn();
@@ -189,7 +208,7 @@ function spawn(onprogress = (progress) => events?.onprogress(progress)) {
   const lack = ({ message }) => worker.postMessage({ core: "full", error: { code: "load", message: `${REST} could not be loaded (${message}).` } });
   worker.addEventListener("message", ({ data: { id, value, error, progress, need } }) => {
     if (progress) return onprogress(progress);
-    if (need) return give(need).catch(lack);
+    if (need) return (own.large ? moduleOf(need).then(() => again(own, need)) : give(need)).catch(lack);
     const question = waiting.get(id);
     waiting.delete(id);
     if (error) question?.reject(error);
@@ -200,8 +219,9 @@ function spawn(onprogress = (progress) => events?.onprogress(progress)) {
     fail(event);
   });
   const give = (name) => moduleOf(name).then((module) => worker.postMessage({ core: (core = name), module }));
-  return {
+  const own = {
     stop,
+    large: false, // whether it holds a long run
     supplied: give(core).catch(fail),
     ask: (kind, ...args) =>
       new Promise((resolve, reject) => {
@@ -210,4 +230,5 @@ function spawn(onprogress = (progress) => events?.onprogress(progress)) {
         worker.postMessage({ id: count, kind, args });
       }),
   };
+  return own;
 }

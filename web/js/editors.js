@@ -1,6 +1,6 @@
 // One editor per kind of field. An editor is
-//   { node, inputs, read(), write(value), at(rest), mark(line) }
-// of which the last is for texts alone. read() gives the value or throws a Mistake; at(rest) gives the input that an error path such as "[1].a_mm" means.
+//   { node, inputs, read(), write(value), at(rest), mark(line), step(count) }
+// of which mark is for texts and step for numbers alone. read() gives the value or throws a Mistake; at(rest) gives the input that an error path such as "[1].a_mm" means.
 
 import { make } from "./dom.js";
 import { listing } from "./listing.js";
@@ -40,21 +40,30 @@ function single(field, input, read, write) {
 }
 
 function number(field) {
-  const input = numberInput(idOf(field.path), field.kind === "integer");
-  return single(field, input, () => typedNumber(input, field.kind === "integer"), (value) => (input.value = plainNumber(value)));
+  const whole = field.kind === "integer";
+  const input = numberInput(idOf(field.path), whole);
+  const editor = single(field, input, () => typedNumber(input, whole), (value) => (input.value = plainNumber(value)));
+  return { ...editor, step: (count) => step(input, count, whole) };
 }
 
 function numberInput(id, whole = false) {
   const input = make("input", { id, type: "text", inputMode: whole ? "numeric" : "decimal", className: "value" });
   input.addEventListener("keydown", (event) => {
     const direction = { ArrowUp: 1, ArrowDown: -1 }[event.key];
-    const value = parseNumber(input.value);
-    if (!direction || event.altKey || event.ctrlKey || event.metaKey || Number.isNaN(value)) return;
+    if (!direction || event.altKey || event.ctrlKey || event.metaKey || Number.isNaN(parseNumber(input.value))) return;
     event.preventDefault();
-    input.value = plainNumber(stepped(value, direction, whole));
-    input.dispatchEvent(new Event("input", { bubbles: true }));
+    step(input, direction, whole);
   });
   return input;
+}
+
+/** Changes a number by some steps at once: an "input" whose detail says that nothing is being typed. */
+function step(input, count, whole) {
+  let value = parseNumber(input.value);
+  if (Number.isNaN(value)) return;
+  for (let i = 0; i < Math.abs(count); i++) value = stepped(value, Math.sign(count), whole);
+  input.value = plainNumber(value);
+  input.dispatchEvent(new CustomEvent("input", { bubbles: true, detail: "stepped" }));
 }
 
 function typedNumber(input, whole = false) {

@@ -2,6 +2,7 @@
 
 import { byId, make, sentence } from "./dom.js";
 import { editorFor, idOf, Mistake } from "./editors.js";
+import { scrub } from "./scrub.js";
 import { asText, brief, helpText, withOwn } from "./words.js";
 
 const GROUPS = {
@@ -138,7 +139,8 @@ export class Form {
     const row = { field, editor, node, reset, error, note, notes, mistake: false };
     // Some assistive tools and drivers choose an option with "change" alone.
     const kind = editor.inputs[0].tagName === "SELECT" ? "change" : "input";
-    node.addEventListener(kind, ({ target }) => this.#edited(row, kind === "change" || isBox(target) ? undefined : field.path));
+    node.addEventListener(kind, ({ target, detail }) => this.#edited(row, kind === "change" || isBox(target) ? undefined : field.path, detail === "stepped"));
+    if (editor.step) scrub(title, (count) => editor.step(count));
     reset.addEventListener("click", () => {
       this.#setError(row, "");
       this.#job.reset(field);
@@ -160,9 +162,9 @@ export class Form {
     return button;
   }
 
-  #edited(row, typing) {
+  #edited(row, typing, stepped) {
     this.#take(row);
-    this.#changed(typing);
+    this.#changed(typing, stepped);
   }
 
   /** Puts what a row holds into the job, or says why not. */
@@ -186,9 +188,9 @@ export class Form {
     this.#take(row);
   }
 
-  #changed(typing) {
+  #changed(typing, stepped) {
     this.refresh();
-    this.#onchange(typing);
+    this.#onchange(typing, stepped);
   }
 
   #says(row) {

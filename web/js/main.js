@@ -53,8 +53,8 @@ const computeNow = () => {
 };
 const compute = debounced(computeNow, TYPING_MS);
 
-/** After every edit: compute, or say what is wrong and keep the last result. */
-function edited() {
+/** After every edit: compute, or say what is wrong and keep the last result. A number that is pushed is complete at every step. */
+function edited(stepped = false) {
   alertOff();
   if (form.flawed) {
     if (shown) core.cancel();
@@ -65,7 +65,7 @@ function edited() {
   armView.show(job);
   state("computing");
   typing = true;
-  if (shown) compute();
+  if (shown && !stepped) compute();
   else computeNow();
 }
 
@@ -125,7 +125,7 @@ const events = {
     if (form.showError(error)) return stale();
     state("stale");
     const where = error.line ? ` (line ${error.line}, column ${error.column})` : "";
-    if (error.code === "load") alertOn(error.message, "Try again", edited);
+    if (error.code === "load") alertOn(error.message, "Try again", () => edited());
     else if (error.code === "unreachable" || error.field === "path") alertOn(error.message, "Place the path in front of this robot", placeInFront);
     else alertOn(`${error.message}${where}`);
     say(lastValid().trim() || "No result yet.");
@@ -305,7 +305,7 @@ try {
   standard = hello.job;
   job = new Job(standard, hello.fields, hello.presets);
   byId("version").textContent = `v${hello.version}`;
-  form = new Form(byId("form"), job, hello.fields, hello.presets, (typing) => session.edited(typing));
+  form = new Form(byId("form"), job, hello.fields, hello.presets, (typing, stepped) => session.edited(typing, stepped));
   byId("group-robot").querySelector("legend").after(armView.node);
   byId("group-path").querySelector("legend").after(programTools(useProgram, alertOn));
   followCaret((time) => setCursor(time, "program"));

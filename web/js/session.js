@@ -19,7 +19,7 @@ export class Session {
   #found = ""; // what the focused text field held when it got the focus
   #own; // the focused text field, while it holds something else
 
-  /** `changed()` is called whenever the inputs are others than before, `warn(message)` with what could not be shown. */
+  /** `changed(stepped)` is called whenever the inputs are others than before, `warn(message)` with what could not be shown. */
   constructor({ job, form, standard, core, changed, warn }) {
     this.#job = job;
     this.#form = form;
@@ -61,12 +61,12 @@ export class Session {
     this.#keep();
   }
 
-  /** After an edit in the form; `group` names the field while it is typed into. */
-  edited(group) {
+  /** After an edit in the form; `group` names the field while it is typed into, `stepped` says that it is rather pushed. */
+  edited(group, stepped) {
     this.#history.record(this.#state, group);
     this.#keep();
     this.#buttons();
-    this.#changed();
+    this.#changed(stepped);
   }
 
   /** Undoes (`step` -1) or redoes (1) the last change. */

@@ -1,0 +1,51 @@
+//! Numbers that are pushed: a label is a slider, and results follow while it is dragged.
+
+use crate::browser::{DESKTOP, Page, Result, visit};
+use crate::common::run;
+use crate::{current, shows, unfold};
+use serde_json::json;
+
+/// Presses the mouse on a label, moves it by some pixels in steps of one, and lets it go.
+async fn drag(page: &Page, label: &str, pixels: i32) -> Result {
+    let place = page
+        .js(&format!(
+            "const label = document.querySelector('{label}'); label.scrollIntoView({{ block: 'center' }}); \
+             const {{ x, y, height }} = label.getBoundingClientRect(); return [x + 12, y + height / 2]"
+        ))
+        .await?;
+    let [x, y]: [f64; 2] = serde_json::from_value(place)?;
+    let mouse = async |kind: &str, by: i32| {
+        let event = json!({ "type": kind, "x": x + f64::from(by), "y": y, "button": "left", "buttons": 1, "clickCount": 1 });
+        page.devtools("Input.dispatchMouseEvent", event).await
+    };
+    mouse("mousePressed", 0).await?;
+    for by in 1..=pixels.abs() {
+        mouse("mouseMoved", by * pixels.signum()).await?;
+    }
+    mouse("mouseReleased", pixels).await.map(|_| ())
+}
+
+#[test]
+fn a_label_dragged_sideways_is_a_slider() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        unfold(page, "motion").await?;
+        page.js(
+            "const seen = (window.seen = []); const verdict = document.querySelector('#fingerprint'); \
+             new MutationObserver(() => seen.push(verdict.textContent)).observe(verdict, { childList: true })",
+        )
+        .await?;
+        drag(page, "#motion-feed_mm_s-label", -40).await?;
+        // Ten steps of one in the last digit but one: 100, 90, then 89 to 81.
+        let reached = page.value("#motion-feed_mm_s").await?;
+        assert_eq!(reached, "10");
+        shows(page, &run(&[("motion.feed_mm_s", json!(10))])).await?;
+        assert!(
+            page.js("return document.activeElement.id !== 'motion-feed_mm_s'").await? == json!(true),
+            "a drag is no click"
+        );
+        page.click("#motion-feed_mm_s-label").await?;
+        assert_eq!(page.js("return document.activeElement.id").await?, json!("motion-feed_mm_s"));
+        Ok(())
+    })
+}
