@@ -31,6 +31,8 @@ mod placement;
 mod policy;
 #[path = "page/programs.rs"]
 mod programs;
+#[path = "page/pushing.rs"]
+mod pushing;
 #[path = "page/robots.rs"]
 mod robots;
 #[path = "page/scene.rs"]
