@@ -1,4 +1,5 @@
-//! Computes a job file (the default job without one), prints its summary as one JSON object and, if asked, writes all columns.
+//! Computes a job file (the default job without one), prints its summary as one JSON object, with what comes out of its path as a program
+//! (`as_program`), and, if asked, writes all columns.
 //!
 //! `cargo run --release --example run -- [job.json] [--columns out.csv]`
 
@@ -33,7 +34,12 @@ fn main() -> ExitCode {
     {
         return usage(&format!("{file}: {error}"));
     }
-    match serde_json::to_string_pretty(&report.summary()) {
+    let mut summary = serde_json::json!(report.summary());
+    summary["as_program"] = match armill::export::promise(&report) {
+        Ok(promise) => serde_json::json!(promise),
+        Err(error) => serde_json::json!({ "error": error.to_string() }),
+    };
+    match serde_json::to_string_pretty(&summary) {
         Ok(summary) => {
             use std::io::Write;
             // A reader that hung up early (`| head`) is no error.

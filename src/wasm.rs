@@ -25,6 +25,7 @@ use wasm_bindgen::{JsCast, JsValue};
 const TYPES: &'static str = r#"
 export interface ArmillError extends Error { code: string; field?: string; line?: number; column?: number; }
 export interface Statistics { mean: number; max: number; }
+export interface Promised { max_mm: number; met: boolean; sentence: string; }
 export interface Warning { code: string; message: string; from_sample?: number; to_sample?: number; from_s?: number; to_s?: number; }
 export interface Parts { joints: number[]; tool: number; shaping: number; total: number; }
 export interface Budget { sample: number; time_s: number; worst_mm: Parts; mean_mm: Parts; sentence: string; }

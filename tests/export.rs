@@ -5,16 +5,23 @@
 mod common;
 
 use armill::export::command::{COARSEST, FINEST};
+use armill::export::fillet;
 use armill::export::orientation::{about_moving_xyz, quaternion, roll_pitch_yaw};
 use armill::export::thin::{LEVER, Point, deviation, thin};
 use armill::export::{FORMATS, Options, export};
 use armill::math::{Pose, rotation_about, sin_cos};
 use armill::path::gcode;
+use armill::units::MM;
 use common::program::{small_jobs, written};
 use common::{any_vector, between, run};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use serde_json::json;
 use std::f64::consts::FRAC_PI_2;
+
+/// Each point standing for itself.
+fn alone(points: &[Point]) -> Vec<Vec<Point>> {
+    points.iter().map(|point| vec![*point]).collect()
+}
 
 #[test]
 fn thinned_lines_keep_every_point_within_the_tolerance() {
@@ -54,9 +61,42 @@ fn thinned_lines_keep_every_point_within_the_tolerance() {
             })
             .fold(0.0, f64::max);
         assert!(worst <= tolerance * 1.001 + 1e-8, "case {case}: {worst} of {tolerance}");
-        let measured = deviation(&points, &kept, &left);
+        let measured = deviation(&points, &kept, &alone(&left));
         assert!(measured <= tolerance, "case {case}: measured {measured} of {tolerance}");
     }
+}
+
+/// A corner in the middle of a move: what is rounded keeps near it, turns nowhere by more than it may, and touches nothing else.
+#[test]
+fn a_fillet_leaves_out_a_corner() {
+    const LIMIT: f64 = 0.07;
+    let point =
+        |x: f64, y: f64| Point { position: Vector3::new(x, y, 0.1) * MM, axis: Vector3::z(), spin: 0.0 };
+    for (turn, tolerance) in [(0.1_f64, 1e-6), (0.5, 1e-6), (1.5, 1e-5), (2.5, 1e-4), (0.5, 1.0)] {
+        let after = point(2.0 + 2.0 * turn.cos(), 2.0 * turn.sin());
+        let points = [point(0.0, 0.0), point(2.0, 0.0), after];
+        let standing = fillet::round(&points, 1, LIMIT, tolerance, 1e-8);
+        let left_out = deviation(&points, &[0, 1, 2], &standing);
+        let rounded = standing.concat();
+        let count = (turn / LIMIT).ceil() as usize;
+        assert_eq!(rounded.len(), 3 + count, "{turn}");
+        assert_eq!((rounded[0], rounded[rounded.len() - 1]), (points[0], after));
+        let moves: Vec<_> = rounded.windows(2).map(|ends| ends[1].position - ends[0].position).collect();
+        for pair in moves.windows(2) {
+            // The chords touch the arc's middle, so at its ends they turn by half.
+            assert!(pair[0].angle(&pair[1]) <= LIMIT + 1e-9, "{turn}");
+        }
+        assert!(left_out <= tolerance * (1.0 + 1e-9), "{turn}: {left_out}");
+        // No less than it may, give or take the chord: as far from the corner as allowed, or up to the middle of a move.
+        let reach = (rounded[1].position - points[1].position).norm();
+        assert!(left_out > 0.75 * tolerance || (reach - MM).abs() < 1e-12, "{turn}: {left_out} {reach}");
+        // What may turn, rests before it, or cannot be said in such steps stays.
+        assert_eq!(fillet::round(&points, 1, turn + 1e-6, tolerance, 1e-8).concat(), points);
+        assert_eq!(fillet::round(&points, 2, LIMIT, tolerance, 1e-8).concat(), points);
+        assert_eq!(fillet::round(&points, 1, LIMIT, tolerance, 1e-3).concat(), points);
+    }
+    let back = [point(0.0, 0.0), point(2.0, 0.0), point(1.0, 0.0)];
+    assert_eq!(fillet::round(&back, 1, LIMIT, 1e-6, 1e-8).concat(), back);
 }
 
 #[test]
@@ -85,7 +125,7 @@ fn thinning_is_exact_on_lines_and_bears_a_million_points() {
     let kept = thin(&helix, 1e-6);
     // A chord of a circle of 100 mm within 1 um spans at most 8.9 mrad: ten steps at least eight of which are used.
     assert!((1_000_000 / 9..1_000_000 / 4).contains(&kept.len()), "{}", kept.len());
-    assert!(deviation(&helix, &kept, &kept.iter().map(|&k| helix[k]).collect::<Vec<_>>()) <= 1e-6);
+    assert!(deviation(&helix, &kept, &alone(&kept.iter().map(|&k| helix[k]).collect::<Vec<_>>())) <= 1e-6);
 }
 
 #[test]

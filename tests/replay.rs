@@ -5,9 +5,10 @@ mod common;
 
 use armill::export::command::Course;
 use armill::export::replay::{self, replay};
-use armill::export::{Options, export};
+use armill::export::{Options, export, promise};
 use armill::math::Pose;
-use armill::path::gcode;
+use armill::motion::Trajectory;
+use armill::path::{Path, gcode};
 use common::program::small_jobs;
 use common::run;
 use nalgebra::Vector3;
@@ -36,7 +37,24 @@ fn jobs() -> Vec<(&'static str, Vec<(&'static str, Value)>)> {
         ("rounded rectangle without shaper", with(&rounded, std::slice::from_ref(&rigid))),
         ("rectangle without shaper", with(&sharp, &[rigid])),
         ("rectangle, no force", with(&sharp, &[idle])),
-        ("line, force follows the feed", with(&[line], &following)),
+        ("line, force follows the feed", with(std::slice::from_ref(&line), &following)),
+        ("default, force follows the feed", following.to_vec()),
+        ("arc, force follows the feed", with(&arc, &following)),
+        ("line, much force that follows the feed", with(&[line], &following[..2])),
+    ]
+}
+
+/// Jobs whose joint commands keep the tolerance, and no program that was found: forces that grow from nothing to bend the arm by
+/// millimetres while the tool gains speed.
+fn out_of_reach() -> Vec<(&'static str, Vec<(&'static str, Value)>)> {
+    let [(_, arc), ..] = small_jobs();
+    let following = ("cutting.feed_per_tooth_mm", json!("from_feed"));
+    let slow = [("motion.feed_mm_s", json!(26.6)), following.clone()];
+    vec![
+        ("default", vec![following.clone()]),
+        ("default, slow", slow.to_vec()),
+        ("arc", [arc.clone(), vec![following]].concat()),
+        ("arc, slow", [arc, slow.to_vec()].concat()),
     ]
 }
 
@@ -46,6 +64,8 @@ fn a_program_read_back_and_run_keeps_the_promise() {
         let report = run(&changes);
         let tolerance = report.summary().tolerance_mm;
         assert!(report.summary().after_mm.max <= tolerance, "{name}");
+        let promise = promise(&report).unwrap();
+        assert!(promise.met && promise.sentence.contains("within"), "{name}: {promise:?}");
         for format in ["gcode", "apt", "path-csv"] {
             let outcome = replay(&report, format, &Options::default()).unwrap();
             let error = outcome.statistics();
@@ -55,6 +75,27 @@ fn a_program_read_back_and_run_keeps_the_promise() {
     }
     let refused = replay(&run(&[]), "krl", &Options::default()).unwrap_err();
     assert_eq!((refused.code(), refused.field()), ("invalid", Some("format")));
+}
+
+/// The report promises no more for a program than comes out of it, and where a tool stops in the middle of a move the force does, too: it does not.
+#[test]
+fn what_no_program_keeps_is_not_promised() {
+    for (name, changes) in out_of_reach() {
+        let report = run(&changes);
+        let tolerance = report.summary().tolerance_mm;
+        assert!(report.summary().after_mm.max <= tolerance, "{name}");
+        let promise = promise(&report).unwrap();
+        assert!(!promise.met && promise.sentence.contains("beyond"), "{name}: {promise:?}");
+        let text = export(&report, "gcode", &Options::default()).unwrap().text;
+        let outcome = replay(&report, "gcode", &Options::default()).unwrap();
+        let read_back = outcome.statistics().max;
+        assert!(read_back <= promise.max_mm * 1.02, "{name}: {promise:?}, read back {read_back}");
+        let read = gcode::program(&text, &gcode::Options::default(), |_| {}).unwrap();
+        let own = Trajectory::new(&Path::of_program(&read).unwrap(), &report.setup.tempo);
+        assert_eq!(own.stops.len(), report.plan.trajectory.stops.len(), "{name}: {:?}", own.stops);
+        // Ten times less than the deflection itself, which is what an error of the whole correction would be.
+        assert!(read_back < 0.1 * report.summary().before_mm.deflection.max, "{name}: {read_back}");
+    }
 }
 
 /// What no program of this motion can keep, its own header says: forces that follow a fast feed from rest, corners under a slow shaper.

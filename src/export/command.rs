@@ -7,8 +7,9 @@
 use crate::compensation::Compensation;
 use crate::error::Error;
 use crate::export::arc::{self, Step, rounded};
+use crate::export::fillet;
 use crate::export::thin::{self, Point};
-use crate::math::Pose;
+use crate::math::{self, Pose};
 use crate::path::program::Dwell;
 use crate::path::{Move, MovePace, Path, Program, Segment};
 use crate::report::{Report, millimetres};
@@ -305,18 +306,46 @@ fn steps(piece: &Piece, segment: &Segment, (thinning, turn): (f64, f64), style: 
     let resolution = style.resolution();
     // Rounding moves the ends of straight moves, and what a control makes of a rounded centre the arcs.
     let tolerance = thinning - resolution;
-    let kept = thin::smooth(points, tolerance, piece.resting, turn);
-    let mut written: Vec<Point> = kept.iter().map(|&k| rounded(&points[k], resolution)).collect();
-    let deviation = thin::deviation(points, &kept, &written);
-    written.dedup();
-    let straight: Vec<Step> = written.into_iter().skip(1).map(|to| Step { to, arc: None }).collect();
+    let thinned = |tolerance: f64, fillet: f64| {
+        let kept = thin::smooth(points, tolerance, piece.resting, turn);
+        let ends: Vec<Point> = kept.iter().map(|&k| rounded(&points[k], resolution)).collect();
+        let first = 1 + kept.iter().filter(|&&k| k < piece.resting).count();
+        let mut ends = fillet::round(&ends, first, turn, fillet, resolution);
+        ends.iter_mut().flatten().for_each(|end| *end = rounded(end, resolution));
+        let corners = ends.iter().any(|standing| standing.len() > 1);
+        let strayed = thin::deviation(points, &kept, &ends);
+        let mut ends = ends.concat();
+        ends.dedup();
+        let straight: Vec<Step> = ends.into_iter().skip(1).map(|to| Step { to, arc: None }).collect();
+        (straight, strayed, corners)
+    };
+    let (mut straight, mut deviation, _) = thinned(tolerance, 0.0);
+    if stops(&points[0], &straight, turn) > 0 {
+        // The tool would stop in the middle of the move: half of the tolerance is for rounding that.
+        let (filleted, strayed, corners) = thinned(tolerance / 2.0, tolerance / 2.0 - resolution);
+        if corners && strayed <= tolerance {
+            (straight, deviation) = (filleted, strayed);
+        }
+    }
     if let Some(normal) = turning_about(segment).filter(|_| style.arcs && straight.len() > 1) {
         let (turned, strayed) = arc::steps(points, normal, tolerance - resolution, resolution);
-        if turned.len() < straight.len() {
+        let stops = |steps: &[Step]| stops(&points[0], steps, turn);
+        if turned.len() < straight.len() && stops(&turned) <= stops(&straight) {
             return (turned, strayed);
         }
     }
     (straight, deviation)
+}
+
+/// How many of the moves from `start` on turn by more than `limit` [rad] from the one before.
+fn stops(start: &Point, steps: &[Step], limit: f64) -> usize {
+    let mut from = *start;
+    let tangents = steps.iter().map(|step| {
+        let segment = step.segment(&std::mem::replace(&mut from, step.to));
+        (segment.tangent(0.0), segment.tangent(segment.length()))
+    });
+    let tangents: Vec<_> = tangents.collect();
+    tangents.windows(2).filter(|pair| math::angle_between(&pair[0].1, &pair[1].0) > limit).count()
 }
 
 /// The axis of the workpiece frame about which an arc turns, if it does.

@@ -1,6 +1,7 @@
 //! Files to take away: tables of numbers, and the compensated path as a program for a machine or a robot.
 
 pub mod thin;
+pub mod fillet;
 pub mod arc;
 pub mod orientation;
 pub mod command;
@@ -16,6 +17,7 @@ pub mod replay;
 pub mod rehearsal;
 
 pub use crate::report::format::{FORMATS, Format};
+pub use rehearsal::{Promise, promise};
 
 use crate::error::Error;
 use crate::report::Report;

@@ -109,12 +109,14 @@ pub fn smooth(points: &[Point], tolerance: f64, resting: usize, limit: f64) -> V
     }
 }
 
-/// Largest distance [m] of `points` from the moves between the points `kept`, as they are written: `written[i]` stands for `points[kept[i]]`.
-pub fn deviation(points: &[Point], kept: &[usize], written: &[Point]) -> f64 {
+/// Largest distance [m] of `points` from the moves as they are written: `written[i]` stands for `points[kept[i]]`, one point or several.
+pub fn deviation(points: &[Point], kept: &[usize], written: &[Vec<Point>]) -> f64 {
     let mut largest = 0.0_f64;
-    for (ends, moves) in kept.windows(2).zip(written.windows(2)) {
+    for (ends, standing) in kept.windows(2).zip(written.windows(2)) {
+        let chain: Vec<&Point> = standing.iter().flatten().collect();
         for point in &points[ends[0]..=ends[1]] {
-            largest = largest.max(point.distance(&moves[0], &moves[1]));
+            let from = |ends: &[&Point]| point.distance(ends[0], ends[1]);
+            largest = largest.max(chain.windows(2).map(from).fold(f64::INFINITY, f64::min));
         }
     }
     largest

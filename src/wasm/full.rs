@@ -68,6 +68,12 @@ impl Run {
         export::csv::rows(&self.report, from..to)
     }
 
+    /// What comes out of the path as a G-code program: its timing is its own.
+    #[wasm_bindgen(unchecked_return_type = "Promised")]
+    pub fn promise(&self) -> Result<JsValue, JsValue> {
+        object(&export::promise(&self.report).map_err(|error| thrown(&error))?)
+    }
+
     /// Contour error [mm] that comes out of a program (`gcode`, `apt` or `path-csv`), read back and sent through the model.
     #[wasm_bindgen(unchecked_return_type = "Statistics")]
     pub fn replay(&self, format: &str) -> Result<JsValue, JsValue> {

@@ -2,7 +2,7 @@
 
 const PROGRESS_MS = 40;
 const ROWS = 20_000; // of a file written at a time
-const FULL = new Set(["export", "replay", "thesis", "identify", "extent", "survey"]); // questions that only the full core answers
+const FULL = new Set(["export", "replay", "promise", "thesis", "identify", "extent", "survey"]); // questions that only the full core answers
 
 let armill; // the core in use: the small or the full one, behind the same interface
 let isFull = false;
@@ -36,6 +36,7 @@ const answers = {
   data: (name, units) => run.chart_data(name, units),
   export: (format) => (format === "columns-csv" ? columnsFile() : run.export(format)),
   replay: (format) => run.replay(format),
+  promise: () => run.promise(),
   /** Makes ready for the next job: with the first result shown, there is time to load the full core. */
   async prepare() {
     release();

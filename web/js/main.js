@@ -5,6 +5,7 @@ import { setCharts, showPanel } from "./charts.js";
 import { setCursor } from "./cursor.js";
 import { pin, pinnedResult, restorePin, showCompared, unpin } from "./compare.js";
 import { makeArmView } from "./arm-view.js";
+import { judgeAsProgram } from "./as-program.js";
 import { byId, debounced, make, sentence } from "./dom.js";
 import { download } from "./download.js";
 import { Form } from "./form.js";
@@ -112,6 +113,7 @@ const events = {
     if (first) performance.mark("first result"); // for whoever measures
     if (first) restorePin(() => shown);
     scene.show(summary);
+    judgeAsProgram(summary, took);
     identify.look();
     placement.look();
     for (const id of ["download-compensated", "download-columns", "download-program", "export-format", "share", "pin"]) byId(id).disabled = false;
