@@ -2,7 +2,8 @@
 
 use crate::browser::{DESKTOP, Page, Result, visit};
 use crate::common::run;
-use crate::{current, shows, stale, text};
+use crate::{current, shows, stale, text, unfold};
+use armill::export::promise;
 use serde_json::{Value, json};
 
 const SLOT: &str =
@@ -162,6 +163,27 @@ fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
         page.choose("#examples", "contour.nc").await?;
         current(page).await?;
         assert!(page.value("#path-text").await?.starts_with('%'));
+        Ok(())
+    })
+}
+
+/// The verdict is about joint commands, which keep the run's timing; what a program keeps is said below it.
+#[test]
+fn what_a_program_is_worth_stands_under_the_verdict() -> Result {
+    let following = [("cutting.feed_per_tooth_mm", json!("from_feed"))];
+    let [standard, beyond] = [run(&[]), run(&following)].map(|report| promise(&report));
+    let (standard, beyond) = (standard?, beyond?);
+    assert!(standard.met && !beyond.met);
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        let told = "document.getElementById('as-program').textContent.startsWith('Run as')";
+        page.wait_for(told, 20.0).await?;
+        assert_eq!(text(page, "as-program").await?, standard.sentence);
+        assert_eq!(page.js("return document.querySelectorAll('#as-program.bad').length").await?, json!(0));
+        unfold(page, "cutting").await?;
+        page.click("#cutting-feed_per_tooth_mm-from_feed").await?;
+        page.wait_for("document.querySelector('#as-program.bad')", 20.0).await?;
+        assert_eq!(text(page, "as-program").await?, beyond.sentence);
         Ok(())
     })
 }
