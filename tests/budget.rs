@@ -5,6 +5,7 @@ mod common;
 
 use armill::Report;
 use armill::report::scene::{FRAME, ROW};
+use armill::robot::{Joints, forward};
 use common::{column, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
@@ -33,6 +34,30 @@ fn what_the_joints_give_adds_up_to_the_deflection() {
             let sum: Vector3<f64> = report.deflection_by_joint(k).iter().sum();
             // The same sum in the same order, but of another rounding where it is added up.
             assert!((sum - report.before.deflection[k]).norm() < 1e-15);
+        }
+    }
+}
+
+#[test]
+fn tip_and_axis_go_where_the_turned_joints_put_them() {
+    for report in reports() {
+        let (robot, before) = (&report.plan.robot, &report.before);
+        for k in (0..report.samples()).step_by(211) {
+            let (q, force) = (before.q[k], before.force[k]);
+            let tip = |q| forward::forward(robot, &q).position;
+            // Work: a joint's torque is the force times the tip's way (eq. 3.47), by central differences.
+            let turns = Joints::from_fn(|i, _| {
+                let mut step = Joints::zeros();
+                step[i] = 1e-5;
+                robot.compliance()[i] * force.dot(&(tip(q + step) - tip(q - step))) / 2e-5
+            });
+            let bent = forward::forward(robot, &(q + turns));
+            let axis = -bent.rotation.column(2);
+            // Levers are taken before the joints turn: the square of the turn is left, on 1.5 m.
+            let square = turns.norm_squared() * 1.5;
+            assert!((before.actual[k] - bent.position).norm() <= square, "sample {k}");
+            assert!((before.axis[k] - axis).norm() <= square, "sample {k}");
+            assert!((tip(q) - bent.position).norm() > 20.0 * square, "and it is no little thing at {k}");
         }
     }
 }

@@ -5,7 +5,7 @@
 mod common;
 
 use armill::math::Pose;
-use armill::robot::inverse::{Branch, Margin, inverse};
+use armill::robot::inverse::{Branch, Margin, Solution, inverse};
 use armill::robot::{Joints, Link, Opw, Robot, compliance, forward, jacobian};
 use common::{any_arm, any_joints, any_vector};
 use nalgebra::{Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
@@ -196,6 +196,9 @@ fn up_to_eight_different_solutions() {
             assert!((a - b).amax() > 1e-3, "two solutions are the same");
         }
     }
+    let order = |s: &Solution| [s.branch.front, s.branch.elbow_positive, s.branch.wrist_positive];
+    let binary = |k: usize| [4, 2, 1].map(|bit| k & bit == 0);
+    assert!(solutions.iter().map(order).eq((0..8).map(binary)), "front first, then elbow, then wrist");
 }
 
 #[test]
@@ -282,6 +285,14 @@ fn tables_outside_the_family_are_named_by_row() {
     assert_eq!(field(5, &|l| l.a = -0.1), "robot.modified_dh[5].a_mm");
     assert_eq!(field(2, &|l| l.a = 0.0), "robot.modified_dh[2].a_mm");
     assert_eq!(field(3, &|l| l.d = 0.0), "robot.modified_dh[3].d_mm");
+    // Values are told in the table's units, a whole turn away from what is legal too.
+    let said = |row: usize, change: &dyn Fn(&mut Link)| {
+        bent(row, change).unwrap().closed_form().unwrap_err().to_string()
+    };
+    assert!(said(1, &|l| l.alpha = 400_f64.to_radians()).contains("400"));
+    assert!(said(4, &|l| l.a = 0.125).contains("125"));
+    assert!(said(2, &|l| l.a = 5e-7).contains("0.0005"));
+    assert!(said(3, &|l| l.d = 5e-7).contains("0.0005"));
     let refused =
         |row: usize, change: &dyn Fn(&mut Link)| bent(row, change).unwrap_err().field().unwrap().to_owned();
     assert_eq!(refused(3, &|l| l.sign = 0.5), "robot.modified_dh[3].joint_sign");

@@ -153,6 +153,31 @@ fn shapers_leave_no_vibration_at_their_frequency() {
 }
 
 #[test]
+fn residual_vibration_is_what_delayed_steps_leave_together() {
+    let mut random = fastrand::Rng::with_seed(14);
+    for _ in 0..300 {
+        let kind = &shaper::KINDS[random.usize(0..4)];
+        let shaper = Shaper::new(kind, between(&mut random, 5.0, 50.0), between(&mut random, 0.0, 0.25));
+        let (w, z) = (between(&mut random, 5.0, 50.0), between(&mut random, 0.0, 0.5));
+        let damped = w * f64::sqrt(1.0 - z * z);
+        // What is left of a unit step, and its speed, a time after it: the textbook's second-order system.
+        let step = |t: f64| {
+            let (sin, cos) = (damped * t).sin_cos();
+            let decay = (-z * w * t).exp();
+            [decay * (cos + z * w / damped * sin), -decay * w * w / damped * sin]
+        };
+        let left = shaper.impulses().iter().fold([0.0, 0.0], |[x, v], impulse| {
+            let [dx, dv] = step(shaper.duration() - impulse.time);
+            [x + impulse.amplitude * dx, v + impulse.amplitude * dv]
+        });
+        let amplitude = |[x, v]: [f64; 2]| f64::hypot(x, (v + z * w * x) / damped);
+        let share = amplitude(left) / amplitude(step(0.0));
+        let ours = shaper.residual_vibration(w, z);
+        assert!((ours - share).abs() < 1e-12, "{} at {w}, {z}: {ours} against {share}", kind.id);
+    }
+}
+
+#[test]
 fn misjudged_frequency_zvd_forgives_more_than_zv() {
     let left =
         |id: &str| Shaper::new(shaper::kind(id).unwrap(), 18.0, 0.05).residual_vibration(18.0 * 1.1, 0.05);

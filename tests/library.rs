@@ -6,11 +6,12 @@
 
 mod common;
 
+use armill::Error;
 use armill::math::Pose;
 use armill::robot::library::{self, RULE_PAYLOAD, RULE_STIFFNESS};
-use armill::robot::{Joints, Robot, compliance, forward, inverse, jacobian};
+use armill::robot::{Joints, Opw, Robot, compliance, forward, inverse, jacobian};
 use common::peer::peer;
-use common::{any_joints, run};
+use common::{any_joints, any_vector, between, run};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use rs_opw_kinematics::kinematic_traits::Kinematics;
 use serde_json::json;
@@ -117,6 +118,64 @@ fn forward_and_inverse_agree_with_another_authors() {
     // Both are double precision over 3 m: rounding. Up to 0.05 from a singularity angles have twenty times that of the pose, and sums of them more.
     assert!(places[2] < 1e-14 && turns[2] < 1e-14);
     assert!(angles[0] < 1e-14 && angles[1] < 1e-13 && angles[2] < 1e-11, "{angles:?}");
+}
+
+#[test]
+fn any_parameters_mean_what_another_author_takes_them_for() {
+    let mut random = fastrand::Rng::with_seed(44);
+    let any = library::robots().next().unwrap();
+    for _ in 0..300 {
+        let mut numbers = |size: f64| [0; 7].map(|_| between(&mut random, -size, size));
+        let (lengths_mm, [o1, o2, o3, o4, o5, o6, _], signs) = (numbers(900.0), numbers(180.0), numbers(1.0));
+        let [s1, s2, s3, s4, s5, s6, _] = signs.map(f64::signum);
+        let joint_offset_deg = [o1, o2, o3, o4, o5, o6];
+        let opw = Opw { lengths_mm, joint_sign: [s1, s2, s3, s4, s5, s6], joint_offset_deg };
+        let preset = library::Preset { opw, joint_limits_deg: None, ..any.clone() };
+        let q = any_joints(&mut random);
+        let (ours, theirs) =
+            (forward::forward(&robot(&preset), &q), pose_of(&peer(&preset).forward(&q.into())));
+        // Rounding of some dozen products of metres.
+        assert!((ours.position - theirs.position).norm() < 1e-14, "{preset:?}");
+        assert!((ours.rotation - theirs.rotation).norm() < 1e-14, "{preset:?}");
+    }
+}
+
+#[test]
+fn out_of_reach_the_nearer_shoulder_tells_its_distance() {
+    let mut random = fastrand::Rng::with_seed(45);
+    let (mut near, mut far) = (0, 0);
+    for preset in library::robots() {
+        let robot = robot(&preset);
+        let [a1, a2, b, c1, c2, c3, c4] = preset.opw.lengths_mm.map(|length| length * 1e-3);
+        let (least, most) = ((c2 - a2.hypot(c3)).abs(), c2 + a2.hypot(c3));
+        for _ in 0..400 {
+            let size = if random.bool() { 0.7 } else { 2.0 * most };
+            let wrist = Vector3::new(0.0, 0.0, c1) + any_vector(&mut random, size);
+            let beside = wrist.x * wrist.x + wrist.y * wrist.y - b * b;
+            if beside <= 1e-6 {
+                continue;
+            }
+            let off = |ahead: f64| (ahead - a1).hypot(wrist.z - c1);
+            let miss = |d: f64| (d - most).max(least - d);
+            let shoulders = [off(beside.sqrt()), off(-beside.sqrt())];
+            let nearest = if miss(shoulders[1]) < miss(shoulders[0]) { shoulders[1] } else { shoulders[0] };
+            // The flange points down, the wrist centre is above it.
+            let rotation = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0));
+            let tcp = Pose { rotation, position: wrist - Vector3::z() * c4 };
+            let found = inverse::inverse(&robot, &tcp, &Joints::zeros());
+            if miss(nearest) < -1e-9 {
+                assert!(found.is_ok(), "{} reaches {wrist}", preset.id);
+            } else if miss(nearest) > 1e-9 {
+                let Err(Error::Unreachable { distance, reach_min, reach_max, .. }) = found else {
+                    panic!("{wrist}")
+                };
+                assert!((distance - nearest).abs() < 1e-12, "{}: {distance} instead of {nearest}", preset.id);
+                assert!((reach_min - least).abs() < 1e-12 && (reach_max - most).abs() < 1e-12);
+                if nearest < least { near += 1 } else { far += 1 }
+            }
+        }
+    }
+    assert!(near > 100 && far > 1000, "{near} too near, {far} too far");
 }
 
 /// Differences of the other author's forward model stand for the Jacobian, and C_x = J C_theta J^T (eq. 3.48) is built from them.
