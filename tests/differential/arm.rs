@@ -191,9 +191,12 @@ impl Arm {
                 let change = self.change(&q.into(), i);
                 twist(&change, &now)
             });
-            q += Matrix6::from_columns(&columns).lu().solve(&missing).ok_or(Refusal::Branch)?;
+            let step = Matrix6::from_columns(&columns).lu().solve(&missing).ok_or(Refusal::Branch)?;
+            // Far steps would leave the branch.
+            q += step * f64::min(1.0, 0.2 / step.amax());
         }
-        if least < 1e-11 { Ok(q.into()) } else { Err(Refusal::Branch) }
+        let stays = least < 1e-11 && (q - Vector6::from(*last)).amax() < 1.5;
+        if stays { Ok(q.into()) } else { Err(Refusal::Branch) }
     }
 
     /// Distance of the pose from its singularities, none of them a length: sines of elbow and wrist, and the wrist centre's way from axis 1 over the reach.

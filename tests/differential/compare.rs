@@ -1,6 +1,6 @@
 //! What a report says beside what the plain model says: every column of every job, with bounds for the quantiles of their differences.
 
-use crate::arm::column;
+use crate::arm::{Refusal, column};
 use crate::model::{Answer, Outcome, Question};
 use armill::Report;
 use nalgebra::Vector3;
@@ -15,7 +15,7 @@ pub(crate) struct Bound {
     share: bool,
     /// q75, q99 and the largest, over the jobs, of a job's largest difference: tools without a corner radius.
     pub(crate) flat: [f64; 3],
-    /// The same with a corner radius, ball noses among them: Armill's 256 slices of a corner are within 1e-4 of the force.
+    /// The same with a corner radius, ball noses among them.
     pub(crate) round: [f64; 3],
     pub(crate) because: &'static str,
 }
@@ -47,13 +47,13 @@ pub(crate) const BOUNDS: &[Bound] = &[
     any_tool(
         &["arc_length_mm", "desired_", "feed_mm_s"],
         "mm, mm/s",
-        [1e-11, 1e-8, 1e-6],
+        [5e-12, 5e-9, 1e-6],
         "the plain timing halves the way until the square of the speed is straight to 1e-12",
     ),
     any_tool(
         &["q1", "q2", "q3", "q4", "q5", "q6", "shaped_q"],
         "deg",
-        [1e-11, 1e-9, 1e-6],
+        [1e-12, 1e-10, 1e-7],
         "positions above over lever arms, larger near singularities (up to 50 times: sines from 0.02 on are compared)",
     ),
     any_tool(
@@ -69,8 +69,8 @@ pub(crate) const BOUNDS: &[Bound] = &[
         ..bound(
             FORCE,
             "of the largest",
-            [[2e-7, 2e-6, 1e-4], [1e-4, 1e-3, 1e-2]],
-            "midpoint rule in 3000 steps of the angle: (pi / 3000)^2 / 24 of the second derivative, more where directions cancel",
+            [[1e-7, 1e-6, 1e-4], [2e-5, 3e-4, 2e-2]],
+            "midpoint rule in 3000 steps of the angle, (pi / 3000)^2 / 24 of the second derivative, more where directions cancel; corners: 300 by 300 steps against 256 slices",
         )
     },
     Bound {
@@ -78,14 +78,14 @@ pub(crate) const BOUNDS: &[Bound] = &[
         ..bound(
             &["deflection_x", "deflection_y", "deflection_z"],
             "of the largest",
-            [[1e-6, 1e-5, 1e-4], [1e-4, 1e-3, 1e-2]],
+            [[1e-7, 1e-6, 1e-4], [2e-5, 3e-4, 2e-2]],
             "as the force; the differences of 1e-5 rad behind the Jacobian add 1e-10",
         )
     },
     bound(
         &["actual_", "contour_error_mm", "deflection_contour_error_mm", "tracking_error_mm", "before"],
         "mm",
-        [[1e-7, 1e-5, 1e-3], [1e-4, 1e-3, 1e-2]],
+        [[3e-8, 5e-7, 1e-4], [5e-6, 2e-4, 5e-3]],
         "the force's share of deflections of up to some mm",
     ),
     any_tool(
@@ -105,20 +105,20 @@ pub(crate) const BOUNDS: &[Bound] = &[
             "history",
         ],
         "mm",
-        [[1e-7, 1e-5, 1e-3], [1e-4, 1e-3, 1e-2]],
+        [[3e-8, 5e-7, 1e-4], [5e-6, 2e-4, 5e-3]],
         "the errors before, passed through up to three passes, which do not amplify them",
     ),
     bound(
         &["compensated_q"],
         "deg",
-        [[1e-8, 1e-6, 1e-3], [1e-5, 1e-3, 1e-2]],
+        [[1e-10, 1e-8, 1e-5], [2e-8, 4e-6, 1e-3]],
         "the corrections above over lever arms",
     ),
     any_tool(&["compensated_axis_"], "", [1e-14; 3], "the tool stays upright: rounding"),
     bound(
         &["axis_error_deg", "after_axis_error_deg"],
         "deg",
-        [[1e-8, 1e-6, 1e-4], [1e-5, 1e-3, 1e-2]],
+        [[1e-9, 1e-7, 1e-5], [2e-7, 2e-5, 1e-3]],
         "the force's share of rotations of up to some tenths of a degree",
     ),
 ];
@@ -200,8 +200,10 @@ pub(crate) fn differences(
 ) -> Result<Vec<(usize, f64)>, String> {
     let summary = report.summary();
     let told = (summary.passes, report.compensation.stopped.is_some(), report.samples());
-    let plain = (answer.passes, answer.stopped, answer.desired.len());
-    if told != plain || summary.history_max_mm.len() != answer.history.len() {
+    let plain = (answer.passes, answer.stopped == Some(Refusal::Reach), answer.desired.len());
+    // Where a correction ends the branch, the plain arm stops; Armill's jumps to another, sees that this is no improvement, and drops the pass.
+    let dropped = usize::from(answer.stopped == Some(Refusal::Branch));
+    if told != plain || summary.history_max_mm.len() != answer.history.len() + dropped {
         return Err(format!("passes, stopped and samples are {told:?}, plain {plain:?}"));
     }
     let warned = |code: &str| report.warnings.iter().any(|warning| warning.code == code);
@@ -236,7 +238,7 @@ pub(crate) fn differences(
     compare("after", &[summary.after_mm.mean, summary.after_mm.max]);
     let history =
         summary.history_mean_mm.iter().zip(&summary.history_max_mm).flat_map(|(mean, max)| [*mean, *max]);
-    compare("history", &history.collect::<Vec<_>>());
+    compare("history", &history.take(2 * answer.history.len()).collect::<Vec<_>>());
     assert!(plain.is_empty(), "not told: {:?}", plain.keys());
     Ok(all)
 }

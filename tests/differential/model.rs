@@ -78,7 +78,8 @@ pub(crate) struct Answer {
     pub(crate) after: Outcome,
     pub(crate) history: Vec<[f64; 2]>,
     pub(crate) passes: usize,
-    pub(crate) stopped: bool,
+    /// Why a correction could not be commanded, if one could not.
+    pub(crate) stopped: Option<Refusal>,
     /// How near the commands come to a singularity and, as a share of the arm, to the end of its reach.
     pub(crate) regular: f64,
 }
@@ -273,7 +274,7 @@ impl Question {
         let mut correction = vec![Vector3::zeros(); q.len()];
         let mut command_q = q.clone();
         let mut history = vec![best.figures()];
-        let (mut passes, mut stopped) = (0, false);
+        let (mut passes, mut stopped) = (0, None);
         // Where the tool is when the shaper acts: what is missing there is added to the commands (eq. 5.4).
         let pace = if acting.shaping { self.shaped_pace(&desired) } else { desired.clone() };
         for pass in 1..=if nothing { 0 } else { self.max_passes } {
@@ -286,9 +287,12 @@ impl Question {
             let more = if acting.shaping { self.unshaped(&missing, moving) } else { missing };
             let next: Vec<_> = correction.iter().zip(&more).map(|(c, more)| c + more).collect();
             let positions: Vec<_> = position.iter().zip(&next).map(|(p, c)| p + c).collect();
-            let Ok(commands) = self.joints(&positions) else {
-                stopped = true;
-                break;
+            let commands = match self.joints(&positions) {
+                Ok(commands) => commands,
+                Err(refused) => {
+                    stopped = Some(refused.why);
+                    break;
+                }
             };
             let result = outcome(&commands, acting);
             history.push(result.figures());
