@@ -44,7 +44,7 @@ pub fn promise(report: &Report) -> Result<Promise, Error> {
     let tolerance = report.setup.goal.tolerance;
     let met = reached <= tolerance;
     let sentence = format!(
-        "Run as a G-code program, timed by its own moves and feeds: at most {} mm, {} the tolerance of {} mm.",
+        "As a G-code program, with its own timing: at most {} mm, {} the tolerance of {} mm.",
         millimetres(reached),
         if met { "within" } else { "beyond" },
         millimetres(tolerance)

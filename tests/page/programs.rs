@@ -176,7 +176,7 @@ fn what_a_program_is_worth_stands_under_the_verdict() -> Result {
     assert!(standard.met && !beyond.met);
     visit("/", DESKTOP, async |page| {
         current(page).await?;
-        let told = "document.getElementById('as-program').textContent.startsWith('Run as')";
+        let told = "document.getElementById('as-program').textContent.startsWith('As a G-code')";
         page.wait_for(told, 20.0).await?;
         assert_eq!(text(page, "as-program").await?, standard.sentence);
         assert_eq!(page.js("return document.querySelectorAll('#as-program.bad').length").await?, json!(0));
