@@ -28,7 +28,7 @@ export class Legend {
     this.node.dataset.series = said;
     this.#keys = series.map(({ key }) => key);
     this.node.replaceChildren(...series.map(entry));
-    if (pinned) this.node.append(make("li", { className: "pinned" }, sample({ key: "", class: "" }), "A (thin)"));
+    if (pinned) this.node.append(make("li", { className: "pinned", title: "The pinned result: thin lines" }, sample({ key: "", class: "" }), "A"));
     rove(this.node);
     this.#mark();
   }

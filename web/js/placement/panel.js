@@ -2,7 +2,7 @@
 
 import { extent } from "../core.js";
 import { byId, debounced, make, makeSvg } from "../dom.js";
-import { parseNumber, plainNumber } from "../number.js";
+import { formatNumber, parseNumber, plainNumber } from "../number.js";
 import { onSetting } from "../settings.js";
 import { lengthText, lengthUnit } from "../units.js";
 import { MARKS, draw, scaleGradient } from "./picture.js";
@@ -33,7 +33,7 @@ export function makePlacement(node, { job, use }) {
   const again = make("button", { type: "button", id: "placement-compute" }, "Compute the map");
   const cancel = make("button", { type: "button", id: "placement-cancel", disabled: true }, "Cancel");
   const whole = make("button", { type: "button", className: "quiet", id: "placement-reset" }, "Whole reach");
-  const bar = make("progress", { max: 1, value: 0, "aria-label": "Progress of the map" });
+  const bar = make("progress", { max: 1, value: 0, hidden: true, "aria-label": "Progress of the map" });
   const status = make("p", { id: "placement-status", role: "status" });
   const svg = makeSvg("svg", { id: "placement-map", role: "application", tabindex: "0", "aria-roledescription": "map", "aria-label": "Predicted error over places of the part", "aria-describedby": "placement-keys placement-read" });
   const read = make("p", { id: "placement-read", role: "status" });
@@ -99,7 +99,7 @@ export function makePlacement(node, { job, use }) {
     const at = (c, r) => found[r] && { max: found[r][3 * c], mean: found[r][3 * c + 1], mark: found[r][3 * c + 2] };
     map = { key: null, axes: [i, k, rest], fixed: values[4], columns, rows, at, here: xyz };
     cursor = null;
-    cancel.disabled = false;
+    cancel.disabled = bar.hidden = false;
     bar.value = 0;
     say("Computing the map…");
     const began = performance.now();
@@ -113,13 +113,13 @@ export function makePlacement(node, { job, use }) {
       }, mine.signal);
       if (mine !== running) return;
       map.key = key;
-      say(`${count * count} places in ${((performance.now() - began) / 1000).toFixed(1)} s.`);
+      say(`${count * count} places in ${formatNumber((performance.now() - began) / 1000, 2)} s.`);
     } catch (error) {
       if (mine !== running) return;
       say(error.code === "cancelled" ? "Cancelled; what was computed is shown." : `No map: ${error.message}`);
     }
     running = null;
-    cancel.disabled = true;
+    cancel.disabled = bar.hidden = true;
     show();
   }
 
