@@ -28,7 +28,7 @@ export async function jobIn(fragment) {
   try {
     bytes = await read(through(new DecompressionStream("deflate"), fromBase64(body)), LARGEST);
   } catch (error) {
-    throw error?.code ? error : broken("it is cut off or damaged");
+    throw error?.code === "link" ? error : broken("it is cut off or damaged");
   }
   try {
     return new TextDecoder("utf-8", { fatal: true }).decode(bytes);

@@ -3,10 +3,15 @@
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use anyhow::{Context, Result, bail};
 
+use crate::npm;
 use crate::workspace::{cargo, output, root, run};
+
+/// The page's reader of links, which is JavaScript: `tests/fuzz/link.mjs` changes the kept ones at random.
+const LINK: &str = "link";
 
 /// As in `tests/fuzz/target.rs`, with a folder each in `tests/fuzz/corpus/`.
 const TARGETS: [&str; 5] = ["gcode", "apt", "csv", "job", "export"];
@@ -23,13 +28,13 @@ const INSTRUMENTED: &str = "-Cpasses=sancov-module -Cllvm-args=-sanitizer-covera
 /// If a law is broken, or the engine cannot be built: it takes a C++ compiler.
 pub(crate) fn fuzz(target: Option<&str>, seconds: u32) -> Result<()> {
     let folder = root()?.join("tests/fuzz");
+    if target == Some(LINK) {
+        return link(seconds, any_seed());
+    }
     let targets = match target {
-        Some(target) => vec![
-            *TARGETS
-                .iter()
-                .find(|known| **known == target)
-                .with_context(|| format!("there is no target {target}, but {}", TARGETS.join(", ")))?,
-        ],
+        Some(target) => vec![*TARGETS.iter().find(|known| **known == target).with_context(|| {
+            format!("there is no target {target}, but {} and {LINK}", TARGETS.join(", "))
+        })?],
         None => TARGETS.to_vec(),
     };
     let engine = build()?;
@@ -50,7 +55,22 @@ pub(crate) fn fuzz(target: Option<&str>, seconds: u32) -> Result<()> {
         // Counts of how often code runs would keep thousands of texts that differ in nothing else.
         run(engine().args(["-merge=1", "-use_counters=0"]).args([&kept, &fresh]))?;
     }
-    Ok(())
+    if target.is_none() { link(seconds, any_seed()) } else { Ok(()) }
+}
+
+/// Changes links for some seconds, in Node; the same seed tries the same ones.
+///
+/// # Errors
+/// If a link breaks a law, or there is no Node.
+pub(crate) fn link(seconds: u32, seed: u32) -> Result<()> {
+    println!("\n=== {LINK}, seed {seed}");
+    let words = [seconds, seed].map(|number| number.to_string());
+    run(npm::node()?.arg(root()?.join("tests/fuzz/link.mjs")).args(words))
+}
+
+/// Another one every time.
+fn any_seed() -> u32 {
+    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.subsec_nanos())
 }
 
 /// The engine, which is no member of the workspace, with all of Armill instrumented.

@@ -98,6 +98,14 @@ fn install(folder: &Path, what: &[&str]) -> Result<()> {
     run(npm()?.args(quietly).args(["--loglevel=error", "--prefix"]).arg(folder).args(what))
 }
 
+/// Node, made sure of as for the package.
+///
+/// # Errors
+/// If it is missing and cannot be installed from here.
+pub(crate) fn node() -> Result<Command> {
+    npm().map(|_| Command::new("node"))
+}
+
 /// npm, after both it and Node have been made sure of: found, or installed where that can be done.
 fn npm() -> Result<Command> {
     if (program("node").is_none() || program("npm").is_none()) && workspace::may_install() {
