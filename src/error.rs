@@ -170,6 +170,13 @@ impl fmt::Display for Error {
             Error::OutOfRange { field, value, min, max, unit } => {
                 let space = if unit.is_empty() { "" } else { " " };
                 let nearest = if value < min { min } else { max };
+                let size = value.abs();
+                // Three hundred digits tell nobody anything.
+                let value = if size != 0.0 && !(1e-9..1e15).contains(&size) {
+                    format!("{value:e}")
+                } else {
+                    value.to_string()
+                };
                 write!(
                     f,
                     "{field} is {value}{space}{unit}; legal is {min} to {max}{space}{unit}, nearest {nearest}"

@@ -19,6 +19,8 @@ mod cursor;
 mod cut;
 #[path = "page/embed.rs"]
 mod embed;
+#[path = "page/hostile.rs"]
+mod hostile;
 #[path = "page/identify.rs"]
 mod identify;
 #[path = "page/loading.rs"]

@@ -4,6 +4,7 @@
 // anywhere (local storage). So two tabs never change each other's inputs, and `onshared` tells when they compete.
 
 import { debounced } from "./dom.js";
+import { isDown, named, pickUp, putDown } from "./shelf.js";
 
 const KEY = "armill-inputs";
 const FORMAT = 1;
@@ -26,12 +27,12 @@ export function start(handlers) {
   });
 }
 
-/** The inputs that this tab, or else any tab, kept last; undefined if there are none. */
-export function kept() {
+/** Resolves with the inputs that this tab, or else any tab, kept last; undefined if there are none. */
+export async function kept() {
   for (const store of [() => sessionStorage, () => localStorage]) {
     try {
       const { format, state } = JSON.parse(store().getItem(KEY)) ?? {};
-      if (format === FORMAT && state && typeof state.job === "object") return state;
+      if (format === FORMAT && state && typeof state.job === "object") return await pickUp(state);
     } catch {
       // Denied, or not ours.
     }
@@ -46,12 +47,13 @@ export const keepHere = (state) => void write(() => sessionStorage, state);
 export function keep(state) {
   waiting = state;
   later();
+  if (!isDown(state)) putDown(state).then(later);
 }
 
 const later = debounced(flush, PAUSE_MS);
 
 function flush() {
-  if (waiting === undefined) return;
+  if (waiting === undefined || !isDown(waiting)) return;
   const state = waiting;
   waiting = undefined;
   const here = write(() => sessionStorage, state);
@@ -64,7 +66,7 @@ function flush() {
 /** Writes a state; true, or "full" or "denied". */
 function write(store, state) {
   try {
-    store().setItem(KEY, JSON.stringify({ format: FORMAT, state }));
+    store().setItem(KEY, named({ format: FORMAT, state }));
     return true;
   } catch (error) {
     return error.name === "QuotaExceededError" ? "full" : "denied";

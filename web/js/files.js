@@ -4,7 +4,9 @@ const urlOf = (path) => new URL(`../${path}`, import.meta.url);
 
 /** The text of a file of the site. */
 export async function readText(path) {
-  const answer = await fetch(urlOf(path));
+  const answer = await fetch(urlOf(path)).catch(({ message }) => {
+    throw new Error(`${path} could not be loaded (${message}).`); // without a network
+  });
   if (!answer.ok) throw new Error(`${path} could not be loaded (${answer.status}).`);
   return answer.text();
 }

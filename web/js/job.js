@@ -4,6 +4,7 @@
 // a shaper or "none". A choice ending in `.preset` or `.kind` decides; the other fields of that part name in `when`
 // what they need: a value of that choice, or the state of the part itself ("preset", "table", "opw", "kienzle" or "hz").
 
+const MOST_POINTS = 5000; // in a field of their own: browsers take seconds to lay out more
 const TURN = 2 * Math.PI;
 export const OWN = "table"; // what a preset choice says when the numbers are one's own
 export const KIENZLE = "kienzle"; // the same for a material by k_c1.1 and m_c
@@ -25,7 +26,7 @@ export class Job {
 
   /** A job from its plain object, the core's fields and its presets `{ robots, materials }`. */
   constructor(data, fields, presets) {
-    this.#data = copy(data);
+    this.#data = copy(listed(data));
     this.#fields = fields;
     this.#presets = { robot: presets.robots, material: presets.materials };
   }
@@ -41,7 +42,7 @@ export class Job {
 
   /** Replaces the whole job. */
   load(data, drafts = {}) {
-    this.#data = copy(data);
+    this.#data = copy(listed(data));
     this.#drafts = new Map(Object.entries(copy(drafts)));
   }
 
@@ -200,6 +201,13 @@ export class Job {
     }
     return shape;
   }
+}
+
+/** A job whose polyline is too long for a text field has its points as rows of a program, the same path. */
+function listed(job) {
+  const { kind, points_mm } = job.path ?? {};
+  if (kind !== "polyline" || !(points_mm?.length > MOST_POINTS)) return job;
+  return { ...job, path: { kind: "csv", text: points_mm.map((point) => point.join(",")).join("\n") } };
 }
 
 /** A copy of plain data that shares its texts: a program of megabytes is never doubled. */

@@ -14,7 +14,7 @@ import { makeIdentify } from "./identify/panel.js";
 import { makePlacement } from "./placement/panel.js";
 import { formatLength, formatNumber } from "./number.js";
 import { openPanels, rememberPanels, restoreGroups } from "./panels.js";
-import { followCaret, openProgram, programTools, setLines, showProgram } from "./program.js";
+import { followCaret, openProgram, programTools, setLines, showProgram, textIn } from "./program.js";
 import { showSummary, showThesis, showUnits } from "./results.js";
 import { Session } from "./session.js";
 import { makeScene } from "./scene/view.js";
@@ -195,7 +195,7 @@ function wireDrop() {
     const [file] = event.dataTransfer.files;
     if (!file) return;
     if (file.name.endsWith(".json")) openJob(file);
-    else openProgram(file, useProgram);
+    else openProgram(file, useProgram, alertOn);
   });
 }
 
@@ -221,13 +221,14 @@ function foldInputs(away) {
 async function openJob(file) {
   byId("job-file").value = "";
   if (!file) return;
-  const text = await file.text();
+  const text = await textIn(file, alertOn);
+  if (text === undefined) return;
   core.cancel();
   try {
     await core.check(text);
     session.load(JSON.parse(text));
   } catch ({ message, line, column }) {
-    alertOn(`${file.name} was not opened: ${message}${line ? ` (line ${line}, column ${column})` : ""}`);
+    alertOn(`“${file.name}” was not opened: ${message}${line && !/\bline\b/.test(message) ? ` (line ${line}, column ${column})` : ""}`);
   }
 }
 

@@ -29,7 +29,7 @@ export function programTools(use, fail) {
   file.addEventListener("change", async () => {
     const [chosen] = file.files;
     file.value = "";
-    if (chosen) await openProgram(chosen, use);
+    if (chosen) await openProgram(chosen, use, fail);
   });
   const listed = readText("examples/index.json").then(JSON.parse);
   listed.then((list) => examples.append(...list.map(({ file: name, title, note }) => make("option", { value: name, title: note }, title))), () => (examples.hidden = true));
@@ -46,9 +46,22 @@ export function programTools(use, fail) {
   return make("div", { className: "program-tools" }, open, examples, file);
 }
 
+/** The text of a file; nothing, after `fail(message)`, if it cannot be read or is no text. */
+export async function textIn(file, fail) {
+  try {
+    const text = await file.text();
+    if (!text.includes("\0")) return text;
+    fail(`“${file.name}” was not opened: it is not plain text in UTF-8.`);
+  } catch ({ message }) {
+    fail(`“${file.name}” was not opened: ${message}`); // a folder, or it has gone
+  }
+  return undefined;
+}
+
 /** Reads a file into the job. */
-export async function openProgram(file, use) {
-  const text = await file.text();
+export async function openProgram(file, use, fail) {
+  const text = await textIn(file, fail);
+  if (text === undefined) return;
   use(languageOf(file.name, text), text);
   listing.name = file.name;
 }

@@ -36,7 +36,7 @@ export class Session {
       onshared: () => notify("Armill is open in another tab too. Each tab keeps its own inputs; a new tab opens with those that were changed last."),
     });
     this.#wire();
-    const kept = autosave.kept();
+    const kept = await autosave.kept();
     if (holdsJob(location.hash)) {
       if (kept) this.#history.record(kept);
       await this.#openLink((why) => {
@@ -85,6 +85,7 @@ export class Session {
 
   #show(state) {
     this.#put(state, () => this.#history.record(this.#state));
+    if (state.job.path?.kind !== this.#state.job.path?.kind) notify("The points of the path are too many for a field. They are shown as rows of points, line by line: the same path.");
   }
 
   #put({ job, drafts, typed }, then = () => {}) {

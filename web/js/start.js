@@ -13,7 +13,7 @@ const PATIENCE_MS = 100; // on a slow line the page does not wait for the core
 /** Has the job computed while the form is built. A link's is checked first, so it waits for the page. */
 async function begin() {
   const hello = await core.load();
-  if (!holdsJob(location.hash)) core.foresee(textOf(kept()?.job ?? hello.job));
+  if (!holdsJob(location.hash)) core.foresee(textOf((await kept())?.job ?? hello.job));
   await core.supplied();
 }
 
