@@ -4,8 +4,10 @@ use std::time::Instant;
 
 use anyhow::{Context, Result};
 
+use crate::audit;
 use crate::browser::{self, Driver};
 use crate::docs;
+use crate::fuzz;
 use crate::npm;
 use crate::server::Server;
 use crate::site;
@@ -26,6 +28,7 @@ pub(crate) fn all() -> Result<()> {
             .env("ARMILL_NPM_PROJECT", npm::project()?)
             .env("ARMILL_NPM_TOOLS", npm::tools()?))
     })?;
+    step("changed links", || fuzz::link(3, 41))?;
     step("tests of the page", || {
         let docs = Server::start_plain(&docs::build()?)?;
         let server = Server::start_anywhere(&site::build()?)?;
@@ -52,6 +55,7 @@ pub(crate) fn native() -> Result<()> {
         workspace::add_wasm_target()?;
         lint(&["--target", WASM, "--package", "armill", "--lib", "--test", "web"])
     })?;
+    step("licences, sources and known faults of dependencies", audit::audit)?;
     step("native tests", || run(&mut cargo(&["test", "--locked"])?))?;
     step("tests of this tool", || run(&mut cargo(&["test", "--locked", "--package", "xtask"])?))
 }

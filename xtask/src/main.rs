@@ -12,6 +12,8 @@ mod server;
 mod browser;
 mod checks;
 mod fuzz;
+mod reproduce;
+mod audit;
 mod bench;
 
 use std::env;
@@ -30,6 +32,8 @@ usage: cargo xtask <command>
   test --native    only what needs no browser
   bench [samples]  time stages and whole jobs, natively and in Chromium, and kinematics beside other crates: some ten minutes for
                    the sizes 20000,200000,1000000, a minute for one
+  audit            check licences and sources of all dependencies, and known faults in them
+  reproduce        build the cores in two folders and compare them, byte by byte
   fuzz [target [seconds]]  search for texts that break a reader, the job or an export: each for a minute
 ";
 
@@ -61,6 +65,8 @@ fn run(arguments: &[String]) -> Result<()> {
             let seconds = seconds.parse().with_context(|| format!("`{seconds}` is no number of seconds"))?;
             fuzz::fuzz(Some(target), seconds)
         }
+        ["reproduce"] => reproduce::reproduce(),
+        ["audit"] => audit::audit(),
         // Called by cargo for `cargo test --target wasm32-unknown-unknown`, see .cargo/config.toml.
         ["wasm-test-runner", rest @ ..] => checks::run_wasm(rest),
         ["help" | "--help" | "-h"] => {

@@ -78,6 +78,20 @@ pub(crate) fn build() -> Result<PathBuf> {
     Ok(site)
 }
 
+/// Makes the cores of the site from the sources in `root`, in `folder`, and tells the files' names and contents.
+///
+/// # Errors
+/// If one does not compile.
+pub(crate) fn cores(root: &Path, folder: &Path) -> Result<Vec<(&'static str, Vec<u8>)>> {
+    let made = BUILDS.iter().map(|core| {
+        let folder = folder.join(core.name);
+        bind(&compile(root, core)?, &folder).context("wasm-bindgen failed")?;
+        let file = folder.join("armill_bg.wasm");
+        Ok((core.name, fs::read(&file).with_context(|| format!("cannot read {}", file.display()))?))
+    });
+    made.collect()
+}
+
 /// Makes the benchmark's core in `folder`.
 ///
 /// # Errors
@@ -90,7 +104,7 @@ pub(crate) fn bench_core(folder: &Path) -> Result<()> {
 fn compile(root: &Path, core: &Core) -> Result<PathBuf> {
     let arguments = ["rustc", "--locked", "--target", WASM, "--package", core.package, "--lib"];
     let mut command = workspace::cargo(&arguments)?;
-    command.args(["--profile", core.profile]).args(core.options);
+    command.current_dir(root).args(["--profile", core.profile]).args(core.options);
     // An explicit folder, because the site has to be found in `target` whatever the environment says.
     command.args(["--target-dir", "target"]);
     if let Some(home) = workspace::cargo_home() {

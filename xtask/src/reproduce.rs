@@ -1,0 +1,72 @@
+//! The same sources give the same cores, wherever they lie and whoever builds them.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result, bail, ensure};
+use sha2::{Digest, Sha256};
+
+use crate::site;
+use crate::workspace::{self, root};
+
+/// Builds the cores from copies of the sources in two folders with names of different length, each with a target folder of its own, and
+/// compares them with each other and with what this machine must not leave in them. Prints their hashes.
+///
+/// # Errors
+/// If a byte differs, or a path of this machine is found.
+pub(crate) fn reproduce() -> Result<()> {
+    workspace::add_wasm_target()?;
+    let place = root()?.join("target/reproduce");
+    let builds = ["a", "another/folder"]
+        .map(|name| {
+            let folder = place.join(name);
+            copy_sources(&folder)?;
+            site::cores(&folder, &folder.join("target/cores"))
+        })
+        .into_iter()
+        .collect::<Result<Vec<_>>>()?;
+    let [first, second] = builds.as_slice() else { bail!("two builds are compared") };
+    for ((name, one), (_, other)) in first.iter().zip(second) {
+        ensure!(one == other, "the {name} core depends on the folder it is built in");
+        for path in [Some(root()?), workspace::cargo_home(), std::env::home_dir()].into_iter().flatten() {
+            ensure!(!names(one, &path), "the {name} core names {}", path.display());
+        }
+        let hash: String = Sha256::digest(one).iter().map(|byte| format!("{byte:02x}")).collect();
+        println!("The {name} core has the same {} bytes from both folders, SHA-256 {hash}", one.len());
+    }
+    println!("With {}", workspace::output("rustc", &["--version"]).context("rustc does not say what it is")?);
+    Ok(())
+}
+
+/// Copies the sources as they are now, committed or not.
+fn copy_sources(folder: &Path) -> Result<()> {
+    let listed = workspace::output("git", &["ls-files", "--cached", "--others", "--exclude-standard"]);
+    for file in listed.context("git does not list the sources")?.lines() {
+        let (from, to) = (root()?.join(file), folder.join(file));
+        if from.is_file() {
+            fs::create_dir_all(to.parent().unwrap_or(folder))?;
+            site::update(&fs::read(&from)?, &to).with_context(|| format!("cannot copy {file}"))?;
+        }
+    }
+    Ok(())
+}
+
+/// Whether a path stands anywhere in a module.
+fn names(module: &[u8], path: &Path) -> bool {
+    let path = path.as_os_str().as_encoded_bytes();
+    // The root of a file system, which some call home, stands in any text.
+    path.len() > 1 && module.windows(path.len()).any(|part| part == path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::names;
+    use std::path::Path;
+
+    #[test]
+    fn a_path_is_found_wherever_it_stands() {
+        assert!(names(b"\0asm..../home/who/src/lib.rs", Path::new("/home/who")));
+        assert!(!names(b"\0asm....src/lib.rs", Path::new("/home/who")));
+        assert!(!names(b"\0asm..../x", Path::new("/")));
+    }
+}
