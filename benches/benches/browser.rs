@@ -7,6 +7,7 @@ use std::time::Duration;
 use std::{env, fs};
 
 use armill_bench::stages::job;
+use fantoccini::actions::{InputSource, MOUSE_BUTTON_LEFT, MouseActions, PointerAction};
 use fantoccini::wd::{Capabilities, TimeoutConfiguration};
 use fantoccini::{Client, ClientBuilder};
 use hyper_util::client::legacy::connect::HttpConnector;
@@ -62,6 +63,8 @@ async fn all(client: &Client, sizes: &[usize]) -> Outcome<Value> {
             "full": ask(client, &[json!("whole"), json!("full"), json!(job(samples))]).await?,
         });
     }
+    println!("Chromium: a number dragged");
+    result["drag"] = dragged(client).await?;
     let agent = client.execute("return navigator.userAgent", Vec::new()).await?;
     result["browser"] = agent;
     Ok(result)
@@ -83,6 +86,54 @@ async fn first_results(client: &Client, site: &str) -> Outcome<Vec<Value>> {
         tokio::time::sleep(PAUSE).await;
     }
     Ok(times)
+}
+
+/// What a person sees who drags a number of the default job to and fro for three seconds: how often a second the number changes, a result is
+/// shown, a chart is drawn and the page is painted, and the longest time between two paintings [ms].
+async fn dragged(client: &Client) -> Outcome<Value> {
+    client.set_window_size(1280, 800).await?;
+    client.goto(&env::var("ARMILL_SITE_URL")?).await?;
+    let drawn = "return document.querySelectorAll('#panel-overview figure .series').length >= 3";
+    while client.execute(drawn, Vec::new()).await? != json!(true) {
+        tokio::time::sleep(Duration::from_millis(100)).await;
+    }
+    // The scene and what else waits for an idle page.
+    tokio::time::sleep(Duration::from_secs(2)).await;
+    let place = client
+        .execute(
+            "const label = document.getElementById('cutting-axial_depth_mm-label'); \
+             label.closest('details').open = true; label.scrollIntoView({ block: 'center' }); \
+             const count = (window.count = { inputs: 0, results: 0, charts: 0, frames: 0, longest: 0, start: performance.now() }); \
+             label.closest('.field').addEventListener('input', () => count.inputs++); \
+             const watch = (node, name) => new MutationObserver(() => count[name]++).observe(node, { childList: true }); \
+             watch(document.getElementById('fingerprint'), 'results'); \
+             watch(document.querySelector('#panel-overview figure .drawing'), 'charts'); \
+             let last; \
+             requestAnimationFrame(function frame(now) { \
+               count.frames++; count.longest = Math.max(count.longest, now - (last ?? now)); last = now; requestAnimationFrame(frame); \
+             }); \
+             const { x, y, height } = label.getBoundingClientRect(); return [Math.round(x) + 12, Math.round(y + height / 2)]",
+            Vec::new(),
+        )
+        .await?;
+    let [x, y]: [i64; 2] = serde_json::from_value(place)?;
+    let to = |milliseconds, x| PointerAction::MoveTo {
+        duration: Some(Duration::from_millis(milliseconds)),
+        x: x as f64,
+        y: y as f64,
+    };
+    let mut hand = MouseActions::new("mouse".to_owned())
+        .then(to(0, x))
+        .then(PointerAction::Down { button: MOUSE_BUTTON_LEFT });
+    for step in 0..150 {
+        let there = step % 40;
+        hand = hand.then(to(20, x + 4 * if there < 20 { there } else { 40 - there }));
+    }
+    client.execute("count.start = performance.now()", Vec::new()).await?;
+    client.perform_actions(hand.then(PointerAction::Up { button: MOUSE_BUTTON_LEFT })).await?;
+    let rates = "const s = (performance.now() - count.start) / 1000; const a = (n) => n / s; \
+                 return { inputs: a(count.inputs), results: a(count.results), charts: a(count.charts), frames: a(count.frames), longest_ms: count.longest }";
+    Ok(client.execute(rates, Vec::new()).await?)
 }
 
 /// Asks a Worker of its own, so that each starts with fresh memory.

@@ -237,7 +237,18 @@ impl Display for Results {
             )?;
         }
         self.poses(f)?;
-        self.memory(f)
+        self.memory(f)?;
+        let drag = |key: &str| self.chromium["drag"][key].as_f64().unwrap_or(f64::NAN);
+        writeln!(
+            f,
+            "\nA number of the default job dragged: {:.0} inputs, {:.0} results, {:.0} drawings of a chart and {:.0} paintings of the page a second; \
+             at most {:.0} ms between two paintings.",
+            drag("inputs"),
+            drag("results"),
+            drag("charts"),
+            drag("frames"),
+            drag("longest_ms")
+        )
     }
 }
 
