@@ -35,7 +35,7 @@ pub struct Compensation {
     /// Tool axis to command, one a sample, base frame; the desired one where the path keeps one axis all along.
     pub axis: Vec<Vector3<f64>>,
     /// Joint commands for the corrected path [rad].
-    pub q: Vec<Joints>,
+    pub q: Arc<Vec<Joints>>,
     /// What becomes of them: the same model, sent through again.
     pub result: Arc<Deviation>,
     /// Largest contour error before the first pass and after each [m].
@@ -63,7 +63,7 @@ pub fn compensate(
     plan: &Plan,
     passage: &Passage,
     start: StartBranch,
-    q: &[Joints],
+    q: &Arc<Vec<Joints>>,
     before: &Arc<Deviation>,
     goal: Goal,
     mut on_pass: impl FnMut(usize),
@@ -72,7 +72,7 @@ pub fn compensate(
     let mut best = Compensation {
         correction: vec![Vector3::zeros(); q.len()],
         axis: plan.trajectory.axis.clone(),
-        q: q.to_vec(),
+        q: q.clone(),
         result: before.clone(),
         history_max: vec![max],
         history_mean: vec![mean],
@@ -100,6 +100,7 @@ pub fn compensate(
                     break;
                 }
             };
+        drop(positions);
         let result = Arc::new(deviate(plan, passage, &commands));
         let (mean, max) = contour::mean_and_max(&result.contour_error);
         on_pass(pass);

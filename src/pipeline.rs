@@ -4,13 +4,12 @@
 mod spin;
 
 use crate::compensation::{Goal, compensate};
-use crate::deviation::{Passage, Plan, Source, Sources, contour, deviate, deviate_and_shape};
+use crate::deviation::{Plan, Source, Sources, contour, deviate, deviate_and_shape};
 use crate::error::Error;
 use crate::job::Job;
 use crate::motion::Trajectory;
 use crate::motion::joints::joint_trajectory;
 use crate::report::{Report, Warning, warning};
-use nalgebra::Vector3;
 use std::sync::Arc;
 
 /// How far a run has come.
@@ -75,11 +74,10 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
     plan.robot = plan.robot.touched_off_at(&joints.q[0]);
     let plan = plan;
     tell(1, "deflection");
-    let on_time = Passage::new(&plan, &plan.trajectory.pace, Sources::only(Source::Deflection));
+    let on_time = plan.passage(Sources::only(Source::Deflection));
     let deflection_only = Arc::new(deviate(&plan, &on_time, &joints.q));
     tell(2, "shaping");
-    let shaped_pace = plan.pace(Sources::ALL);
-    let passage = Passage::new(&plan, &shaped_pace, Sources::ALL);
+    let passage = plan.passage(Sources::ALL);
     let (before, shaping_only) = deviate_and_shape(&plan, &passage, &joints.q);
     let (before, shaping_only) = (Arc::new(before), Arc::new(shaping_only));
     tell(3, "compensation");
@@ -88,8 +86,7 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
         let (known, passage) = match setup.sources {
             Sources { deflection: true, shaping: false } => (&deflection_only, &on_time),
             Sources { deflection: false, shaping: true } => {
-                let force = vec![Vector3::zeros(); joints.q.len()];
-                without_force = Passage { acting: setup.sources, force, ..passage.clone() };
+                without_force = passage.without_force();
                 (&shaping_only, &without_force)
             }
             _ => (&before, &passage),
@@ -107,7 +104,6 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
         }
         _ => compensation.result.clone(),
     };
-    let axis_error = [&before, &after].map(|deviation| deviation.axis_errors(&plan.path, &shaped_pace));
     #[cfg(feature = "full")]
     let spin = setup.freedom.map(|freedom| spin::gain(&plan, &setup, &freedom, &joints.q, &before));
     #[cfg(not(feature = "full"))]
@@ -124,7 +120,6 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
         before,
         compensation,
         after,
-        axis_error,
         warnings,
         alone: Default::default(),
     };

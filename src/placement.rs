@@ -3,7 +3,7 @@
 //! A place is judged by [`STATIONS`] stations along the path instead of all samples, by the cutting force alone: the shaper's part
 //! hardly depends on the place. The part keeps its orientation, the tool its fixed spin (a free one: the angle it is compared with).
 
-use crate::deviation::{Passage, Plan, Source, Sources, contour, deviate};
+use crate::deviation::{Plan, Source, Sources, contour, deviate};
 use crate::error::Error;
 use crate::job::{Job, Setup};
 use crate::math::Pose;
@@ -83,7 +83,7 @@ impl Survey {
             return Place { max: f64::NAN, mean: f64::NAN, mark: Mark::Unreachable };
         };
         let acting = Sources::only(Source::Deflection);
-        let bent = deviate(&plan, &Passage::new(&plan, &plan.trajectory.pace, acting), &joints.q);
+        let bent = deviate(&plan, &plan.passage(acting), &joints.q);
         let (mean, max) = contour::mean_and_max(&bent.contour_error);
         let outside = |q: &Joints| {
             let ranges = plan.robot.limits().into_iter().flatten();

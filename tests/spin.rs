@@ -35,7 +35,7 @@ fn a_fixed_spin_turns_the_tcp_and_moves_neither_tip_nor_axis() {
     for key in ["desired_x_mm", "desired_y_mm", "desired_z_mm", "tool_axis_k", "force_x_n", "force_z_n"] {
         assert_eq!(column(&straight, key), column(&turned, key), "{key}");
     }
-    for (a, b) in straight.joints.q.iter().zip(&turned.joints.q) {
+    for (a, b) in straight.joints.q.iter().zip(turned.joints.q.iter()) {
         let [a, b] =
             [(&straight, a), (&turned, b)].map(|(report, q)| forward::forward(&report.plan.robot, q));
         assert!((a.position - b.position).norm() < 1e-9);

@@ -74,7 +74,7 @@ impl Sheet<'_> {
 
     /// The angle between the actual and the desired tool axis.
     pub(super) fn axis_errors(&self) -> Content {
-        let [before, after] = &self.report.axis_error;
+        let (before, after) = (&self.report.before.axis_error, &self.report.after.axis_error);
         let curves = [(BEFORE, before), (AFTER, after)].map(|((key, label, class), angles)| Curve {
             key,
             label,

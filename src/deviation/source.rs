@@ -9,6 +9,7 @@ use crate::path::Path;
 use crate::robot::{Joints, Robot, compliance, forward};
 use nalgebra::Vector3;
 use std::borrow::Cow;
+use std::sync::Arc;
 
 /// A source of error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,17 +62,19 @@ pub struct Plan {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Deviation {
     /// Joint values after the shaper, as far as it acts [rad].
-    pub q: Vec<Joints>,
-    /// Force on the tool in the base frame [N]; zero if it does not act.
-    pub force: Vec<Vector3<f64>>,
-    /// Displacement of the tip by the force [m].
+    pub q: Arc<Vec<Joints>>,
+    /// Force on the tool in the base frame [N]; empty if it does not act.
+    pub force: Arc<Vec<Vector3<f64>>>,
+    /// Displacement of the tip by the force [m]; empty if it does not act.
     pub deflection: Vec<Vector3<f64>>,
     /// Actual tip in the base frame [m].
     pub actual: Vec<Vector3<f64>>,
-    /// Actual tool axis, from tip to spindle, in the base frame.
+    /// Actual tool axis, from tip to spindle, in the base frame; empty along a path with one axis all along.
     pub axis: Vec<Vector3<f64>>,
     /// Contour error, from the actual tip to the closest point of the desired path [m].
     pub contour_error: Vec<Vector3<f64>>,
+    /// Angle between the actual and the desired tool axis where the tool is along the path [rad].
+    pub axis_error: Vec<f64>,
 }
 
 impl Plan {
@@ -83,6 +86,11 @@ impl Plan {
             Cow::Borrowed(&self.trajectory.pace)
         }
     }
+
+    /// The passage of the tool under the cut.
+    pub fn passage(&self, acting: Sources) -> Passage<'_> {
+        Passage::new(self, self.pace(acting), acting)
+    }
 }
 
 /// Where the tool is along the path over time, and what follows from that alone: the same whatever is commanded.
@@ -91,28 +99,34 @@ pub struct Passage<'a> {
     /// Which sources act.
     pub acting: Sources,
     /// Progress along the path.
-    pub pace: &'a Pace,
+    pub pace: Cow<'a, Pace>,
     /// The path's points there [m].
     pub target: Vec<Vector3<f64>>,
-    /// Force on the tool there in the base frame [N]; zero if it does not act.
-    pub force: Vec<Vector3<f64>>,
+    /// Force on the tool there in the base frame [N]; empty if it does not act.
+    pub force: Arc<Vec<Vector3<f64>>>,
 }
 
 impl<'a> Passage<'a> {
     /// The passage at a pace under the plan's cut.
-    pub fn new(plan: &Plan, pace: &'a Pace, acting: Sources) -> Self {
+    pub fn new(plan: &Plan, pace: Cow<'a, Pace>, acting: Sources) -> Self {
         let force = if acting.deflection {
-            along::forces(&plan.path, pace, &plan.mean_force, &plan.chip)
+            along::forces(&plan.path, &pace, &plan.mean_force, &plan.chip)
         } else {
-            vec![Vector3::zeros(); pace.arc_length.len()]
+            Vec::new()
         };
-        Self::under(&plan.path, pace, acting, force)
+        Self::under(&plan.path, pace, acting, force.into())
     }
 
     /// The same under forces that are known.
-    pub fn under(path: &Path, pace: &'a Pace, acting: Sources, force: Vec<Vector3<f64>>) -> Self {
+    pub fn under(path: &Path, pace: Cow<'a, Pace>, acting: Sources, force: Arc<Vec<Vector3<f64>>>) -> Self {
         let target = pace.arc_length.iter().map(|&s| path.point(s)).collect();
         Self { acting, pace, target, force }
+    }
+
+    /// The same without force.
+    pub fn without_force(&self) -> Self {
+        let acting = Sources { deflection: false, ..self.acting };
+        Self { acting, force: Arc::default(), ..self.clone() }
     }
 }
 
@@ -120,66 +134,88 @@ impl<'a> Passage<'a> {
 ///
 /// Eq. 5.3 subtracts the displacement; a force pushes the tip its own way, so it is added here. Force and compliance are taken where the
 /// shaped command puts the arm; where deflection does not act, nothing gives way to force or weight. `q` has one row for each sample of the passage.
-pub fn deviate(plan: &Plan, passage: &Passage, q: &[Joints]) -> Deviation {
-    bent(plan, passage, q, |_, _| {})
+pub fn deviate(plan: &Plan, passage: &Passage, q: &Arc<Vec<Joints>>) -> Deviation {
+    sent(plan, passage, q, None)
 }
 
 /// The same and, from the same poses, what shaping does without deflection.
-pub fn deviate_and_shape(plan: &Plan, passage: &Passage, q: &[Joints]) -> (Deviation, Deviation) {
-    let (mut actual, mut axis) = (Vec::with_capacity(q.len()), Vec::with_capacity(q.len()));
-    let deviation = bent(plan, passage, q, |tip, along| {
-        actual.push(tip);
-        axis.push(along);
-    });
-    let none = vec![Vector3::zeros(); q.len()];
-    let contour_error = contour::contour_errors(&plan.path, passage, &actual);
-    let q = deviation.q.clone();
-    (deviation, Deviation { q, force: none.clone(), deflection: none, actual, axis, contour_error })
+pub fn deviate_and_shape(plan: &Plan, passage: &Passage, q: &Arc<Vec<Joints>>) -> (Deviation, Deviation) {
+    let mut shaped = Poses::new(plan, q.len());
+    let deviation = sent(plan, passage, q, Some(&mut shaped));
+    let shaping = shaped.deviation(plan, passage, deviation.q.clone(), Arc::default(), Vec::new());
+    (deviation, shaping)
 }
 
-/// Where deflection takes the shaped poses; `shaped` is told the tip and axis of each before it gives way.
-fn bent(
-    plan: &Plan,
-    passage: &Passage,
-    q: &[Joints],
-    mut shaped: impl FnMut(Vector3<f64>, Vector3<f64>),
-) -> Deviation {
-    let Passage { acting, force, .. } = passage;
-    let q = if acting.shaping { plan.shaper.joints(q, plan.trajectory.sample_time) } else { q.to_vec() };
-    let mut deflection = Vec::with_capacity(q.len());
-    let mut actual = Vec::with_capacity(q.len());
-    let mut axis = Vec::with_capacity(q.len());
-    for (q, force) in q.iter().zip(force) {
+/// What becomes of the commands; `shaped` gets the poses before they give way.
+fn sent(plan: &Plan, passage: &Passage, q: &Arc<Vec<Joints>>, mut shaped: Option<&mut Poses>) -> Deviation {
+    let q = match passage.acting.shaping {
+        true => Arc::new(plan.shaper.joints(q, plan.trajectory.sample_time)),
+        false => q.clone(),
+    };
+    let mut bent = Poses::new(plan, q.len());
+    let mut deflection = Vec::with_capacity(passage.force.len());
+    for (k, q) in q.iter().enumerate() {
         let frames = forward::frames(&plan.robot, q);
         let tcp = frames[5].compose(plan.robot.tool());
-        let along: Vector3<f64> = -tcp.rotation.column(2);
-        let placed = |moved: Vector3<f64>, turned: Vector3<f64>| {
-            (tcp.position + moved, (along + turned.cross(&along)).normalize())
-        };
-        let (mut displacement, mut rotation) = (Vector3::zeros(), Vector3::zeros());
-        let (tip, direction) = placed(displacement, rotation);
-        shaped(tip, direction);
-        if acting.deflection {
-            (displacement, rotation) = compliance::deflection(&plan.robot, q, &frames, &tcp.position, force);
-            if let Some(bending) = &plan.bending {
-                let (moved, turned) = bending.deflection(&along, force);
-                displacement += moved;
-                rotation += turned;
-            }
+        let axis: Vector3<f64> = -tcp.rotation.column(2);
+        let desired = plan.path.axis(passage.pace.arc_length[k]);
+        let still = (Vector3::zeros(), Vector3::zeros());
+        if let Some(shaped) = &mut shaped {
+            shaped.push((&tcp.position, &axis), still, &desired);
         }
-        let (tip, direction) = placed(displacement, rotation);
-        deflection.push(displacement);
-        actual.push(tip);
-        axis.push(direction);
+        let mut given_way = still;
+        if passage.acting.deflection {
+            let force = &passage.force[k];
+            given_way = compliance::deflection(&plan.robot, q, &frames, &tcp.position, force);
+            if let Some(bending) = &plan.bending {
+                let (moved, turned) = bending.deflection(&axis, force);
+                given_way = (given_way.0 + moved, given_way.1 + turned);
+            }
+            deflection.push(given_way.0);
+        }
+        bent.push((&tcp.position, &axis), given_way, &desired);
     }
-    let contour_error = contour::contour_errors(&plan.path, passage, &actual);
-    Deviation { q, force: force.clone(), deflection, actual, axis, contour_error }
+    bent.deviation(plan, passage, q, passage.force.clone(), deflection)
 }
 
-impl Deviation {
-    /// Angle between the actual and the desired tool axis where the tool is along the path [rad], one a sample.
-    pub fn axis_errors(&self, path: &Path, pace: &Pace) -> Vec<f64> {
-        let tilt = |(axis, &s): (&Vector3<f64>, &f64)| math::angle_between(axis, &path.axis(s));
-        self.axis.iter().zip(&pace.arc_length).map(tilt).collect()
+/// Tips and tool axes while they are collected.
+struct Poses {
+    actual: Vec<Vector3<f64>>,
+    axis: Option<Vec<Vector3<f64>>>,
+    axis_error: Vec<f64>,
+}
+
+impl Poses {
+    fn new(plan: &Plan, samples: usize) -> Self {
+        let axis = plan.path.is_multi_axis().then(|| Vec::with_capacity(samples));
+        Self { actual: Vec::with_capacity(samples), axis, axis_error: Vec::with_capacity(samples) }
+    }
+
+    /// A tip with its axis that has moved [m] and turned [rad].
+    fn push(
+        &mut self,
+        (tip, axis): (&Vector3<f64>, &Vector3<f64>),
+        (moved, turned): (Vector3<f64>, Vector3<f64>),
+        desired: &Vector3<f64>,
+    ) {
+        self.actual.push(tip + moved);
+        let axis = (axis + turned.cross(axis)).normalize();
+        self.axis_error.push(math::angle_between(&axis, desired));
+        if let Some(all) = &mut self.axis {
+            all.push(axis);
+        }
+    }
+
+    fn deviation(
+        self,
+        plan: &Plan,
+        passage: &Passage,
+        q: Arc<Vec<Joints>>,
+        force: Arc<Vec<Vector3<f64>>>,
+        deflection: Vec<Vector3<f64>>,
+    ) -> Deviation {
+        let Self { actual, axis, axis_error } = self;
+        let contour_error = contour::contour_errors(&plan.path, passage, &actual);
+        Deviation { q, force, deflection, actual, axis: axis.unwrap_or_default(), contour_error, axis_error }
     }
 }

@@ -16,6 +16,7 @@ use crate::report::{Report, millimetres};
 use crate::units::MM;
 use nalgebra::Vector3;
 use serde::Serialize;
+use std::borrow::Cow;
 
 /// A pass that leaves more than this share of the error is no improvement.
 const IMPROVEMENT: f64 = 0.99;
@@ -97,7 +98,7 @@ fn corrected(report: &Report, course: &Course, outcome: &Replay) -> Course {
     let known = (course.correction.as_slice(), course.axis.as_slice());
     let Replay { pace, deviation, .. } = outcome;
     let path = &report.plan.path;
-    let passage = Passage::under(path, pace, Sources::ALL, deviation.force.clone());
+    let passage = Passage::under(path, Cow::Borrowed(pace), Sources::ALL, deviation.force.clone());
     let (correction, axis) = compensation::corrected(path, &passage, deviation, known, undone);
     Course { correction, axis }
 }

@@ -15,6 +15,7 @@ use crate::motion::{Pace, Trajectory};
 use crate::path::{self, Path, Program, Segment, unit};
 use crate::report::{Report, Statistics};
 use nalgebra::Vector3;
+use std::borrow::Cow;
 
 /// The outcome of a program.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,7 +101,8 @@ pub fn run(report: &Report, course: &Course, program: &Program) -> Result<Replay
         let along = axis * axis.dot(force);
         *force = along + (*force - along) * share;
     }
-    let deviation = deviate(&plan, &Passage::under(&plan.path, &pace, Sources::ALL, force), &q);
+    let passage = Passage::under(&plan.path, Cow::Borrowed(&pace), Sources::ALL, force.into());
+    let deviation = deviate(&plan, &passage, &q);
     Ok(Replay { trajectory: plan.trajectory, pace, deviation, instants })
 }
 

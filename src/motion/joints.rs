@@ -7,6 +7,7 @@ use crate::path::Path;
 use crate::robot::inverse::{self, Margin, Solution};
 use crate::robot::{Joints, Robot};
 use nalgebra::Vector3;
+use std::sync::Arc;
 
 /// Which of the up to eight solutions the motion starts on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,7 +24,7 @@ pub struct StartBranch {
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointTrajectory {
     /// Joint values [rad]; they run on beyond full turns rather than jump.
-    pub q: Vec<Joints>,
+    pub q: Arc<Vec<Joints>>,
     /// Distance from the singularities at each sample.
     pub margin: Vec<Margin>,
     /// Branch at the start.
@@ -59,7 +60,7 @@ pub fn joint_trajectory(
         previous = Some(solution);
     }
     match first {
-        Some(start) => Ok(JointTrajectory { q, margin, start }),
+        Some(start) => Ok(JointTrajectory { q: Arc::new(q), margin, start }),
         None => Err(Error::Missing { field: "path".into(), expected: "a path has points".into() }),
     }
 }

@@ -77,8 +77,15 @@ impl Trajectory {
     pub fn new(path: &Path, tempo: &Tempo) -> Self {
         let runs = runs(path, tempo);
         let dt = tempo.sample_time;
-        let mut pace = Pace::default();
-        let (mut position, mut axis) = (Vec::new(), Vec::new());
+        let settling = (tempo.settle / dt).ceil() as usize;
+        let most = (runs.iter().map(Run::duration).sum::<f64>() / dt) as usize + settling + 2;
+        let mut pace = Pace {
+            arc_length: Vec::with_capacity(most),
+            speed: Vec::with_capacity(most),
+            heading: Vec::with_capacity(most),
+            engaged: Vec::with_capacity(most),
+        };
+        let (mut position, mut axis) = (Vec::with_capacity(most), Vec::with_capacity(most));
         let mut sample = |s: f64, speed: f64, heading: Vector3<f64>, engaged: bool| {
             pace.arc_length.push(s);
             pace.speed.push(speed);
@@ -117,7 +124,6 @@ impl Trajectory {
             clock = arrived + time;
         }
         let moving = k + 1;
-        let settling = (tempo.settle / dt).ceil() as usize;
         let length = path.length();
         for _ in 0..=settling {
             sample(length, 0.0, path.tangent(length), cuts(path.moves().len() - 1));

@@ -10,13 +10,16 @@ use crate::path::{Path, Spin};
 use crate::report::{Effort, SpinGain};
 use crate::robot::Joints;
 use crate::units::DEG;
+use std::borrow::Cow;
+use std::sync::Arc;
 
 /// The path with the spin that suits it best; with the fixed one where none leads to its end, so that the error says where.
 pub(super) fn chosen(plan: &Plan, setup: &Setup, freedom: &Freedom) -> Path {
     let stations = Trajectory::stations(&plan.path, &setup.tempo, spin::STATIONS);
     let acting = Sources::only(Source::Deflection);
     let errors = |at: &[usize], q: &[Joints]| {
-        let errors = deviate(plan, &Passage::new(plan, &stations.pace.at(at), acting), q).contour_error;
+        let passage = Passage::new(plan, Cow::Owned(stations.pace.at(at)), acting);
+        let errors = deviate(plan, &passage, &Arc::new(q.to_vec())).contour_error;
         errors.iter().map(|error| error.norm_squared()).collect()
     };
     let best = |calm| {
@@ -63,10 +66,8 @@ pub(super) fn gain(
     before: &Deviation,
 ) -> SpinGain {
     let fixed = Plan { path: setup.path.clone(), ..plan.clone() };
-    let pace = fixed.pace(Sources::ALL);
     let compared = commanded(&fixed, setup).ok().map(|held| {
-        let passage = Passage::new(&fixed, &pace, Sources::ALL);
-        let before = deviate(&fixed, &passage, &held.q);
+        let before = deviate(&fixed, &fixed.passage(Sources::ALL), &held.q);
         Effort::of(&fixed, &held.q, &before)
     });
     SpinGain::new(plan, freedom, setup.spin, Effort::of(plan, q, before), compared)
@@ -87,6 +88,6 @@ fn outcome(plan: &Plan, setup: &Setup, acting: Sources, spin: &Spin) -> (bool, f
         let ranges = tried.robot.limits().into_iter().flatten();
         ranges.zip(q.iter()).all(|((low, high), q)| (low..=high).contains(&q))
     };
-    let before = deviate(&tried, &Passage::new(&tried, &tried.pace(acting), acting), &joints.q);
+    let before = deviate(&tried, &tried.passage(acting), &joints.q);
     (!joints.q.iter().all(inside), contour::mean_and_max(&before.contour_error).1)
 }

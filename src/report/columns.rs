@@ -89,7 +89,7 @@ impl Report {
         ));
         series.extend(ijk("tool_axis", "Tool axis", &trajectory.axis));
         series.extend(ijk("compensated_axis", "Compensated axis", &self.compensation.axis));
-        let [before, after] = &self.axis_error;
+        let (before, after) = (&self.before.axis_error, &self.after.axis_error);
         series.push(scaled("axis_error_deg", "Tool axis error before", "deg", before, DEG));
         series.push(scaled("after_axis_error_deg", "Tool axis error after", "deg", after, DEG));
         // As the force has it: a shaped tool arrives later, and between cutting and not it is partly both.

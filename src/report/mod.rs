@@ -18,7 +18,7 @@ pub use summary::{Statistics, Summary};
 pub use warning::Warning;
 
 use crate::compensation::{Compensation, compensate};
-use crate::deviation::{Deviation, Passage, Plan, Source, Sources, contour};
+use crate::deviation::{Deviation, Plan, Source, Sources, contour};
 use crate::job::Setup;
 use crate::motion::joints::JointTrajectory;
 use crate::units::MM;
@@ -46,8 +46,6 @@ pub struct Report {
     pub compensation: Compensation,
     /// The compensated path commanded, every source acting.
     pub after: Arc<Deviation>,
-    /// Angle between actual and desired tool axis before and after, one a sample [rad].
-    pub axis_error: [Vec<f64>; 2],
     /// What is odd but workable.
     pub warnings: Vec<Warning>,
     /// See [`Report::alone`]; computed when first asked for.
@@ -73,9 +71,7 @@ impl Report {
         };
         let Setup { start, goal, .. } = self.setup;
         place.get_or_init(|| {
-            let acting = Sources::only(source);
-            let pace = self.plan.pace(acting);
-            let passage = Passage::new(&self.plan, &pace, acting);
+            let passage = self.plan.passage(Sources::only(source));
             compensate(&self.plan, &passage, start, &self.joints.q, known, goal, |_| {})
         })
     }

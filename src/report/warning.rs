@@ -127,7 +127,10 @@ fn springs(plan: &Plan, compensation: &Compensation, warnings: &mut Vec<Warning>
     let (Some(burden), Deviation { q, force, .. }) = (plan.robot.burden(), &*compensation.result) else {
         return;
     };
-    let unsettled = |k: usize| !equilibrium(&plan.robot, burden, &q[k], &force[k]).converged;
+    // Where no force acts, nothing gives way to weight either.
+    let unsettled = |k: usize| {
+        force.get(k).is_some_and(|force| !equilibrium(&plan.robot, burden, &q[k], force).converged)
+    };
     if (0..q.len()).step_by(q.len().div_ceil(LOOKS)).any(unsettled) {
         let message = "the joints are so soft under this load that their springs do not come to rest: deflections are not to be trusted";
         warnings.push(Warning::new("springs-unsettled", message));

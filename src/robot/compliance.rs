@@ -2,7 +2,7 @@
 
 use crate::math::Pose;
 use crate::robot::equilibrium::equilibrium;
-use crate::robot::{Joints, Robot, jacobian};
+use crate::robot::{Elbow, Joints, Robot, jacobian};
 use nalgebra::{Matrix6, Vector3};
 
 /// Cartesian compliance C_x = J C_theta J^T (eq. 3.48), 6x6, in the base frame:
@@ -23,6 +23,16 @@ pub(crate) fn deflection(
     force: &Vector3<f64>,
 ) -> (Vector3<f64>, Vector3<f64>) {
     let (mut displacement, mut rotation) = (Vector3::zeros(), Vector3::zeros());
+    if robot.burden().is_none() && robot.elbow() != Elbow::Parallelogram {
+        // The usual arm, without a table of its joints: this runs for every sample of every pass.
+        for (frame, c) in frames.iter().zip(robot.compliance().iter()) {
+            let (k, v) = jacobian::turn(frame, tip);
+            let turned = c * v.dot(force);
+            displacement += v * turned;
+            rotation += k * turned;
+        }
+        return (displacement, rotation);
+    }
     for (moved, turned) in by_joint(robot, q, frames, tip, force) {
         displacement += moved;
         rotation += turned;

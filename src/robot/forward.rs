@@ -7,20 +7,20 @@ use nalgebra::{Matrix3, Vector3};
 /// The frames 1 to 6 in the base frame for the joint values `q` [rad]: 0T1, 0T2, ... 0T6 (eqs. 3.1, 3.2).
 pub fn frames(robot: &Robot, q: &Joints) -> [Pose; 6] {
     let q = robot.serial(q);
-    let mut joint = q.iter();
-    chain(robot, &robot.links().each_ref().map(|link| Turn::of(link.theta(*joint.next().unwrap_or(&0.0)))))
-}
-
-/// The same for angles theta_1 to theta_6 about the axes.
-pub(crate) fn chain(robot: &Robot, theta: &[Turn; 6]) -> [Pose; 6] {
     let mut frame = Pose::identity();
     std::array::from_fn(|i| {
-        let link = &robot.links()[i];
-        let rotation = turned(&frame.rotation, robot.twists[i], theta[i]);
-        let position = frame.position + frame.rotation.column(0) * link.a + rotation.column(2) * link.d;
-        frame = Pose { rotation, position };
+        frame = next(robot, i, &frame, Turn::of(robot.links()[i].theta(q[i])));
         frame
     })
+}
+
+/// The frame after the link `i` (from 0), by its angle theta about z.
+#[inline(always)] // In WebAssembly a frame that is returned from a call is copied twice, which takes as long as making it.
+pub(crate) fn next(robot: &Robot, i: usize, outer: &Pose, theta: Turn) -> Pose {
+    let link = &robot.links()[i];
+    let rotation = turned(&outer.rotation, robot.twists[i], theta);
+    let position = outer.position + outer.rotation.column(0) * link.a + rotation.column(2) * link.d;
+    Pose { rotation, position }
 }
 
 /// The rotation after one more link, by its twist (cosine, sine) about x and its angle about z: eq. 3.1, multiplied out onto the columns.

@@ -201,13 +201,12 @@ fn each(
             // Theta_2 (eq. 3.14): the direction to the wrist centre less the arm's own.
             let own = (g.upper + g.fore * cos_elbow, g.cos_2 * g.fore * sin_elbow);
             let theta_2 = Turn::between(own, (px, py));
-            // Orientation of frame 3 turned by alpha_3, so that joint 4 turns about its z axis (eqs. 3.16-3.18, left side).
-            let arm = [theta_1, theta_2, theta_3].into_iter().zip(robot.twists);
-            let arm =
-                arm.fold(Matrix3::identity(), |outer, (theta, twist)| forward::turned(&outer, twist, theta));
-            let arm = forward::turned(&arm, robot.twists[3], Turn { sin: 0.0, cos: 1.0 });
+            let arm = [theta_1, theta_2, theta_3].into_iter().enumerate();
+            let arm = arm.fold(Pose::identity(), |outer, (i, theta)| forward::next(robot, i, &outer, theta));
+            // Frame 3 turned by alpha_3, so that joint 4 turns about its z axis (eqs. 3.16-3.18, left side).
+            let turned = forward::turned(&arm.rotation, robot.twists[3], Turn { sin: 0.0, cos: 1.0 });
             let angles = [angle_1, theta_2.angle(), theta_3.angle()];
-            let (wrist, sin_wrist) = wrist_turns(robot, g, &(arm.transpose() * flange.rotation), near);
+            let (wrist, sin_wrist) = wrist_turns(robot, g, &(turned.transpose() * flange.rotation), near);
             let wrist_angles = wrist.map(Turn::angle);
             for wrist_positive in [true, false] {
                 if only.is_some_and(|branch| branch.wrist_positive != wrist_positive) {
@@ -223,8 +222,9 @@ fn each(
                     theta_6 = Turn { sin: -theta_6.sin, cos: -theta_6.cos };
                     theta = [theta[0], theta[1], theta[2], theta[3] - PI, -theta[4], theta[5] - PI];
                 }
-                let turns = [theta_1, theta_2, theta_3, theta_4, theta_5, theta_6];
-                if !is_near(tcp, &forward::chain(robot, &turns)[5].compose(robot.tool())) {
+                let hand = [theta_4, theta_5, theta_6].into_iter().enumerate();
+                let reached = hand.fold(arm, |outer, (i, theta)| forward::next(robot, 3 + i, &outer, theta));
+                if !is_near(tcp, &reached.compose(robot.tool())) {
                     continue;
                 }
                 let q = Joints::from_fn(|i, _| math::nearest_turn(links[i].joint(theta[i]), serial[i]));

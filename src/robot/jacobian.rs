@@ -10,7 +10,7 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 /// The 6x6 Jacobian of the TCP in the base frame, by the joint values as told: rows v_x, v_y, v_z [m/rad], omega_x, omega_y, omega_z [1].
 pub fn jacobian(robot: &Robot, q: &Joints) -> Matrix6<f64> {
     let (frames, tip) = frames_and_tip(robot, q);
-    let mut j = columns(robot, levers(&frames, &tip).map(|(k, lever)| (k, k.cross(&lever))));
+    let mut j = columns(robot, frames.each_ref().map(|frame| turn(frame, &tip)));
     if robot.elbow() != Elbow::Serial {
         let follows = j.column(2) * robot.follows();
         j.set_column(1, &(j.column(1) + follows));
@@ -42,16 +42,19 @@ fn columns(robot: &Robot, parts: [(Vector3<f64>, Vector3<f64>); 6]) -> Matrix6<f
     j
 }
 
+/// What a unit turn about a frame's own axis turns [1] and moves [m] the point `tip` by.
+pub(crate) fn turn(frame: &Pose, tip: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+    let k: Vector3<f64> = frame.rotation.column(2).into();
+    (k, k.cross(&(tip - frame.position)))
+}
+
 /// What a unit turn of each spring turns [1] and moves [m] the point `tip` by, base frame, counted about the joint's own axis.
 pub(crate) fn springs(
     robot: &Robot,
     frames: &[Pose; 6],
     tip: &Vector3<f64>,
 ) -> [(Vector3<f64>, Vector3<f64>); 6] {
-    let mut springs = levers(frames, tip);
-    for (k, lever) in &mut springs {
-        *lever = k.cross(lever);
-    }
+    let mut springs = frames.each_ref().map(|frame| turn(frame, tip));
     if robot.elbow() == Elbow::Parallelogram {
         let share = held(robot);
         let (k, v) = springs[2];
