@@ -33,7 +33,7 @@ pub const PHONE: Size = (390, 844);
 const CAPABILITIES: &str = include_str!("../../.cargo/webdriver.json");
 
 /// How long a download may take.
-const DOWNLOAD: Duration = Duration::from_secs(10);
+const DOWNLOAD: Duration = Duration::from_secs(60);
 
 /// Opens a page of the site, or any page by its whole address, runs a test on it and closes it again. A test that fails leaves a picture
 /// `failed-<test>.png` among the screenshots, and what the console said in its output.
