@@ -4,7 +4,7 @@
 use crate::browser::{DESKTOP, Page, Result, visit};
 use crate::common::run;
 use crate::{current, number, shows, stale, text};
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// Drops a file on the page; `content` is a JavaScript expression for a list of its parts.
 async fn drop_file(page: &Page, name: &str, content: &str) -> Result {
@@ -172,7 +172,8 @@ fn markup_in_names_and_comments_is_text() -> Result {
         page.wait_for("document.querySelector('#path-kind').value === 'gcode'", 20.0).await?;
         current(page).await?;
         harmless().await?;
-        let joints: Value = serde_json::from_str(&page.js("return fetch('pkg/form.json').then((form) => form.json()).then(({ presets }) => JSON.stringify(presets.robots[0]))").await?.as_str().unwrap_or_default().to_owned())?;
+        let first = "return fetch('pkg/form.json').then((form) => form.json()).then(({ presets }) => presets.robots[0])";
+        let joints = page.js(first).await?;
         let job = json!({ "robot": { "name": MARKUP, "modified_dh": joints["modified_dh"], "joint_compliance_rad_per_nm": joints["joint_compliance_rad_per_nm"] } });
         drop_file(page, &format!("{MARKUP}.json"), &format!("[{}]", json!(job.to_string()))).await?;
         page.wait_for("document.querySelector('#path-kind').value === 'circle'", 20.0).await?;
