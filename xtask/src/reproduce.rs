@@ -17,14 +17,11 @@ use crate::workspace::{self, root};
 pub(crate) fn reproduce() -> Result<()> {
     workspace::add_wasm_target()?;
     let place = root()?.join("target/reproduce");
-    let builds = ["a", "another/folder"]
-        .map(|name| {
-            let folder = place.join(name);
-            copy_sources(&folder)?;
-            site::cores(&folder, &folder.join("target/cores"))
-        })
-        .into_iter()
-        .collect::<Result<Vec<_>>>()?;
+    let folders = ["a", "another/folder"].map(|name| place.join(name));
+    // Both copies first: somebody may go on working meanwhile.
+    folders.iter().try_for_each(|folder| copy_sources(folder))?;
+    let builds = folders.iter().map(|folder| site::cores(folder, &folder.join("target/cores")));
+    let builds = builds.collect::<Result<Vec<_>>>()?;
     let [first, second] = builds.as_slice() else { bail!("two builds are compared") };
     for ((name, one), (_, other)) in first.iter().zip(second) {
         ensure!(one == other, "the {name} core depends on the folder it is built in");
