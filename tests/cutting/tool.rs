@@ -41,7 +41,9 @@ fn a_tool_bends_like_a_bar() {
 
 #[test]
 fn a_long_tool_adds_its_own_bending() {
-    let line = ("path", json!({"kind":"line","from_mm":[600,-20,100],"to_mm":[600,20,100]}));
+    // Upright until beyond the samples looked at; because it leans at last, the axes are kept.
+    let text = "600,-20,100,0,0,1\n600,20,100,0,0,1\n600,22,100,0.02,0,1";
+    let line = ("path", json!({"kind":"csv","text":text}));
     let rigid = run(&[line.clone(), ("shaper", json!("none"))]);
     let long = run(&[
         line,
