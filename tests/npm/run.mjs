@@ -25,6 +25,8 @@ const methods = {
   frames: [result.frames(0)],
   track: [result.track(100)],
   export: [result.export("krl")],
+  columns_csv: [result.columns_csv(0, 3)],
+  promise: [result.promise()],
   replay: [other.replay("gcode")],
   fingerprint: [result.fingerprint()],
 };
