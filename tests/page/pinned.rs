@@ -36,13 +36,15 @@ fn a_pinned_result_stands_beside_the_next() -> Result {
     })
 }
 
+/// The curves in the first chart, and what says where one runs.
+const LINES: &str =
+    "[...document.querySelectorAll('#chart-before-after svg.plot .series :is(path, polyline)')]";
+const OUTLINE: &str = "line.getAttribute('d') ?? line.getAttribute('points')";
+
 /// The outlines of the pinned result's curves in the first chart, or of the shown one's.
 async fn outlines(page: &Page, pinned: bool) -> Result<Vec<String>> {
-    let lines = "[...document.querySelectorAll('#chart-before-after svg.plot .series :is(path, polyline)')]";
     let found = page
-        .js(&format!(
-            "return {lines}.filter(line => Boolean(line.closest('.pinned')) === {pinned}).map(line => line.getAttribute('d') ?? line.getAttribute('points'))"
-        ))
+        .js(&format!("return {LINES}.filter(line => Boolean(line.closest('.pinned')) === {pinned}).map(line => {OUTLINE})"))
         .await?;
     Ok(serde_json::from_value(found)?)
 }
@@ -75,14 +77,16 @@ fn a_pinned_result_is_drawn_with_the_next_and_stays_over_a_reload() -> Result {
                 y_range: joined(first.y.full, second.y.full),
                 ..whole
             };
+            let (of_a, of_b) = (draw(&a, &both)?.svg, draw(&b, &both)?.svg);
+            // Figures are shown before charts, which may still be those of a number half typed.
+            let drawn = format!(
+                "((a, b) => {LINES}.length >= 4 && {LINES}.every(line => (line.closest('.pinned') ? a : b).includes({OUTLINE})))({}, {})",
+                json!(of_a),
+                json!(of_b),
+            );
+            page.wait_for(&drawn, 20.0).await?;
             let (pinned, own) = (outlines(page, true).await?, outlines(page, false).await?);
             assert!(pinned.len() >= 2 && own.len() >= 2, "{} and {} curves", pinned.len(), own.len());
-            for (report, lines) in [(&a, &pinned), (&b, &own)] {
-                let svg = draw(report, &both)?.svg;
-                for line in lines {
-                    assert!(svg.contains(line.as_str()), "{line}");
-                }
-            }
         }
         page.js("scrollTo({ top: 0, behavior: 'instant' })").await?;
         page.click("#unpin").await?;

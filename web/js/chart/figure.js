@@ -84,18 +84,24 @@ export class Figure {
       this.#plot.style.setProperty("min-height", `${size.height}px`);
       const { x, y } = this.#view;
       const options = { ...size, ...units(), hidden: this.#legend.hidden, ...(x && { x_range: x }), ...(y && { y_range: y }) };
-      this.#show(await this.#drawn(options));
+      try {
+        this.#show(await this.#drawn(options));
+      } catch (error) {
+        if (!this.#waiting) throw error; // what was asked for meanwhile is drawn all the same
+      }
     }
   }
 
   /** The core's drawing, and the other result's on the same axes, which then hold both. Pictures of space magnify too differently for that. */
   async #drawn(options) {
+    const { beside } = this; // it may be unpinned while it draws
     const own = await this.#values.chart(this.name, options);
-    const other = this.plane ? null : await this.beside?.chart(this.name, options).catch(() => null);
+    const other = this.plane ? null : await beside?.chart(this.name, options).catch(() => null);
     if (!other) return { own };
     const [x, y] = ["x", "y"].map((axis) => joined(own[axis].full, other[axis].full));
     const both = { ...options, x_range: this.#view.x ?? x, y_range: this.#view.y ?? y };
-    const drawn = await Promise.all([this.#values, this.beside].map((values) => values.chart(this.name, both)));
+    const drawn = await Promise.all([this.#values.chart(this.name, both), beside.chart(this.name, both).catch(() => null)]);
+    if (!drawn[1]) return { own };
     [drawn[0].x.full, drawn[0].y.full] = [x, y];
     return { own: drawn[0], other: drawn[1] };
   }
