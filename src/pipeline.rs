@@ -81,28 +81,26 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
     let (before, shaping_only) = deviate_and_shape(&plan, &passage, &joints.q);
     let (before, shaping_only) = (Arc::new(before), Arc::new(shaping_only));
     tell(3, "compensation");
-    let compensation = {
-        let without_force;
-        let (known, passage) = match setup.sources {
-            Sources { deflection: true, shaping: false } => (&deflection_only, &on_time),
-            Sources { deflection: false, shaping: true } => {
-                without_force = passage.without_force();
-                (&shaping_only, &without_force)
-            }
-            _ => (&before, &passage),
-        };
-        let goal = match setup.sources {
-            Sources { deflection: false, shaping: false } => Goal { max_passes: 0, ..setup.goal },
-            _ => setup.goal,
-        };
-        let on_pass = |pass| tell(3 + pass, "compensation");
-        compensate(&plan, passage, setup.start, &joints.q, known, goal, on_pass)
-    };
-    let after = match setup.sources {
-        Sources { deflection: true, shaping: false } | Sources { deflection: false, shaping: true } => {
-            Arc::new(deviate(&plan, &passage, &compensation.q))
+    let without_force;
+    // What acts while the correction is sought: what is to be compensated; all, if nothing is.
+    let (known, sought) = match setup.sources {
+        Sources { deflection: true, shaping: false } => (&deflection_only, &on_time),
+        Sources { deflection: false, shaping: true } => {
+            without_force = passage.without_force();
+            (&shaping_only, &without_force)
         }
-        _ => compensation.result.clone(),
+        _ => (&before, &passage),
+    };
+    let goal = match setup.sources {
+        Sources { deflection: false, shaping: false } => Goal { max_passes: 0, ..setup.goal },
+        _ => setup.goal,
+    };
+    let on_pass = |pass| tell(3 + pass, "compensation");
+    let compensation = compensate(&plan, sought, setup.start, &joints.q, known, goal, on_pass);
+    let after = if sought.acting == Sources::ALL {
+        compensation.result.clone()
+    } else {
+        Arc::new(deviate(&plan, &passage, &compensation.q))
     };
     #[cfg(feature = "full")]
     let spin = setup.freedom.map(|freedom| spin::gain(&plan, &setup, &freedom, &joints.q, &before));

@@ -12,8 +12,9 @@ use criterion::{Criterion, SamplingMode};
 use k::{InverseKinematicsSolver, Isometry3, JacobianIkSolver, JointType, NodeBuilder, SerialChain, Vector3};
 use rs_opw_kinematics::jacobian::Jacobian;
 use rs_opw_kinematics::kinematic_traits::Kinematics;
-use rs_opw_kinematics::kinematics_impl::OPWKinematics;
-use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
+
+#[path = "../../tests/common/peer.rs"]
+mod peer;
 
 fn main() {
     let mut criterion = Criterion::default().configure_from_args().without_plots();
@@ -53,7 +54,7 @@ fn kinematics(criterion: &mut Criterion) {
         group.bench_function(name, |bencher| bencher.iter(|| work(&poses)));
     }
 
-    let peer = opw();
+    let peer = peer::peer(&library::robot("staubli-rx90").expect("the default robot is in the library"));
     let joints: Vec<[f64; 6]> = poses.joints.iter().map(|q| (*q).into()).collect();
     let flanges: Vec<_> = joints.iter().map(|q| peer.forward(q)).collect();
     for (flange, ours) in flanges.iter().zip(&poses.flanges) {
@@ -112,24 +113,6 @@ fn kinematics(criterion: &mut Criterion) {
         });
     });
     group.finish();
-}
-
-/// The default robot by rs-opw-kinematics.
-fn opw() -> OPWKinematics {
-    let preset = library::robot("staubli-rx90").expect("the default robot is in the library");
-    let [a1, a2, b, c1, c2, c3, c4] = preset.opw.lengths_mm.map(|length| length * 1e-3);
-    OPWKinematics::new(Parameters {
-        a1,
-        a2,
-        b,
-        c1,
-        c2,
-        c3,
-        c4,
-        offsets: preset.opw.joint_offset_deg.map(f64::to_radians),
-        sign_corrections: preset.opw.joint_sign.map(|sign| sign as i8),
-        dof: 6,
-    })
 }
 
 /// The default robot as a chain of `k`: each joint turns about z after the fixed part of its modified Denavit-Hartenberg row.

@@ -62,8 +62,8 @@ mod tests {
 
     #[test]
     fn a_path_is_found_wherever_it_stands() {
-        assert!(names(b"\0asm..../home/who/src/lib.rs", Path::new("/home/who")));
-        assert!(!names(b"\0asm....src/lib.rs", Path::new("/home/who")));
+        assert!(names(b"\0asm..../some/folder/src/lib.rs", Path::new("/some/folder")));
+        assert!(!names(b"\0asm....src/lib.rs", Path::new("/some/folder")));
         assert!(!names(b"\0asm..../x", Path::new("/")));
     }
 }
