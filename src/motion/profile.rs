@@ -91,6 +91,15 @@ mod tests {
     }
 
     #[test]
+    fn a_short_path_between_two_speeds_is_a_triangle_too() {
+        // v^2 = v_0^2 + 2 a s: from 0.1 m/s up to 0.5 in 0.12 m, from there down to 0.3 in 0.08 m, at 1 m/s^2.
+        let profile = Profile::between(0.2, (0.1, 0.3), 1.0, 1.0);
+        assert!((profile.peak() - 0.5).abs() < 1e-15 && (profile.duration() - 0.6).abs() < 1e-15);
+        let (distance, speed) = profile.at(0.4);
+        assert!((distance - 0.12).abs() < 1e-15 && (speed - 0.5).abs() < 1e-15);
+    }
+
+    #[test]
     fn distance_is_the_integral_of_speed() {
         for ends in [(0.0, 0.0), (0.05, 0.0), (0.02, 0.1), (0.1, 0.1)] {
             integral(Profile::between(0.3, ends, 0.1, 0.2), ends);
