@@ -107,13 +107,16 @@ fn a_free_spin_does_what_it_is_chosen_for() {
         assert_eq!(gain.free.error_mm, summary.before_mm.both.max);
         let used = spin.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)));
         assert_eq!(gain.used_deg, [used.0, used.1]);
-        // The fastest joint by the columns.
-        let fastest = (1..=6)
+        // The joints' way and the fastest one by the columns.
+        let steps: Vec<f64> = (1..=6)
             .flat_map(|i| {
                 let q = column(report, &format!("q{i}_deg"));
-                q.windows(2).map(|pair| (pair[1] - pair[0]).abs() / 0.01).collect::<Vec<_>>()
+                q.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect::<Vec<_>>()
             })
-            .fold(0.0, f64::max);
+            .collect();
+        let (way, fastest) =
+            (steps.iter().sum::<f64>(), steps.iter().fold(0.0, |a, b| f64::max(a, b / 0.01)));
+        assert!((gain.free.joint_travel_deg - way).abs() < 1e-9 * way);
         assert!((gain.free.joint_speed_deg_s - fastest).abs() < 1e-9 * fastest);
         assert!(gain.sentence.contains("instead of"), "{}", gain.sentence);
     }

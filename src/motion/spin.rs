@@ -359,6 +359,38 @@ mod tests {
     }
 
     #[test]
+    fn cost_of_a_pose_and_of_a_turn() {
+        let (robot, path, tempo) = case();
+        let stations = Trajectory::stations(&path, &tempo, 5);
+        let none = |at: &[usize], _: &[Joints]| vec![0.0; at.len()];
+        let freedom = Freedom { low: 0.0, high: 0.0, goal: Goal::SmoothJoints };
+        let (path, start) = (&path, START);
+        let search =
+            |robot| Search { robot, path, stations: &stations, start, freedom, calm: 2.0, errors: &none };
+        let ours = search(&robot);
+        let close =
+            |ours: f64, expected: f64| assert!((ours - expected).abs() < 1e-9, "{ours} for {expected}");
+        // A fifth for each of five stations: the error's square, then the squares of what is missing to a margin, as a share of it.
+        let margin = |shoulder, elbow, wrist| Margin { shoulder, elbow, wrist };
+        close(ours.own(&margin(1.0, 1.0, 1.0), 3.0), 9.0 / 5.0);
+        close(ours.own(&margin(5.0 * MM, 0.75 * 0.087, 0.0), 0.0), (0.25 + 0.0625 + 1.0) / 5.0);
+        // The room that is missing to 5 deg before a limit; beyond it, the price of that.
+        let (low, high) = robot.limits().unwrap()[0];
+        for (q, cost) in
+            [(0.0, 0.0), (high - 2.0 * DEG, 0.36), (low + 4.0 * DEG, 0.04), (low - DEG, 1.44 + BEYOND)]
+        {
+            close(ours.limits(&Joints::new(q, 0.0, 0.0, 0.0, 0.0, 0.0)), cost / 5.0);
+        }
+        // In half turns over the whole path: the same turn in each of four steps is four of it.
+        close(4.0 * ours.turning(&Joints::new(0.0, PI, 0.0, 0.0, 0.5 * PI, 0.0)), 2.0 * 1.25 * 16.0);
+        // A spin that keeps joint 1 out of its range at every station costs that much.
+        let mut limits = *robot.limits().unwrap();
+        limits[0] = (3.0, 3.1);
+        let narrow = Robot::new("", *robot.links(), Some(limits), [0.0; 6]).unwrap().with_tool(*robot.tool());
+        assert!(search(&narrow).cost_of(&Spin::fixed(0.0), 1.0).unwrap() > BEYOND);
+    }
+
+    #[test]
     fn the_fixed_angle_is_only_left_for_something_better() {
         let (robot, path, tempo) = case();
         let stations = Trajectory::stations(&path, &tempo, 41);
