@@ -6,7 +6,7 @@
 mod common;
 
 use armill::math::Pose;
-use armill::robot::inverse::inverse;
+use armill::robot::inverse::{Margin, inverse};
 use armill::robot::{Joints, Link, Robot, forward};
 use common::{any_arm, any_joints, refused, run};
 use nalgebra::Vector3;
@@ -109,6 +109,11 @@ fn arms_without_a_spherical_wrist_are_solved() {
                 let reached = forward::forward(&robot, &solution.q);
                 position.push((reached.position - tcp.position).norm());
                 rotation.push((reached.rotation - tcp.rotation).norm());
+                // Axes 2, 3 and 4 are parallel, the offset of the wrist is along them: the elbow is q3, and the upper arm points backwards.
+                let (elbow, wrist) = (solution.q[2].sin(), solution.q[4].sin());
+                let Margin { elbow: bent, wrist: turned, .. } = solution.margin;
+                assert!((bent - elbow.abs()).abs() < 1e-9 && (turned - wrist.abs()).abs() < 1e-9);
+                assert_eq!(solution.branch.elbow_positive, elbow <= 0.0);
             }
             lost += u32::from(solutions.iter().all(|s| apart(&s.q, &q) > 1e-4));
             // From nearby, the search finds its way back to where it came from.
@@ -174,4 +179,8 @@ fn what_cannot_be_reached_is_refused_with_distance_and_reach() {
     let edge = json!({"kind":"line","from_mm":[1310,0,60],"to_mm":[1310,10,60]});
     let error = refused(&[("robot", ur10()), ("path", edge)]);
     assert!(error.to_string().contains("no joint values were found"), "{error}");
+    assert!(
+        error.to_string().contains("at (1310.0, ") && error.to_string().contains(", 60.0) mm"),
+        "{error}"
+    );
 }
