@@ -49,6 +49,9 @@ fn golden_forces_and_torques() {
             let golden = peaks[key].as_f64().unwrap();
             assert!((ours - golden).abs() < 0.005 * largest, "{key}: {ours} against {golden}");
         }
+        // The largest force lies in the plane of the feed and a part of the axial one above it.
+        let (peak, above) = (cut.peak_force(c), peaks["Fz_max"].as_f64().unwrap());
+        assert!((0.995 * largest..1.005 * f64::hypot(largest, above)).contains(&peak), "{peak} N");
         seen += 1;
     }
     assert_eq!(seen, 3);
