@@ -9,11 +9,11 @@
 //!
 //! [`Shaper::undo`]: crate::motion::Shaper::undo
 
-use crate::deviation::{Deviation, Passage, Plan, contour, deviate};
+use crate::deviation::{Deviation, Passage, Plan, contour, deviate_with};
 use crate::error::Error;
 use crate::motion::Trajectory;
-use crate::motion::joints::{StartBranch, joint_trajectory};
-use crate::path::Path;
+use crate::motion::joints::{StartBranch, joint_trajectory_with};
+use crate::path::{Axes, Path};
 use crate::robot::Joints;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -32,8 +32,8 @@ pub struct Goal {
 pub struct Compensation {
     /// Correction of the desired position, one a sample, base frame [m].
     pub correction: Vec<Vector3<f64>>,
-    /// Tool axis to command, one a sample, base frame; the desired one where the path keeps one axis all along.
-    pub axis: Vec<Vector3<f64>>,
+    /// Tool axis to command, base frame; the desired one where the path keeps one axis all along.
+    pub axis: Axes,
     /// Joint commands for the corrected path [rad].
     pub q: Arc<Vec<Joints>>,
     /// What becomes of them: the same model, sent through again.
@@ -56,9 +56,9 @@ const AIM: f64 = 0.1;
 const IMPROVEMENT: f64 = 0.99;
 
 /// Corrects the path for the sources that act in `passage` until the largest contour error is well within the tolerance (a tenth of it), the
-/// passes are used up, or a pass no longer improves; the best pass is kept. A path that is within the tolerance is left alone. `before` is [`deviate`] of the joint commands `q` with the same sources.
+/// passes are used up, or a pass no longer improves; the best pass is kept. A path that is within the tolerance is left alone. `before` is [`deviate`](crate::deviation::deviate) of the joint commands `q` with the same sources.
 ///
-/// `on_pass` is told the number of passes done.
+/// `on_pass` is told now and then how many passes are done, with the share done of the present one.
 pub fn compensate(
     plan: &Plan,
     passage: &Passage,
@@ -66,7 +66,7 @@ pub fn compensate(
     q: &Arc<Vec<Joints>>,
     before: &Arc<Deviation>,
     goal: Goal,
-    mut on_pass: impl FnMut(usize),
+    on_pass: &mut dyn FnMut(f64),
 ) -> Compensation {
     let (mean, max) = contour::mean_and_max(&before.contour_error);
     let mut best = Compensation {
@@ -92,8 +92,12 @@ pub fn compensate(
             corrected(&plan.path, passage, &best.result, (&best.correction, &best.axis), undone);
         let positions: Vec<_> =
             plan.trajectory.position.iter().zip(&correction).map(|(desired, c)| desired + c).collect();
+        // A pass is one half inverse model, one half all that comes after it.
+        let done = |share: f64| (pass - 1) as f64 + share / 2.0;
+        on_pass(done(0.0));
+        let (desired, told) = ((positions.as_slice(), &axis), &mut |share| on_pass(done(share)));
         let commands =
-            match joint_trajectory(&plan.robot, &plan.path, &plan.trajectory, (&positions, &axis), start) {
+            match joint_trajectory_with(&plan.robot, &plan.path, &plan.trajectory, desired, start, told) {
                 Ok(joints) => joints.q,
                 Err(error) => {
                     best.stopped = Some(error);
@@ -101,9 +105,9 @@ pub fn compensate(
                 }
             };
         drop(positions);
-        let result = Arc::new(deviate(plan, passage, &commands));
+        let result =
+            Arc::new(deviate_with(plan, passage, &commands, &mut |share| on_pass(done(1.0 + share))));
         let (mean, max) = contour::mean_and_max(&result.contour_error);
-        on_pass(pass);
         let least = best.history_max[best.passes];
         best.history_max.push(max);
         best.history_mean.push(mean);
@@ -129,19 +133,23 @@ pub(crate) fn corrected(
     path: &Path,
     passage: &Passage,
     result: &Deviation,
-    (correction, axis): (&[Vector3<f64>], &[Vector3<f64>]),
+    (correction, axis): (&[Vector3<f64>], &Axes),
     undone: impl Fn(Vec<Vector3<f64>>) -> Vec<Vector3<f64>>,
-) -> (Vec<Vector3<f64>>, Vec<Vector3<f64>>) {
+) -> (Vec<Vector3<f64>>, Axes) {
     let missing = passage.target.iter().zip(&result.actual).map(|(target, actual)| target - actual);
-    let more = undone(missing.collect());
-    let correction = correction.iter().zip(&more).map(|(c, more)| c + more).collect();
+    let mut bent = undone(missing.collect());
+    for (more, known) in bent.iter_mut().zip(correction) {
+        *more = known + *more;
+    }
     if !path.is_multi_axis() {
-        return (correction, axis.to_vec());
+        return (bent, axis.clone());
     }
     // The turn that is missing, as a rotation vector: its size is the sine of the angle, small and soon exact.
-    let wanted = passage.pace.arc_length.iter().map(|&s| path.axis(s));
-    let missing = wanted.zip(&result.axis).map(|(wanted, actual)| actual.cross(&wanted));
+    let missing = result.axis.iter().enumerate().map(|(k, actual)| actual.cross(passage.axis.at(k)));
     let turns = undone(missing.collect());
-    let turned = axis.iter().zip(&turns).map(|(axis, turn)| (axis + turn.cross(axis)).normalize());
-    (correction, turned.collect())
+    let turned = turns.iter().enumerate().map(|(k, turn)| {
+        let axis = axis.at(k);
+        (axis + turn.cross(axis)).normalize()
+    });
+    (bent, Axes::Each(turned.collect()))
 }

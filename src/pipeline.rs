@@ -4,11 +4,11 @@
 mod spin;
 
 use crate::compensation::{Goal, compensate};
-use crate::deviation::{Plan, Source, Sources, contour, deviate, deviate_and_shape};
+use crate::deviation::{Parted, Plan, Source, Sources, deviate, deviate_apart, deviate_with};
 use crate::error::Error;
 use crate::job::Job;
 use crate::motion::Trajectory;
-use crate::motion::joints::joint_trajectory;
+use crate::motion::joints::{JointTrajectory, joint_trajectory_with};
 use crate::report::{Report, Warning, warning};
 use std::sync::Arc;
 
@@ -48,13 +48,14 @@ pub fn run_json(text: &str, on_progress: impl FnMut(Stage)) -> Result<Report, Er
 /// # Errors
 /// See [`run`].
 pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report, Error> {
-    // Reading, if there is a program to read; inverse, two deviations, the passes and the final run: weighed alike.
+    // By the time it takes: reading, if there is a program to read, inverse, all sources together and deflection alone; a pass is as
+    // much as inverse and deviation.
     let reading = if job.path.text.is_some() { 1.0 } else { 0.0 };
-    let steps = reading + 4.0 + job.compensation.max_passes as f64;
+    let steps = reading + 3.0 + 2.0 * job.compensation.max_passes as f64;
     let setup =
         job.setup_with(|share| on_progress(Stage { fraction: share / steps, name: "reading the program" }))?;
-    let mut tell = |step: usize, name| on_progress(Stage { fraction: (reading + step as f64) / steps, name });
-    tell(0, "joint commands");
+    let mut tell = |step: f64, name| on_progress(Stage { fraction: (reading + step) / steps, name });
+    tell(0.0, "joint commands");
     let mut plan = Plan {
         robot: setup.robot.clone(),
         trajectory: Trajectory::new(&setup.path, &setup.tempo),
@@ -66,61 +67,81 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
     };
     #[cfg(feature = "full")]
     if let Some(freedom) = &setup.freedom {
-        tell(0, "spin about the tool axis");
+        tell(0.0, "spin about the tool axis");
         plan.path = spin::chosen(&plan, &setup, freedom);
     }
-    let desired = (plan.trajectory.position.as_slice(), plan.trajectory.axis.as_slice());
-    let joints = joint_trajectory(&plan.robot, &plan.path, &plan.trajectory, desired, setup.start)?;
-    plan.robot = plan.robot.touched_off_at(&joints.q[0]);
+    let desired = (plan.trajectory.position.as_slice(), &plan.trajectory.axis);
+    let on_share = &mut |share| tell(share, "joint commands");
+    let JointTrajectory { q, margin, start: branch } =
+        joint_trajectory_with(&plan.robot, &plan.path, &plan.trajectory, desired, setup.start, on_share)?;
+    plan.robot = plan.robot.touched_off_at(&q[0]);
     let plan = plan;
-    tell(1, "deflection");
-    let on_time = plan.passage(Sources::only(Source::Deflection));
-    let deflection_only = Arc::new(deviate(&plan, &on_time, &joints.q));
-    tell(2, "shaping");
+    let singular = warning::singularities(&plan, &q, &margin);
+    // What is not needed any more makes room: in a browser a long run has to do with little.
+    drop(margin);
+    tell(1.0, "deflection and shaping");
     let passage = plan.passage(Sources::ALL);
-    let (before, shaping_only) = deviate_and_shape(&plan, &passage, &joints.q);
-    let (before, shaping_only) = (Arc::new(before), Arc::new(shaping_only));
-    tell(3, "compensation");
-    let without_force;
+    let on_share = &mut |share| tell(1.0 + share, "deflection and shaping");
+    let Parted { whole, shaping, deflection } = deviate_apart(&plan, &passage, &q, on_share);
+    let (before, shaping_only) = (Arc::new(whole), Arc::new(shaping));
+    // Deflection alone comes after the passes, unless they start from it.
+    let by_deflection = |on_share: &mut dyn FnMut(f64)| {
+        on_share(0.0);
+        let on_time = plan.passage(Sources::only(Source::Deflection));
+        (Arc::new(deviate_with(&plan, &on_time, &q, on_share)), on_time)
+    };
+    let (on_time, without_force);
+    let mut deflection_only = None;
     // What acts while the correction is sought: what is to be compensated; all, if nothing is.
     let (known, sought) = match setup.sources {
-        Sources { deflection: true, shaping: false } => (&deflection_only, &on_time),
+        Sources { deflection: true, shaping: false } => {
+            let known;
+            (known, on_time) = by_deflection(&mut |share| tell(2.0 + share, "deflection"));
+            (deflection_only.insert(known).clone(), &on_time)
+        }
         Sources { deflection: false, shaping: true } => {
             without_force = passage.without_force();
-            (&shaping_only, &without_force)
+            (shaping_only.clone(), &without_force)
         }
-        _ => (&before, &passage),
+        _ => (before.clone(), &passage),
     };
     let goal = match setup.sources {
         Sources { deflection: false, shaping: false } => Goal { max_passes: 0, ..setup.goal },
         _ => setup.goal,
     };
-    let on_pass = |pass| tell(3 + pass, "compensation");
-    let compensation = compensate(&plan, sought, setup.start, &joints.q, known, goal, on_pass);
+    let first = if deflection_only.is_some() { 3.0 } else { 2.0 };
+    let on_pass = &mut |passes| tell(first + 2.0 * passes, "compensation");
+    let compensation = compensate(&plan, sought, setup.start, &q, &known, goal, on_pass);
     let after = if sought.acting == Sources::ALL {
         compensation.result.clone()
     } else {
         Arc::new(deviate(&plan, &passage, &compensation.q))
     };
+    let force = passage.force.clone();
+    drop(passage);
+    let last = steps - reading - 1.0;
+    let deflection_only =
+        deflection_only.unwrap_or_else(|| by_deflection(&mut |share| tell(last + share, "deflection")).0);
     #[cfg(feature = "full")]
-    let spin = setup.freedom.map(|freedom| spin::gain(&plan, &setup, &freedom, &joints.q, &before));
+    let spin = setup.freedom.map(|freedom| spin::gain(&plan, &setup, &freedom, &q, &before));
     #[cfg(not(feature = "full"))]
     let spin = None;
-    let (_, after_max) = contour::mean_and_max(&after.contour_error);
-    let warnings = warning::warnings(&setup, &plan, &joints, &shaping_only, &compensation, after_max);
     let mut report = Report {
         setup,
         plan,
-        joints,
+        q,
+        branch,
         spin,
+        force,
+        deflection,
         deflection_only,
         shaping_only,
         before,
         compensation,
         after,
-        warnings,
+        warnings: Vec::new(),
         alone: Default::default(),
     };
-    report.warnings.extend(warning::spindle(&report));
+    report.warnings = warning::warnings(&report, singular);
     Ok(report)
 }

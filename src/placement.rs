@@ -77,7 +77,7 @@ impl Survey {
             chip: setup.chip,
             bending: setup.bending,
         };
-        let desired = (plan.trajectory.position.as_slice(), plan.trajectory.axis.as_slice());
+        let desired = (plan.trajectory.position.as_slice(), &plan.trajectory.axis);
         let Ok(joints) = joint_trajectory(&plan.robot, &plan.path, &plan.trajectory, desired, setup.start)
         else {
             return Place { max: f64::NAN, mean: f64::NAN, mark: Mark::Unreachable };

@@ -35,7 +35,7 @@ fn what_the_joints_give_adds_up_to_the_deflection() {
         for k in (0..report.samples()).step_by(97) {
             let sum: Vector3<f64> = report.deflection_by_joint(k).iter().sum();
             // The same sum in the same order, but of another rounding where it is added up.
-            assert!((sum - report.before.deflection[k]).norm() < 1e-15);
+            assert!((sum - report.deflection[k]).norm() < 1e-15);
         }
     }
 }
@@ -45,7 +45,7 @@ fn tip_and_axis_go_where_the_turned_joints_put_them() {
     for report in reports() {
         let (robot, before) = (&report.plan.robot, &report.before);
         for k in (0..report.samples()).step_by(211) {
-            let (q, force) = (before.q[k], before.force[k]);
+            let (q, force) = (report.shaped(&report.q).at(k), report.force[k]);
             let tip = |q| forward::forward(robot, &q).position;
             // Work: a joint's torque is the force times the tip's way (eq. 3.47), by central differences.
             let turns = Joints::from_fn(|i, _| {

@@ -144,10 +144,10 @@ fn sag_counts_from_where_the_part_was_touched_off() {
         |zero: &str| json!({"preset":"staubli-rx90","loads_kg_mm":[[6, 9.0, 0, 0, 120]],"sag_zero":zero});
     let idle = [("cutting.axial_depth_mm", json!(0))];
     let (touched, absolute) = (arc(robot("start"), &idle), arc(robot("model"), &idle));
-    let first = absolute.before.deflection[0];
+    let first = absolute.deflection[0];
     assert!(first.z < -2e-5, "9 kg pull a soft arm down by more than 20 um: {first}");
-    assert_eq!(touched.before.deflection[0], Vector3::zeros());
-    for (a, b) in absolute.before.deflection.iter().zip(&touched.before.deflection) {
+    assert_eq!(touched.deflection[0], Vector3::zeros());
+    for (a, b) in absolute.deflection.iter().zip(&touched.deflection) {
         assert!((a - b - first).norm() < 1e-15);
     }
     // A base that hangs from the ceiling sags the other way, seen from itself.
@@ -159,12 +159,12 @@ fn sag_counts_from_where_the_part_was_touched_off() {
             ("workpiece_frame", json!({"xyz_mm":[0,0,0],"rpy_deg":[180,0,0]})),
         ],
     );
-    for (a, b) in absolute.before.deflection.iter().zip(&hung.before.deflection) {
+    for (a, b) in absolute.deflection.iter().zip(&hung.deflection) {
         assert!((a + b).norm() < 2e-3 * a.norm() + 1e-12, "{a} {b}");
     }
     // The budget's parts are the whole, whatever the springs.
     let parts: Vector3<f64> = absolute.deflection_by_joint(500).iter().sum();
-    assert!((parts - absolute.before.deflection[500]).norm() < 1e-15);
+    assert!((parts - absolute.deflection[500]).norm() < 1e-15);
 }
 
 #[test]

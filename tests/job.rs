@@ -213,14 +213,14 @@ fn programs_are_paths_and_their_mistakes_are_placed() {
     };
     assert!((fastest(1.0) - 40.0).abs() < 1e-9, "the job's feed");
     assert!(fastest(0.0) > 40.0, "rapids are faster");
-    for (force, cuts) in report.before.force.iter().zip(&cuts) {
+    for (force, cuts) in report.force.iter().zip(&cuts) {
         assert_eq!(force.norm() > 0.0, *cuts == 1.0);
     }
     // With a shaper, the force fades where a rapid ends, and the column with it.
     let shaped = run(&[program("gcode", "G21 G90 S4000 M3\nG0 X600 Y0 Z120\nG0 Z100\nG1 X650")]);
     let cuts = common::column(&shaped, "cuts");
-    let whole = shaped.before.force.iter().map(|force| force.norm()).fold(0.0, f64::max);
-    for (force, cuts) in shaped.before.force.iter().zip(&cuts) {
+    let whole = shaped.force.iter().map(|force| force.norm()).fold(0.0, f64::max);
+    for (force, cuts) in shaped.force.iter().zip(&cuts) {
         assert!((force.norm() - cuts * whole).abs() < 1e-9 * whole, "{} at {cuts}", force.norm());
     }
     assert!(cuts.iter().any(|cuts| (0.1..0.9).contains(cuts)));
@@ -300,7 +300,7 @@ fn a_start_branch_without_solution_is_refused_and_others_are_taken() {
             ("path", path.clone()),
             ("start_branch", json!({"shoulder":"front","elbow":elbow,"wrist":wrist})),
         ]);
-        report.joints.q[0].map(f64::to_degrees)
+        report.q[0].map(f64::to_degrees)
     };
     assert!(q("positive", "near")[2] > 0.0 && q("positive", "near")[3].abs() < 1e-6);
     assert!(q("negative", "near")[2] < 0.0);

@@ -28,7 +28,7 @@ fn greatest_difference(a: &[f64], b: &[f64]) -> f64 {
 fn twice_the_force_twice_the_deflection() {
     let once = arc(&[]);
     let twice = arc(&[("cutting.axial_depth_mm", json!(20))]);
-    for (a, b) in once.before.deflection.iter().zip(&twice.before.deflection) {
+    for (a, b) in once.deflection.iter().zip(&twice.deflection) {
         assert!((b - a * 2.0).norm() < 1e-15);
     }
 }
@@ -37,7 +37,7 @@ fn twice_the_force_twice_the_deflection() {
 fn a_rigid_arm_does_not_deflect() {
     let report =
         arc(&[("robot", json!({"preset":"staubli-rx90","joint_compliance_rad_per_nm":[0,0,0,0,0,0]}))]);
-    assert!(report.before.deflection.iter().all(|d| d.norm() == 0.0));
+    assert!(report.deflection.iter().all(|d| d.norm() == 0.0));
     // What is left is the inverse model's closure.
     assert!(report.summary().before_mm.deflection.max < 1e-6);
 }
@@ -215,7 +215,9 @@ fn a_shaped_joint_line_stays_on_its_line() {
         (0..4000).map(|k| from + (to - from) * profile.at(f64::from(k) * 1e-3).0).collect();
     let shaper = Shaper::new(shaper::kind("zvd").unwrap(), 18.0, 0.1);
     let along = (to - from).normalize();
-    for q in shaper.joints(&command, 1e-3) {
+    let one_by_one = shaper.shaped(&command, 1e-3);
+    for (k, q) in shaper.apply(&command, 1e-3).into_iter().enumerate() {
+        assert_eq!(one_by_one.at(k), q, "sample {k}");
         let offset = q - from;
         assert!((offset - along * offset.dot(&along)).norm() < 1e-14);
     }
@@ -309,7 +311,7 @@ fn the_force_turns_with_the_feed() {
         let middle = s.iter().position(|s| *s > f64::from(per_side) * (side as f64 + 0.5)).unwrap();
         // x along the feed, z up, y = z x x.
         let expected = Vector3::new(x * mean.x - y * mean.y, y * mean.x + x * mean.y, mean.z);
-        assert!((report.before.force[middle] - expected).norm() < 1e-9, "side {side}");
+        assert!((report.force[middle] - expected).norm() < 1e-9, "side {side}");
     }
 }
 
@@ -319,8 +321,8 @@ fn chip_from_feed_follows_the_speed() {
     let full = report.mean_force();
     // 100 mm/s at 4000 rpm and 4 flutes: 0.375 mm a tooth, 3.75 times the thesis's force without edge terms.
     assert!((full.y - 3.75 * 1071.887).abs() < 0.01);
-    assert!(report.before.force[0].norm() < 1e-9, "no chip at rest");
-    let fastest = report.before.force.iter().map(|f| f.norm()).fold(0.0, f64::max);
+    assert!(report.force[0].norm() < 1e-9, "no chip at rest");
+    let fastest = report.force.iter().map(|f| f.norm()).fold(0.0, f64::max);
     assert!((fastest - full.norm()).abs() < 1e-9);
 }
 

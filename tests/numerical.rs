@@ -154,11 +154,11 @@ fn a_path_is_milled_by_an_arm_that_is_solved_numerically() {
     assert_eq!(report.summary().inverse, "numerically");
     let remark = report.warnings.iter().find(|warning| warning.code == "inverse-numerical").unwrap();
     assert!(remark.message.contains("robot.modified_dh["), "{}", remark.message);
-    for (q, position) in report.joints.q.iter().zip(&report.plan.trajectory.position) {
+    for (q, position) in report.q.iter().zip(&report.plan.trajectory.position) {
         let tcp = forward::forward(&report.plan.robot, q);
         assert!((tcp.position - position).norm() < 1e-9);
     }
-    let steps = report.joints.q.windows(2).map(|pair| (pair[1] - pair[0]).amax());
+    let steps = report.q.windows(2).map(|pair| (pair[1] - pair[0]).amax());
     // 0.04 mm a sample, about 0.7 m from the base.
     assert!(steps.fold(0.0, f64::max) < 2e-3, "no joint jumps");
     let history = &report.compensation.history_max;

@@ -6,7 +6,7 @@ mod common;
 use armill::Report;
 use armill::export::{Options, export};
 use armill::math::rotation_about;
-use armill::path::{Listing, Move, MovePace, Path, Program, Segment};
+use armill::path::{Axes, Listing, Move, MovePace, Path, Program, Segment};
 use common::program::{chain, commanded, largest_distance, read_back, small_jobs, written};
 use common::run;
 use nalgebra::Vector3;
@@ -121,14 +121,15 @@ fn text_in_inches() -> &'static str {
 fn a_tilted_axis_goes_to_apt_not_to_gcode() {
     let mut report = run(&small_jobs()[0].1);
     let tilt = rotation_about(&Vector3::x(), 0.1);
-    report.compensation.axis.iter_mut().for_each(|axis| *axis = tilt * *axis);
+    let tilted: Vec<_> = (0..report.samples()).map(|k| tilt * report.compensation.axis.at(k)).collect();
+    report.compensation.axis = Axes::Each(tilted.clone());
     let error = export(&report, "gcode", &Options::default()).unwrap_err();
     assert!(error.to_string().contains("use apt"), "{error}");
     let export = written(&report, "apt");
     let apt = &export.text;
     assert!(apt.contains("\nMULTAX/ON\n") && apt.ends_with("FINI\n"));
     let back = report.setup.workpiece.inverse();
-    let wanted: Vec<_> = report.compensation.axis.iter().map(|axis| back.direction(axis)).collect();
+    let wanted: Vec<_> = tilted.iter().map(|axis| back.direction(axis)).collect();
     let mut chain = Vec::new();
     for line in apt.lines().filter_map(|line| line.strip_prefix("GOTO/")) {
         let numbers: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();

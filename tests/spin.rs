@@ -35,7 +35,7 @@ fn a_fixed_spin_turns_the_tcp_and_moves_neither_tip_nor_axis() {
     for key in ["desired_x_mm", "desired_y_mm", "desired_z_mm", "tool_axis_k", "force_x_n", "force_z_n"] {
         assert_eq!(column(&straight, key), column(&turned, key), "{key}");
     }
-    for (a, b) in straight.joints.q.iter().zip(turned.joints.q.iter()) {
+    for (a, b) in straight.q.iter().zip(turned.q.iter()) {
         let [a, b] =
             [(&straight, a), (&turned, b)].map(|(report, q)| forward::forward(&report.plan.robot, q));
         assert!((a.position - b.position).norm() < 1e-9);
@@ -70,7 +70,7 @@ fn a_free_spin_does_what_it_is_chosen_for() {
     let exact = angled(free("least-error", -90.0, 90.0), &[]);
     // Square turn of the joints along the path, and the largest error: the goals themselves, over all samples.
     let turning = |report: &Report| {
-        let steps = report.joints.q.windows(2).zip(report.plan.trajectory.pace.arc_length.windows(2));
+        let steps = report.q.windows(2).zip(report.plan.trajectory.pace.arc_length.windows(2));
         steps
             .map(|(q, s)| if s[1] > s[0] { (q[1] - q[0]).norm_squared() / (s[1] - s[0]) } else { 0.0 })
             .sum::<f64>()

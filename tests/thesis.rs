@@ -261,10 +261,10 @@ fn the_after_figures_come_from_the_whole_model() {
     // Sent through once more by hand: the commanded joints, shaped, bent by C F, against the circle's own equation.
     let report = default_report();
     let robot = &report.plan.robot;
-    let shaped = report.plan.shaper.joints(&report.compensation.q, 0.001);
+    let shaped = report.plan.shaper.apply(&report.compensation.q, 0.001);
     let normal = Vector3::new(0.2, 0.3, 0.5).normalize();
     let mut worst = 0.0_f64;
-    for (q, force) in shaped.iter().zip(report.after.force.iter()) {
+    for (q, force) in shaped.iter().zip(report.force.iter()) {
         let c = armill::robot::compliance::cartesian_compliance(robot, q);
         let tip = forward::forward(robot, q).position + c.fixed_view::<3, 3>(0, 0) * force;
         let height = normal.dot(&tip);

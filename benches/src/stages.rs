@@ -39,7 +39,7 @@ pub const STAGES: [Work<Stages>; 9] = [
     ("motion: joint commands", |s| drop(black_box(joints(&s.setup, &s.plan)))),
     ("motion: shaper", |s| {
         drop(black_box((
-            s.plan.shaper.joints(&s.joints.q, s.plan.trajectory.sample_time),
+            s.plan.shaper.apply(&s.joints.q, s.plan.trajectory.sample_time),
             s.plan.pace(Sources::ALL),
         )));
     }),
@@ -47,12 +47,17 @@ pub const STAGES: [Work<Stages>; 9] = [
         drop(black_box(along::forces(&s.plan.path, &s.pace, &s.plan.mean_force, &s.plan.chip)));
     }),
     ("deviation: contour error", |s| {
-        drop(black_box(contour::contour_errors(&s.plan.path, &s.passage(), &s.before.actual)));
+        let passage = s.passage();
+        let places = passage.arc_length.iter().copied().zip(passage.target.iter());
+        let errors = places.zip(&s.before.actual);
+        drop(black_box(
+            errors.map(|(at, tip)| contour::contour_error(&s.plan.path, at, tip)).collect::<Vec<_>>(),
+        ));
     }),
     ("deviation: whole", |s| drop(black_box(deviate(&s.plan, &s.passage(), &s.joints.q)))),
     ("compensation: all passes", |s| {
         let Setup { start, goal, .. } = s.setup;
-        drop(black_box(compensate(&s.plan, &s.passage(), start, &s.joints.q, &s.before, goal, |_| {})));
+        drop(black_box(compensate(&s.plan, &s.passage(), start, &s.joints.q, &s.before, goal, &mut |_| {})));
     }),
     ("report: summary", |s| drop(black_box(s.report.summary()))),
 ];
@@ -76,8 +81,8 @@ impl Stages {
         let text = job(samples);
         let report = whole(&text)?;
         let (setup, plan) = (report.setup.clone(), report.plan.clone());
-        let (joints, before, pace) =
-            (report.joints.clone(), report.before.clone(), plan.pace(Sources::ALL).into_owned());
+        let joints = joints(&setup, &plan)?;
+        let (before, pace) = (report.before.clone(), plan.pace(Sources::ALL).into_owned());
         Ok(Self { text, setup, plan, joints, pace, before, report })
     }
 
@@ -102,6 +107,6 @@ fn read(text: &str) -> Result<Setup, Error> {
 }
 
 fn joints(setup: &Setup, plan: &Plan) -> Result<JointTrajectory, Error> {
-    let desired = (plan.trajectory.position.as_slice(), plan.trajectory.axis.as_slice());
+    let desired = (plan.trajectory.position.as_slice(), &plan.trajectory.axis);
     joint_trajectory(&plan.robot, &plan.path, &plan.trajectory, desired, setup.start)
 }

@@ -131,7 +131,7 @@ fn content(report: &Report, name: &str, units: Units) -> Result<Content, Error> 
         "compensated-path" => sheet.compensated(),
         "revolution" => sheet.revolution(),
         "force" => sheet.forces(),
-        "deflection" => sheet.lengths("Deflection", &report.before.deflection),
+        "deflection" => sheet.lengths("Deflection", &report.deflection),
         "error-deflection" => sheet.errors(&[(sheet::DEFLECTION, &forces.contour_error)]),
         "error-shaping" => sheet.errors(&[(sheet::SHAPING, &shaping.contour_error)]),
         "combined" => sheet.errors(&[

@@ -90,7 +90,7 @@ impl Sheet<'_> {
 
     pub(super) fn forces(&self) -> Content {
         let force = self.units.force;
-        self.vectors("Force", force.name(), &self.report.before.force, force.in_n())
+        self.vectors("Force", force.name(), &self.report.force, force.in_n())
     }
 
     pub(super) fn lengths(&self, label: &'static str, vectors: &[Vector3<f64>]) -> Content {
@@ -267,7 +267,7 @@ impl Sheet<'_> {
                 key: name,
                 label: name,
                 class,
-                values: degrees(&self.report.joints.q, i),
+                values: degrees(&self.report.q, i),
             })
             .collect();
         let texts: Vec<_> = curves
@@ -296,8 +296,9 @@ impl Sheet<'_> {
     }
 
     pub(super) fn shaped_joint(&self, joint: usize) -> Content {
-        let original = degrees(&self.report.joints.q, joint);
-        let shaped = degrees(&self.report.before.q, joint);
+        let original = degrees(&self.report.q, joint);
+        let shaped = self.report.shaped(&self.report.q);
+        let shaped: Vec<f64> = (0..original.len()).map(|k| shaped.at(k)[joint] / DEG).collect();
         let apart: Vec<f64> = original.iter().zip(&shaped).map(|(a, b)| (a - b).abs()).collect();
         let description =
             format!("Original and shaped command differ by up to {:.3} deg at the same time.", max(&apart));

@@ -1,19 +1,15 @@
 //! Contour error: how far the tip is from the desired path, wherever along it (thesis eqs. 5.1, 5.2).
 
-use crate::deviation::Passage;
 use crate::path::Path;
 use nalgebra::Vector3;
 
-/// Contour error vectors epsilon = P_c - P_a [m] (eq. 5.2), one a sample.
+/// Contour error vector epsilon = P_c - P_a [m] (eq. 5.2) of a tip that is meant to be at `target`, the path's point at the arc length `s` [m].
 ///
-/// P_c is searched around the arc length where the passage says the tool is. The point there is at some distance d from the tip,
-/// the closest one is at most that far, so the two are at most 2 d apart; 3 d leaves room for the path's bends.
-pub fn contour_errors(path: &Path, passage: &Passage, actual: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
-    let error = |((tip, &s), target): ((&Vector3<f64>, &f64), &Vector3<f64>)| {
-        let distance = (tip - target).norm();
-        path.closest(tip, s, 3.0 * distance + 1e-6).point - tip
-    };
-    actual.iter().zip(&passage.pace.arc_length).zip(&passage.target).map(error).collect()
+/// P_c is searched around there. The target is at some distance d from the tip, the closest point is at most that far, so the two are at
+/// most 2 d apart; 3 d leaves room for the path's bends.
+pub fn contour_error(path: &Path, (s, target): (f64, &Vector3<f64>), tip: &Vector3<f64>) -> Vector3<f64> {
+    let distance = (tip - target).norm();
+    path.closest(tip, s, 3.0 * distance + 1e-6).point - tip
 }
 
 /// Mean and largest length of the vectors [m].

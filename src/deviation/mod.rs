@@ -3,4 +3,4 @@
 pub mod contour;
 pub mod source;
 
-pub use source::{Deviation, Passage, Plan, Source, Sources, deviate, deviate_and_shape};
+pub use source::{Deviation, Parted, Passage, Plan, Source, Sources, deviate, deviate_apart, deviate_with};

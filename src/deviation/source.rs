@@ -4,8 +4,9 @@ use crate::cutting::along::{self, ChipLoad};
 use crate::cutting::{Bending, LinearForce};
 use crate::deviation::contour;
 use crate::math;
+use crate::motion::joints::STRIDE;
 use crate::motion::{Pace, Shaper, Trajectory};
-use crate::path::Path;
+use crate::path::{Axes, Path};
 use crate::robot::{Joints, Robot, compliance, forward};
 use nalgebra::Vector3;
 use std::borrow::Cow;
@@ -61,12 +62,6 @@ pub struct Plan {
 /// What becomes of joint commands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Deviation {
-    /// Joint values after the shaper, as far as it acts [rad].
-    pub q: Arc<Vec<Joints>>,
-    /// Force on the tool in the base frame [N]; empty if it does not act.
-    pub force: Arc<Vec<Vector3<f64>>>,
-    /// Displacement of the tip by the force [m]; empty if it does not act.
-    pub deflection: Vec<Vector3<f64>>,
     /// Actual tip in the base frame [m].
     pub actual: Vec<Vector3<f64>>,
     /// Actual tool axis, from tip to spindle, in the base frame; empty along a path with one axis all along.
@@ -75,6 +70,17 @@ pub struct Deviation {
     pub contour_error: Vec<Vector3<f64>>,
     /// Angle between the actual and the desired tool axis where the tool is along the path [rad].
     pub axis_error: Vec<f64>,
+}
+
+/// The same, taken apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parted {
+    /// By every source that acts.
+    pub whole: Deviation,
+    /// The same if nothing gave way to forces.
+    pub shaping: Deviation,
+    /// Displacement of the tip by the force [m]; empty if it does not act.
+    pub deflection: Vec<Vector3<f64>>,
 }
 
 impl Plan {
@@ -89,7 +95,17 @@ impl Plan {
 
     /// The passage of the tool under the cut.
     pub fn passage(&self, acting: Sources) -> Passage<'_> {
-        Passage::new(self, self.pace(acting), acting)
+        let Trajectory { pace, position, axis, .. } = &self.trajectory;
+        if acting.shaping {
+            return Passage::new(self, self.pace(acting), acting);
+        }
+        Passage {
+            acting,
+            arc_length: Cow::Borrowed(&pace.arc_length),
+            target: Cow::Borrowed(position),
+            axis: axis.clone(),
+            force: Passage::force(self, pace, acting).into(),
+        }
     }
 }
 
@@ -98,10 +114,12 @@ impl Plan {
 pub struct Passage<'a> {
     /// Which sources act.
     pub acting: Sources,
-    /// Progress along the path.
-    pub pace: Cow<'a, Pace>,
+    /// Arc length where the tool is [m].
+    pub arc_length: Cow<'a, [f64]>,
     /// The path's points there [m].
-    pub target: Vec<Vector3<f64>>,
+    pub target: Cow<'a, [Vector3<f64>]>,
+    /// The path's tool axes there.
+    pub axis: Axes,
     /// Force on the tool there in the base frame [N]; empty if it does not act.
     pub force: Arc<Vec<Vector3<f64>>>,
 }
@@ -109,18 +127,31 @@ pub struct Passage<'a> {
 impl<'a> Passage<'a> {
     /// The passage at a pace under the plan's cut.
     pub fn new(plan: &Plan, pace: Cow<'a, Pace>, acting: Sources) -> Self {
-        let force = if acting.deflection {
-            along::forces(&plan.path, &pace, &plan.mean_force, &plan.chip)
-        } else {
-            Vec::new()
+        let force = Self::force(plan, &pace, acting);
+        let arc_length = match pace {
+            Cow::Borrowed(pace) => Cow::Borrowed(pace.arc_length.as_slice()),
+            Cow::Owned(pace) => Cow::Owned(pace.arc_length),
         };
-        Self::under(&plan.path, pace, acting, force.into())
+        Self::under(&plan.path, arc_length, acting, force.into())
     }
 
-    /// The same under forces that are known.
-    pub fn under(path: &Path, pace: Cow<'a, Pace>, acting: Sources, force: Arc<Vec<Vector3<f64>>>) -> Self {
-        let target = pace.arc_length.iter().map(|&s| path.point(s)).collect();
-        Self { acting, pace, target, force }
+    fn force(plan: &Plan, pace: &Pace, acting: Sources) -> Vec<Vector3<f64>> {
+        if !acting.deflection {
+            return Vec::new();
+        }
+        along::forces(&plan.path, pace, &plan.mean_force, &plan.chip)
+    }
+
+    /// The passage by these arc lengths [m] under forces that are known.
+    pub fn under(
+        path: &Path,
+        arc_length: Cow<'a, [f64]>,
+        acting: Sources,
+        force: Arc<Vec<Vector3<f64>>>,
+    ) -> Self {
+        let target = arc_length.iter().map(|&s| path.point(s)).collect();
+        let axis = Axes::along(path, &arc_length);
+        Self { acting, arc_length, target, axis, force }
     }
 
     /// The same without force.
@@ -134,88 +165,108 @@ impl<'a> Passage<'a> {
 ///
 /// Eq. 5.3 subtracts the displacement; a force pushes the tip its own way, so it is added here. Force and compliance are taken where the
 /// shaped command puts the arm; where deflection does not act, nothing gives way to force or weight. `q` has one row for each sample of the passage.
-pub fn deviate(plan: &Plan, passage: &Passage, q: &Arc<Vec<Joints>>) -> Deviation {
-    sent(plan, passage, q, None)
+pub fn deviate(plan: &Plan, passage: &Passage, q: &[Joints]) -> Deviation {
+    deviate_with(plan, passage, q, &mut |_| {})
 }
 
-/// The same and, from the same poses, what shaping does without deflection.
-pub fn deviate_and_shape(plan: &Plan, passage: &Passage, q: &Arc<Vec<Joints>>) -> (Deviation, Deviation) {
-    let mut shaped = Poses::new(plan, q.len());
-    let deviation = sent(plan, passage, q, Some(&mut shaped));
-    let shaping = shaped.deviation(plan, passage, deviation.q.clone(), Arc::default(), Vec::new());
-    (deviation, shaping)
+/// The same; `on_share` is told now and then which share of the samples is done.
+pub fn deviate_with(
+    plan: &Plan,
+    passage: &Passage,
+    q: &[Joints],
+    on_share: &mut dyn FnMut(f64),
+) -> Deviation {
+    let mut whole = Arrivals::new(plan, passage);
+    send(plan, passage, q, on_share, |k, pose, given_way| whole.push(k, pose, given_way));
+    whole.deviation
 }
 
-/// What becomes of the commands; `shaped` gets the poses before they give way.
-fn sent(plan: &Plan, passage: &Passage, q: &Arc<Vec<Joints>>, mut shaped: Option<&mut Poses>) -> Deviation {
-    let q = match passage.acting.shaping {
-        true => Arc::new(plan.shaper.joints(q, plan.trajectory.sample_time)),
-        false => q.clone(),
-    };
-    let mut bent = Poses::new(plan, q.len());
+/// The same and, from the same poses, what each source does.
+pub fn deviate_apart(plan: &Plan, passage: &Passage, q: &[Joints], on_share: &mut dyn FnMut(f64)) -> Parted {
+    let (mut whole, mut shaping) = (Arrivals::new(plan, passage), Arrivals::new(plan, passage));
     let mut deflection = Vec::with_capacity(passage.force.len());
-    for (k, q) in q.iter().enumerate() {
-        let frames = forward::frames(&plan.robot, q);
+    send(plan, passage, q, on_share, |k, pose, given_way| {
+        shaping.push(k, pose, &Default::default());
+        whole.push(k, pose, given_way);
+        if passage.acting.deflection {
+            deflection.push(given_way.0);
+        }
+    });
+    Parted { whole: whole.deviation, shaping: shaping.deviation, deflection }
+}
+
+/// Calls `arrived` for each sample with its number, the shaped tip with the tool axis, and how far they give way: moved [m] and turned [rad].
+fn send(
+    plan: &Plan,
+    passage: &Passage,
+    q: &[Joints],
+    on_share: &mut dyn FnMut(f64),
+    mut arrived: impl FnMut(usize, &(Vector3<f64>, Vector3<f64>), &(Vector3<f64>, Vector3<f64>)),
+) {
+    let none = Shaper::none();
+    let shaper = if passage.acting.shaping { &plan.shaper } else { &none };
+    let shaped = shaper.shaped(q, plan.trajectory.sample_time);
+    for k in 0..q.len() {
+        let q = shaped.at(k);
+        let frames = forward::frames(&plan.robot, &q);
         let tcp = frames[5].compose(plan.robot.tool());
         let axis: Vector3<f64> = -tcp.rotation.column(2);
-        let desired = plan.path.axis(passage.pace.arc_length[k]);
-        let still = (Vector3::zeros(), Vector3::zeros());
-        if let Some(shaped) = &mut shaped {
-            shaped.push((&tcp.position, &axis), still, &desired);
-        }
-        let mut given_way = still;
+        let mut given_way = Default::default();
         if passage.acting.deflection {
             let force = &passage.force[k];
-            given_way = compliance::deflection(&plan.robot, q, &frames, &tcp.position, force);
+            given_way = compliance::deflection(&plan.robot, &q, &frames, &tcp.position, force);
             if let Some(bending) = &plan.bending {
                 let (moved, turned) = bending.deflection(&axis, force);
                 given_way = (given_way.0 + moved, given_way.1 + turned);
             }
-            deflection.push(given_way.0);
         }
-        bent.push((&tcp.position, &axis), given_way, &desired);
+        arrived(k, &(tcp.position, axis), &given_way);
+        if k % STRIDE == STRIDE - 1 {
+            on_share(k as f64 / passage.arc_length.len() as f64);
+        }
     }
-    bent.deviation(plan, passage, q, passage.force.clone(), deflection)
 }
 
 /// Tips and tool axes while they are collected.
-struct Poses {
-    actual: Vec<Vector3<f64>>,
-    axis: Option<Vec<Vector3<f64>>>,
-    axis_error: Vec<f64>,
+struct Arrivals<'a> {
+    path: &'a Path,
+    passage: &'a Passage<'a>,
+    keeps_axes: bool,
+    deviation: Deviation,
 }
 
-impl Poses {
-    fn new(plan: &Plan, samples: usize) -> Self {
-        let axis = plan.path.is_multi_axis().then(|| Vec::with_capacity(samples));
-        Self { actual: Vec::with_capacity(samples), axis, axis_error: Vec::with_capacity(samples) }
+impl<'a> Arrivals<'a> {
+    fn new(plan: &'a Plan, passage: &'a Passage<'a>) -> Self {
+        let samples = passage.arc_length.len();
+        let keeps_axes = plan.path.is_multi_axis();
+        let deviation = Deviation {
+            actual: Vec::with_capacity(samples),
+            axis: Vec::with_capacity(if keeps_axes { samples } else { 0 }),
+            contour_error: Vec::with_capacity(samples),
+            axis_error: Vec::with_capacity(samples),
+        };
+        Self { path: &plan.path, passage, keeps_axes, deviation }
     }
 
-    /// A tip with its axis that has moved [m] and turned [rad].
+    /// The tip and axis of the sample `k` that have moved [m] and turned [rad].
     fn push(
         &mut self,
-        (tip, axis): (&Vector3<f64>, &Vector3<f64>),
-        (moved, turned): (Vector3<f64>, Vector3<f64>),
-        desired: &Vector3<f64>,
+        k: usize,
+        (tip, axis): &(Vector3<f64>, Vector3<f64>),
+        (moved, turned): &(Vector3<f64>, Vector3<f64>),
     ) {
-        self.actual.push(tip + moved);
+        let Self { path, passage, deviation, .. } = self;
+        let tip = tip + moved;
         let axis = (axis + turned.cross(axis)).normalize();
-        self.axis_error.push(math::angle_between(&axis, desired));
-        if let Some(all) = &mut self.axis {
-            all.push(axis);
+        deviation.axis_error.push(math::angle_between(&axis, passage.axis.at(k)));
+        deviation.contour_error.push(contour::contour_error(
+            path,
+            (passage.arc_length[k], &passage.target[k]),
+            &tip,
+        ));
+        deviation.actual.push(tip);
+        if self.keeps_axes {
+            deviation.axis.push(axis);
         }
-    }
-
-    fn deviation(
-        self,
-        plan: &Plan,
-        passage: &Passage,
-        q: Arc<Vec<Joints>>,
-        force: Arc<Vec<Vector3<f64>>>,
-        deflection: Vec<Vector3<f64>>,
-    ) -> Deviation {
-        let Self { actual, axis, axis_error } = self;
-        let contour_error = contour::contour_errors(&plan.path, passage, &actual);
-        Deviation { q, force, deflection, actual, axis: axis.unwrap_or_default(), contour_error, axis_error }
     }
 }

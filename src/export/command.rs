@@ -11,7 +11,7 @@ use crate::export::fillet;
 use crate::export::thin::{self, Point};
 use crate::math::{self, Pose};
 use crate::path::program::Dwell;
-use crate::path::{Move, MovePace, Path, Program, Segment};
+use crate::path::{Axes, Move, MovePace, Path, Program, Segment};
 use crate::report::{Report, millimetres};
 use crate::units::{INCH, MM, RPM};
 use nalgebra::{Matrix3, Vector3};
@@ -49,7 +49,7 @@ pub struct Course {
     /// Correction of the desired position [m].
     pub correction: Vec<Vector3<f64>>,
     /// Tool axis from tip to spindle.
-    pub axis: Vec<Vector3<f64>>,
+    pub axis: Axes,
 }
 
 impl Course {
@@ -246,7 +246,7 @@ fn pieces(report: &Report, course: &Course, path: &Path, back: &Pose) -> Vec<Pie
     let correction = &course.correction;
     let sample = |k: usize| Point {
         position: back.point(&(trajectory.position[k] + correction[k])),
-        axis: back.direction(&course.axis[k]),
+        axis: back.direction(course.axis.at(k)),
         spin: path.spin(arc_length[k]),
     };
     let last = arc_length.len() - 1;

@@ -7,7 +7,7 @@
 
 use crate::compensation;
 use crate::cutting::along::ChipLoad;
-use crate::deviation::{Passage, Sources};
+use crate::deviation::{Passage, Source, Sources};
 use crate::error::Error;
 use crate::export::command::{Command, Course, Style};
 use crate::export::replay::{self, Replay};
@@ -17,6 +17,7 @@ use crate::units::MM;
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::borrow::Cow;
+use std::sync::Arc;
 
 /// A pass that leaves more than this share of the error is no improvement.
 const IMPROVEMENT: f64 = 0.99;
@@ -95,10 +96,11 @@ fn corrected(report: &Report, course: &Course, outcome: &Replay) -> Course {
         };
         filed(&change, &outcome.instants, report)
     };
-    let known = (course.correction.as_slice(), course.axis.as_slice());
-    let Replay { pace, deviation, .. } = outcome;
+    let known = (course.correction.as_slice(), &course.axis);
+    let Replay { arc_length, deviation, .. } = outcome;
     let path = &report.plan.path;
-    let passage = Passage::under(path, Cow::Borrowed(pace), Sources::ALL, deviation.force.clone());
+    let places = Cow::Borrowed(arc_length.as_slice());
+    let passage = Passage::under(path, places, Sources::only(Source::Shaping), Arc::default());
     let (correction, axis) = compensation::corrected(path, &passage, deviation, known, undone);
     Course { correction, axis }
 }

@@ -12,7 +12,7 @@ use crate::export::command::Course;
 use crate::export::{Export, Options, export};
 use crate::motion::joints::joint_trajectory;
 use crate::motion::{Pace, Trajectory};
-use crate::path::{self, Path, Program, Segment, unit};
+use crate::path::{self, Axes, Path, Program, Segment, unit};
 use crate::report::{Report, Statistics};
 use nalgebra::Vector3;
 use std::borrow::Cow;
@@ -22,8 +22,8 @@ use std::borrow::Cow;
 pub struct Replay {
     /// The desired motion that its samples stand for.
     pub trajectory: Trajectory,
-    /// Where along the desired path the shaped motion is.
-    pub pace: Pace,
+    /// Arc length of the desired path where the shaped motion is [m].
+    pub arc_length: Vec<f64>,
     /// What becomes of its commands, every source acting, judged against the path first desired.
     pub deviation: Deviation,
     /// For each sample the instant of the report's run that it stands for, in samples; it never goes back.
@@ -101,9 +101,9 @@ pub fn run(report: &Report, course: &Course, program: &Program) -> Result<Replay
         let along = axis * axis.dot(force);
         *force = along + (*force - along) * share;
     }
-    let passage = Passage::under(&plan.path, Cow::Borrowed(&pace), Sources::ALL, force.into());
+    let passage = Passage::under(&plan.path, Cow::Borrowed(&pace.arc_length), Sources::ALL, force.into());
     let deviation = deviate(&plan, &passage, &q);
-    Ok(Replay { trajectory: plan.trajectory, pace, deviation, instants })
+    Ok(Replay { trajectory: plan.trajectory, arc_length: pace.arc_length, deviation, instants })
 }
 
 /// For each sample of the program's own motion the instant of the report's, in samples.
@@ -196,7 +196,7 @@ fn standing_for(report: &Report, own: &Trajectory, instants: &[f64]) -> (Traject
     let trajectory = Trajectory {
         pace,
         position: arc_length.iter().map(|&s| report.plan.path.point(s)).collect(),
-        axis: arc_length.iter().map(|&s| report.plan.path.axis(s)).collect(),
+        axis: Axes::along(&report.plan.path, &arc_length),
         ..own.clone()
     };
     (trajectory, share)

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::math::Pose;
 use crate::motion::Trajectory;
-use crate::path::Path;
+use crate::path::{Axes, Path};
 use crate::robot::inverse::{self, Margin, Solution};
 use crate::robot::{Joints, Robot};
 use nalgebra::Vector3;
@@ -31,6 +31,9 @@ pub struct JointTrajectory {
     pub start: inverse::Branch,
 }
 
+/// Samples between two calls that tell how far a loop over all samples has come.
+pub(crate) const STRIDE: usize = 1 << 15;
+
 /// Solves the inverse model for TCPs at `positions` [m] with the tool axes `axes` (base frame), each sample nearest to the one before.
 ///
 /// # Errors
@@ -39,16 +42,31 @@ pub fn joint_trajectory(
     robot: &Robot,
     path: &Path,
     trajectory: &Trajectory,
-    (positions, axes): (&[Vector3<f64>], &[Vector3<f64>]),
+    desired: (&[Vector3<f64>], &Axes),
     start: StartBranch,
+) -> Result<JointTrajectory, Error> {
+    joint_trajectory_with(robot, path, trajectory, desired, start, &mut |_| {})
+}
+
+/// The same; `on_share` is told now and then which share of the samples is done.
+///
+/// # Errors
+/// See [`joint_trajectory`].
+pub fn joint_trajectory_with(
+    robot: &Robot,
+    path: &Path,
+    trajectory: &Trajectory,
+    (positions, axes): (&[Vector3<f64>], &Axes),
+    start: StartBranch,
+    on_share: &mut dyn FnMut(f64),
 ) -> Result<JointTrajectory, Error> {
     let mut q = Vec::with_capacity(positions.len());
     let mut margin = Vec::with_capacity(positions.len());
     let mut previous: Option<Solution> = None;
     let mut first = None;
-    for (k, (position, axis)) in positions.iter().zip(axes).enumerate() {
+    for (k, position) in positions.iter().enumerate() {
         let s = trajectory.pace.arc_length[k];
-        let tcp = Pose { rotation: path.orientation(axis, path.spin(s)), position: *position };
+        let tcp = Pose { rotation: path.orientation(axes.at(k), path.spin(s)), position: *position };
         let place = |error: Error| error.at(k, s);
         let solution = match &previous {
             None => first_solution(robot, &tcp, start).map_err(place)?,
@@ -58,6 +76,9 @@ pub fn joint_trajectory(
         q.push(solution.q);
         margin.push(solution.margin);
         previous = Some(solution);
+        if k % STRIDE == STRIDE - 1 {
+            on_share(k as f64 / positions.len() as f64);
+        }
     }
     match first {
         Some(start) => Ok(JointTrajectory { q: Arc::new(q), margin, start }),

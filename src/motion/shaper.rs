@@ -4,7 +4,6 @@
 
 use crate::math::{self, PI};
 use crate::motion::Pace;
-use crate::robot::Joints;
 use nalgebra::Vector3;
 
 /// One part of the command: which share of it comes how late.
@@ -101,6 +100,10 @@ const UNDO_STEPS: usize = 10;
 /// Samples that are shaped together.
 const STRETCH: usize = 256;
 
+/// What a shaper can take shares of and add up.
+pub trait Shapeable: Copy + std::ops::Add<Output = Self> + std::ops::Mul<f64, Output = Self> {}
+impl<T: Copy + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>> Shapeable for T {}
+
 /// A shaper ready for use: the same for all joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shaper {
@@ -145,12 +148,20 @@ impl Shaper {
     /// Convolution with a command that is sampled every `sample_time` and held before its first sample (eq. 4.14).
     ///
     /// Where an impulse falls between samples, the command is taken to be straight in between.
-    pub fn apply<T>(&self, command: &[T], sample_time: f64) -> Vec<T>
-    where
-        T: Copy + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
-    {
-        // Each delay as whole samples plus a fraction: two taps.
-        let mut taps: Vec<(usize, f64)> = Vec::with_capacity(2 * self.impulses.len());
+    pub fn apply<T: Shapeable>(&self, command: &[T], sample_time: f64) -> Vec<T> {
+        let mut shaped = Vec::with_capacity(command.len());
+        spread(&self.taps(sample_time), command, &mut shaped);
+        shaped
+    }
+
+    /// The same, sample by sample as they are asked for.
+    pub fn shaped<'a, T: Shapeable>(&self, command: &'a [T], sample_time: f64) -> Shaped<'a, T> {
+        Shaped { taps: self.taps(sample_time), command }
+    }
+
+    /// Each delay as whole samples plus a fraction: how many samples late comes which share.
+    fn taps(&self, sample_time: f64) -> Vec<(usize, f64)> {
+        let mut taps = Vec::with_capacity(2 * self.impulses.len());
         for Impulse { amplitude, time } in &self.impulses {
             let delay = time / sample_time;
             let whole = delay.floor();
@@ -160,25 +171,7 @@ impl Shaper {
                 taps.push((whole as usize + 1, amplitude * part));
             }
         }
-        let (Some((&(first, share), rest)), Some(&start)) = (taps.split_first(), command.first()) else {
-            return command.to_vec();
-        };
-        let mut shaped: Vec<T> =
-            (0..command.len()).map(|k| command[k.saturating_sub(first)] * share).collect();
-        // Tap by tap over stretches that stay in the processor's cache.
-        for (stretch, from) in shaped.chunks_mut(STRETCH).zip((0..).step_by(STRETCH)) {
-            for &(delay, share) in rest {
-                let held = delay.saturating_sub(from).min(stretch.len());
-                let (before, after) = stretch.split_at_mut(held);
-                for now in before {
-                    *now = *now + start * share;
-                }
-                for (now, past) in after.iter_mut().zip(&command[(from + held).saturating_sub(delay)..]) {
-                    *now = *now + *past * share;
-                }
-            }
-        }
-        shaped
+        taps
     }
 
     /// The change of a command after which its shaped form has changed by `wanted`, as nearly as a shaper allows.
@@ -190,12 +183,16 @@ impl Shaper {
     ///
     /// The change rests from sample `moving` (at least 1) on: each step is followed by what it holds there.
     pub fn undo(&self, wanted: &[Vector3<f64>], sample_time: f64, moving: usize) -> Vec<Vector3<f64>> {
+        let taps = self.taps(sample_time);
         let mut command = vec![Vector3::zeros(); wanted.len()];
+        let (mut missing, mut ahead) = (Vec::with_capacity(wanted.len()), Vec::with_capacity(wanted.len()));
         for _ in 0..UNDO_STEPS {
-            let shaped = self.apply(&command, sample_time);
-            let backwards: Vec<_> =
-                wanted.iter().zip(&shaped).rev().map(|(wanted, got)| wanted - got).collect();
-            let ahead = self.apply(&backwards, sample_time);
+            spread(&taps, &command, &mut missing);
+            missing.reverse();
+            for (got, wanted) in missing.iter_mut().zip(wanted.iter().rev()) {
+                *got = wanted - *got;
+            }
+            spread(&taps, &missing, &mut ahead);
             for (c, more) in command.iter_mut().zip(ahead.iter().rev()) {
                 *c += more;
             }
@@ -205,11 +202,6 @@ impl Shaper {
         command
     }
 
-    /// The shaped joint commands theta_shp (eq. 4.14).
-    pub fn joints(&self, q: &[Joints], sample_time: f64) -> Vec<Joints> {
-        self.apply(q, sample_time)
-    }
-
     /// Where along the path the shaped motion is, to first order in the curvature: the shaped pace.
     pub fn pace(&self, pace: &Pace, sample_time: f64) -> Pace {
         Pace {
@@ -217,6 +209,48 @@ impl Shaper {
             speed: self.apply(&pace.speed, sample_time),
             heading: self.apply(&pace.heading, sample_time),
             engaged: self.apply(&pace.engaged, sample_time),
+        }
+    }
+}
+
+/// A shaped command; for joint values theta_shp of eq. 4.14.
+#[derive(Debug, Clone)]
+pub struct Shaped<'a, T> {
+    taps: Vec<(usize, f64)>,
+    command: &'a [T],
+}
+
+impl<T: Shapeable> Shaped<'_, T> {
+    /// The sample `k`.
+    pub fn at(&self, k: usize) -> T {
+        let told = |delay: usize| self.command[k.saturating_sub(delay)];
+        match self.taps.split_first() {
+            Some((&(first, share), rest)) => {
+                rest.iter().fold(told(first) * share, |sum, &(delay, share)| sum + told(delay) * share)
+            }
+            None => told(0),
+        }
+    }
+}
+
+/// Shapes a whole command: tap by tap over stretches that stay in the processor's cache.
+fn spread<T: Shapeable>(taps: &[(usize, f64)], command: &[T], shaped: &mut Vec<T>) {
+    shaped.clear();
+    let (Some((&(first, share), rest)), Some(&start)) = (taps.split_first(), command.first()) else {
+        shaped.extend_from_slice(command);
+        return;
+    };
+    shaped.extend((0..command.len()).map(|k| command[k.saturating_sub(first)] * share));
+    for (stretch, from) in shaped.chunks_mut(STRETCH).zip((0..).step_by(STRETCH)) {
+        for &(delay, share) in rest {
+            let held = delay.saturating_sub(from).min(stretch.len());
+            let (before, after) = stretch.split_at_mut(held);
+            for now in before {
+                *now = *now + start * share;
+            }
+            for (now, past) in after.iter_mut().zip(&command[(from + held).saturating_sub(delay)..]) {
+                *now = *now + *past * share;
+            }
         }
     }
 }

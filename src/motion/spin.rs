@@ -135,7 +135,7 @@ impl Search<'_> {
     /// See [`joint_trajectory`].
     pub fn cost_of(&self, spin: &Spin, scale: f64) -> Result<f64, Error> {
         let path = self.path.clone().with_spin(spin.clone());
-        let desired = (self.stations.position.as_slice(), self.stations.axis.as_slice());
+        let desired = (self.stations.position.as_slice(), &self.stations.axis);
         let joints = joint_trajectory(self.robot, &path, self.stations, desired, self.start)?;
         let all: Vec<usize> = (0..joints.q.len()).collect();
         let errors = self.errors_of(&all, &joints.q);
@@ -182,7 +182,7 @@ impl Search<'_> {
 
     /// The TCP at a station with a spin.
     fn tcp(&self, station: usize, angle: f64) -> Pose {
-        let rotation = self.path.orientation(&self.stations.axis[station], angle);
+        let rotation = self.path.orientation(self.stations.axis.at(station), angle);
         Pose { rotation, position: self.stations.position[station] }
     }
 

@@ -1,7 +1,7 @@
 //! The desired motion: where along the path, and where in space, at each sample (thesis section 5.2, Figs. 5.2, 5.3).
 
 use crate::motion::Profile;
-use crate::path::{Corner, Move, MovePace, Path};
+use crate::path::{Axes, Corner, Move, MovePace, Path};
 use nalgebra::Vector3;
 
 /// How the path is travelled.
@@ -59,7 +59,7 @@ pub struct Trajectory {
     /// Desired TCP position in the base frame [m].
     pub position: Vec<Vector3<f64>>,
     /// Desired tool axis from tip to spindle in the base frame.
-    pub axis: Vec<Vector3<f64>>,
+    pub axis: Axes,
     /// Corners with a full stop.
     pub stops: Vec<Corner>,
     /// Samples up to and with the exact end of the path; the rest is settling.
@@ -85,14 +85,13 @@ impl Trajectory {
             heading: Vec::with_capacity(most),
             engaged: Vec::with_capacity(most),
         };
-        let (mut position, mut axis) = (Vec::with_capacity(most), Vec::with_capacity(most));
+        let mut position = Vec::with_capacity(most);
         let mut sample = |s: f64, speed: f64, heading: Vector3<f64>, engaged: bool| {
             pace.arc_length.push(s);
             pace.speed.push(speed);
             pace.heading.push(heading);
             pace.engaged.push(if engaged { 1.0 } else { 0.0 });
             position.push(path.point(s));
-            axis.push(path.axis(s));
         };
         let cuts = |index: usize| path.moves()[index].pace != MovePace::Rapid;
         let mut clock = 0.0;
@@ -129,31 +128,26 @@ impl Trajectory {
             sample(length, 0.0, path.tangent(length), cuts(path.moves().len() - 1));
         }
         let stops = runs.iter().filter_map(|run| run.rest.map(|rest| rest.corner)).collect();
+        let axis = Axes::along(path, &pace.arc_length);
         Self { sample_time: dt, pace, position, axis, stops, moving }
     }
 
     /// A few places along the path instead of every sample, evenly spaced over its length, each at the full speed of its move: for
     /// searches over many poses.
     pub fn stations(path: &Path, tempo: &Tempo, count: usize) -> Self {
-        let mut stations = Self {
-            sample_time: tempo.sample_time,
-            pace: Pace::default(),
-            position: Vec::with_capacity(count),
-            axis: Vec::with_capacity(count),
-            stops: Vec::new(),
-            moving: count,
-        };
+        let mut pace = Pace::default();
+        let mut position = Vec::with_capacity(count);
         for k in 0..count {
             let s = path.length() * k as f64 / (count - 1) as f64;
             let step = &path.moves()[path.locate(s).0];
-            stations.pace.arc_length.push(s);
-            stations.pace.speed.push(limit(step, tempo));
-            stations.pace.heading.push(path.tangent(s));
-            stations.pace.engaged.push(if step.pace == MovePace::Rapid { 0.0 } else { 1.0 });
-            stations.position.push(path.point(s));
-            stations.axis.push(path.axis(s));
+            pace.arc_length.push(s);
+            pace.speed.push(limit(step, tempo));
+            pace.heading.push(path.tangent(s));
+            pace.engaged.push(if step.pace == MovePace::Rapid { 0.0 } else { 1.0 });
+            position.push(path.point(s));
         }
-        stations
+        let axis = Axes::along(path, &pace.arc_length);
+        Self { sample_time: tempo.sample_time, pace, position, axis, stops: Vec::new(), moving: count }
     }
 
     /// The number of samples.

@@ -5,6 +5,7 @@
 
 pub mod segment;
 pub mod shape;
+pub mod axes;
 pub mod spin;
 pub mod program;
 pub mod unit;
@@ -17,6 +18,7 @@ pub mod apt;
 #[cfg(feature = "full")]
 pub mod csv;
 
+pub use axes::Axes;
 pub use program::{Listing, Move, MovePace, Program, Tool};
 pub use segment::Segment;
 pub use spin::Spin;

@@ -11,7 +11,6 @@ use crate::report::{Effort, SpinGain};
 use crate::robot::Joints;
 use crate::units::DEG;
 use std::borrow::Cow;
-use std::sync::Arc;
 
 /// The path with the spin that suits it best; with the fixed one where none leads to its end, so that the error says where.
 pub(super) fn chosen(plan: &Plan, setup: &Setup, freedom: &Freedom) -> Path {
@@ -19,7 +18,7 @@ pub(super) fn chosen(plan: &Plan, setup: &Setup, freedom: &Freedom) -> Path {
     let acting = Sources::only(Source::Deflection);
     let errors = |at: &[usize], q: &[Joints]| {
         let passage = Passage::new(plan, Cow::Owned(stations.pace.at(at)), acting);
-        let errors = deviate(plan, &passage, &Arc::new(q.to_vec())).contour_error;
+        let errors = deviate(plan, &passage, q).contour_error;
         errors.iter().map(|error| error.norm_squared()).collect()
     };
     let best = |calm| {
@@ -75,7 +74,7 @@ pub(super) fn gain(
 
 /// Joint commands for the desired path.
 fn commanded(plan: &Plan, setup: &Setup) -> Result<JointTrajectory, Error> {
-    let desired = (plan.trajectory.position.as_slice(), plan.trajectory.axis.as_slice());
+    let desired = (plan.trajectory.position.as_slice(), &plan.trajectory.axis);
     joint_trajectory(&plan.robot, &plan.path, &plan.trajectory, desired, setup.start)
 }
 

@@ -5,10 +5,9 @@
 //! from that point. Each is projected on the direction of the sum, from the path to the tip; the eight lengths then add up to the
 //! contour error. A length is negative where that part alone would pull the tip back.
 
-use crate::deviation::Deviation;
 use crate::math::Pose;
 use crate::report::Report;
-use crate::robot::{compliance, forward};
+use crate::robot::{Joints, compliance, forward};
 use crate::units::MM;
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -52,15 +51,10 @@ impl Report {
     /// What each joint's spring adds to the tip's deflection before compensation at a sample, base frame [m].
     pub fn deflection_by_joint(&self, sample: usize) -> [Vector3<f64>; 6] {
         let robot = &self.plan.robot;
-        let frames = forward::frames(robot, &self.before.q[sample]);
+        let q = self.shaped(&self.q).at(sample);
+        let frames = forward::frames(robot, &q);
         let tip = frames[5].compose(robot.tool()).position;
-        self.given_way(sample, &frames, &tip)
-    }
-
-    fn given_way(&self, sample: usize, frames: &[Pose; 6], tip: &Vector3<f64>) -> [Vector3<f64>; 6] {
-        let Deviation { q, force, .. } = &*self.before;
-        compliance::by_joint(&self.plan.robot, &q[sample], frames, tip, &force[sample])
-            .map(|(moved, _)| moved)
+        compliance::by_joint(robot, &q, &frames, &tip, &self.force[sample]).map(|(moved, _)| moved)
     }
 
     /// What the contour error before compensation is made of.
@@ -68,15 +62,16 @@ impl Report {
         self.budget_and_walls().0
     }
 
-    /// Its parts at a sample where the arm's frames and tip are these.
-    pub(super) fn parts(&self, k: usize, frames: &[Pose; 6], tip: &Vector3<f64>) -> Parts {
+    /// Its parts at a sample where the arm's joint values, frames and tip are these.
+    pub(super) fn parts(&self, k: usize, q: &Joints, frames: &[Pose; 6], tip: &Vector3<f64>) -> Parts {
         let error = self.before.contour_error[k];
         let total = error.norm();
         let Some(away) = (-error).try_normalize(0.0) else { return Parts::default() };
-        let joints = self.given_way(k, frames, tip).map(|moved| moved.dot(&away) / MM);
-        let shaping = (-error - self.before.deflection[k]).dot(&away) / MM;
+        let joints = compliance::by_joint(&self.plan.robot, q, frames, tip, &self.force[k])
+            .map(|(moved, _)| moved.dot(&away) / MM);
+        let shaping = (-error - self.deflection[k]).dot(&away) / MM;
         let tool = match self.plan.bending {
-            Some(_) => self.before.deflection[k].dot(&away) / MM - joints.iter().sum::<f64>(),
+            Some(_) => self.deflection[k].dot(&away) / MM - joints.iter().sum::<f64>(),
             None => 0.0,
         };
         Parts { joints, tool, shaping, total: total / MM }

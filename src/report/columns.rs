@@ -1,6 +1,7 @@
 //! The columns of a report: one row a sample, units in the names.
 
 use crate::column::Column;
+use crate::path::Axes;
 use crate::report::{Report, norms_mm};
 use crate::robot::Joints;
 use crate::units::{DEG, MM};
@@ -58,10 +59,11 @@ impl Report {
             scaled("arc_length_mm", "Arc length", "mm", &trajectory.pace.arc_length, MM),
         ];
         series.extend(xyz("desired", "Desired", "mm", &trajectory.position, MM));
-        series.extend(joints("q", "Joint", &self.joints.q));
-        series.extend(joints("shaped_q", "Shaped joint", &self.before.q));
-        series.extend(xyz("force", "Force", "n", &self.before.force, 1.0));
-        series.extend(xyz("deflection", "Deflection", "mm", &self.before.deflection, MM));
+        series.extend(joints("q", "Joint", count, |k| self.q[k]));
+        let shaped = self.shaped(&self.q);
+        series.extend(joints("shaped_q", "Shaped joint", count, move |k| shaped.at(k)));
+        series.extend(xyz("force", "Force", "n", &self.force, 1.0));
+        series.extend(xyz("deflection", "Deflection", "mm", &self.deflection, MM));
         series.extend(xyz("actual", "Actual", "mm", &self.before.actual, MM));
         series.push(norm("contour_error_mm", "Contour error before", &self.before.contour_error));
         let (desired, correction) = (&trajectory.position, &self.compensation.correction);
@@ -76,7 +78,7 @@ impl Report {
         series.push(norm("shaping_contour_error_mm", "Contour error by shaping alone", shaping_alone));
         series.extend(xyz("shaped", "Shaped", "mm", &self.shaping_only.actual, MM));
         series.extend(xyz("after_actual", "Actual after", "mm", &self.after.actual, MM));
-        series.extend(joints("compensated_q", "Compensated joint", &self.compensation.q));
+        series.extend(joints("compensated_q", "Compensated joint", count, |k| self.compensation.q[k]));
         let actual = &self.before.actual;
         let tracking =
             |samples: Range<usize>| samples.map(|k| (desired[k] - actual[k]).norm() / MM).collect();
@@ -87,8 +89,8 @@ impl Report {
             count,
             tracking,
         ));
-        series.extend(ijk("tool_axis", "Tool axis", &trajectory.axis));
-        series.extend(ijk("compensated_axis", "Compensated axis", &self.compensation.axis));
+        series.extend(ijk("tool_axis", "Tool axis", count, &trajectory.axis));
+        series.extend(ijk("compensated_axis", "Compensated axis", count, &self.compensation.axis));
         let (before, after) = (&self.before.axis_error, &self.after.axis_error);
         series.push(scaled("axis_error_deg", "Tool axis error before", "deg", before, DEG));
         series.push(scaled("after_axis_error_deg", "Tool axis error after", "deg", after, DEG));
@@ -170,18 +172,24 @@ fn xyz_of<'a>(
 }
 
 /// Columns `key_i`, `key_j`, `key_k`.
-fn ijk<'a>(key: &str, label: &str, axes: &'a [Vector3<f64>]) -> [Series<'a>; 3] {
+fn ijk<'a>(key: &str, label: &str, count: usize, axes: &'a Axes) -> [Series<'a>; 3] {
     [0, 1, 2].map(|axis| {
         let name = ["i", "j", "k"][axis];
-        let values = move |samples: Range<usize>| axes[samples].iter().map(|v| v[axis]).collect();
-        Series::new(format!("{key}_{name}"), format!("{label} {name}"), "", axes.len(), values)
+        let values = move |samples: Range<usize>| samples.map(|k| axes.at(k)[axis]).collect();
+        Series::new(format!("{key}_{name}"), format!("{label} {name}"), "", count, values)
     })
 }
 
 /// Columns `key1_deg` to `key6_deg`.
-fn joints<'a>(key: &str, label: &str, q: &'a [Joints]) -> [Series<'a>; 6] {
+fn joints<'a>(
+    key: &str,
+    label: &str,
+    count: usize,
+    q: impl Fn(usize) -> Joints + Clone + 'a,
+) -> [Series<'a>; 6] {
     [0, 1, 2, 3, 4, 5].map(|i| {
-        let values = move |samples: Range<usize>| q[samples].iter().map(|q| q[i] / DEG).collect();
-        Series::new(format!("{key}{}_deg", i + 1), format!("{label} {}", i + 1), "deg", q.len(), values)
+        let q = q.clone();
+        let values = move |samples: Range<usize>| samples.map(|k| q(k)[i] / DEG).collect();
+        Series::new(format!("{key}{}_deg", i + 1), format!("{label} {}", i + 1), "deg", count, values)
     })
 }

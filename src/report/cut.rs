@@ -90,10 +90,12 @@ impl Report {
         let pace = self.plan.pace(Sources::ALL);
         let mut budget = budget::Sum::default();
         let mut walls: Vec<_> = self.setup.cut.walls().into_iter().map(Standing::new).collect();
+        let shaped = self.shaped(&self.q);
         along::each(path, &pace, |k, x, axis| {
-            let frames = forward::frames(robot, &self.before.q[k]);
+            let q = shaped.at(k);
+            let frames = forward::frames(robot, &q);
             let tip = frames[5].compose(robot.tool());
-            budget.take(k, self.parts(k, &frames, &tip.position));
+            budget.take(k, self.parts(k, &q, &frames, &tip.position));
             if pace.engaged[k] < 0.5 || walls.is_empty() {
                 return;
             }
@@ -102,9 +104,8 @@ impl Report {
             let c = self.plan.chip.at(pace.speed[k], path.moves()[index].spindle);
             let mean_of_turn = self.plan.mean_force.at(c);
             let base = x * mean_of_turn.x + y * mean_of_turn.y + axis * mean_of_turn.z;
-            let by = |force: Vector3<f64>| {
-                compliance::deflection(robot, &self.before.q[k], &frames, &tip.position, &force).0
-            };
+            let by =
+                |force: Vector3<f64>| compliance::deflection(robot, &q, &frames, &tip.position, &force).0;
             // The compliance is symmetric: what a unit force across the wall moves along F is what F moves across the wall. Springs that are
             // no straight lines are taken as straight around the mean force.
             let (constant, mut moved) = if robot.burden().is_some() {

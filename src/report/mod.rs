@@ -20,7 +20,9 @@ pub use warning::Warning;
 use crate::compensation::{Compensation, compensate};
 use crate::deviation::{Deviation, Plan, Source, Sources, contour};
 use crate::job::Setup;
-use crate::motion::joints::JointTrajectory;
+use crate::motion::shaper::Shaped;
+use crate::robot::Joints;
+use crate::robot::inverse::Branch;
 use crate::units::MM;
 use nalgebra::Vector3;
 use std::sync::{Arc, OnceLock};
@@ -32,10 +34,16 @@ pub struct Report {
     pub setup: Setup,
     /// Arm, path, motion and cut as simulated.
     pub plan: Plan,
-    /// Joint commands for the desired path.
-    pub joints: JointTrajectory,
+    /// Joint commands for the desired path [rad].
+    pub q: Arc<Vec<Joints>>,
+    /// The branch that they start on.
+    pub branch: Branch,
     /// What the free spin brings, if it is free.
     pub spin: Option<SpinGain>,
+    /// Force on the tool in the base frame, every source acting [N]; whatever is commanded.
+    pub force: Arc<Vec<Vector3<f64>>>,
+    /// What it moves the tip by when the desired path is commanded [m].
+    pub deflection: Vec<Vector3<f64>>,
     /// The desired path commanded, only cutting forces acting.
     pub deflection_only: Arc<Deviation>,
     /// The desired path commanded, only the shaper acting.
@@ -72,8 +80,13 @@ impl Report {
         let Setup { start, goal, .. } = self.setup;
         place.get_or_init(|| {
             let passage = self.plan.passage(Sources::only(source));
-            compensate(&self.plan, &passage, start, &self.joints.q, known, goal, |_| {})
+            compensate(&self.plan, &passage, start, &self.q, known, goal, &mut |_| {})
         })
+    }
+
+    /// Joint commands as the shaper passes them on.
+    pub fn shaped<'a>(&self, q: &'a [Joints]) -> Shaped<'a, Joints> {
+        self.plan.shaper.shaped(q, self.plan.trajectory.sample_time)
     }
 
     /// Largest contour error with the compensated path commanded, every source acting [m].

@@ -25,7 +25,7 @@ impl Report {
     /// Where the arm stands at a sample under the shaped commands, in the base frame: the base, the six joints, the TCP and the workpiece, each
     /// as origin [mm] and x, y, z axes. A sample past the end means the last one.
     pub fn frames(&self, sample: usize) -> Vec<f64> {
-        let mut numbers = arm(&self.plan.robot, &self.before.q[sample.min(self.samples() - 1)]);
+        let mut numbers = arm(&self.plan.robot, &self.shaped(&self.q).at(sample.min(self.samples() - 1)));
         numbers.extend(frame(&self.setup.workpiece));
         numbers
     }

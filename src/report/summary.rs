@@ -191,12 +191,12 @@ impl Report {
     pub fn summary(&self) -> Summary {
         let statistics = |deviation: &Deviation| Statistics::of(&deviation.contour_error);
         let mm = |values: &[f64]| values.iter().map(|v| v / MM).collect();
-        let start = self.joints.start;
+        let start = self.branch;
         let branch = format!(
             "{}, elbow {}, q4 = {:.1} deg",
             if start.front { "arm facing the point" } else { "arm over its back" },
             if start.elbow_positive { "positive" } else { "negative" },
-            self.joints.q.first().map_or(0.0, |q| q[3] / DEG)
+            self.q.first().map_or(0.0, |q| q[3] / DEG)
         );
         let material = self.setup.stock.material;
         let (budget, walls) = self.budget_and_walls();

@@ -178,7 +178,6 @@ pub fn rows(report: &Report) -> Result<Vec<Row>, Error> {
     );
 
     let turn = report
-        .joints
         .q
         .iter()
         .map(|q| q[0])

@@ -6,7 +6,6 @@ use crate::cutting::material::Model;
 use crate::deviation::{Deviation, Plan, Sources};
 use crate::job::Setup;
 use crate::math;
-use crate::motion::joints::JointTrajectory;
 use crate::path::{Move, MovePace, Tool};
 use crate::report::Report;
 use crate::robot::Joints;
@@ -71,15 +70,9 @@ fn range(count: usize, holds: impl Fn(usize) -> bool) -> Option<(usize, usize)> 
     Some((first, last))
 }
 
-/// Everything worth a remark.
-pub(crate) fn warnings(
-    setup: &Setup,
-    plan: &Plan,
-    joints: &JointTrajectory,
-    shaping_only: &Deviation,
-    compensation: &Compensation,
-    after_max: f64,
-) -> Vec<Warning> {
+/// Everything worth a remark; `singular` is what [`singularities`] says.
+pub(crate) fn warnings(report: &Report, singular: Vec<Warning>) -> Vec<Warning> {
+    let Report { setup, plan, compensation, .. } = report;
     let mut warnings = Vec::new();
     if setup.stiffness_assumed {
         let message = "nobody has published the joint stiffness of this robot: deflections are an order of magnitude, off by a factor of 2 as a rule and of 8 in single joints; enter your own";
@@ -91,11 +84,11 @@ pub(crate) fn warnings(
             format!("the joint values are solved numerically: {reason}"),
         ));
     }
-    springs(plan, compensation, &mut warnings);
-    limits(plan, joints, compensation, &mut warnings);
-    singularities(plan, joints, &mut warnings);
+    springs(report, &mut warnings);
+    limits(report, &mut warnings);
+    warnings.extend(singular);
     cut(setup, plan, &mut warnings);
-    corners(setup, plan, shaping_only, &mut warnings);
+    corners(setup, plan, &report.shaping_only, &mut warnings);
     program(setup, &mut warnings);
     if let Some(error) = &compensation.stopped {
         let message =
@@ -104,6 +97,7 @@ pub(crate) fn warnings(
     }
     let compensates =
         setup.sources != Sources { deflection: false, shaping: false } && setup.goal.max_passes > 0;
+    let after_max = report.after_max();
     if compensates && after_max > setup.goal.tolerance {
         let corners = if setup.shaper.duration() > 0.0 && !plan.trajectory.stops.is_empty() {
             "; a longer wait in corners gives the shaped correction time to turn with the force"
@@ -117,21 +111,19 @@ pub(crate) fn warnings(
         );
         warnings.push(Warning::new("tolerance-not-met", message));
     }
+    warnings.extend(spindle(report));
     warnings
 }
 
 /// How many samples of a motion are looked at for springs that do not settle.
 const LOOKS: usize = 200;
 
-fn springs(plan: &Plan, compensation: &Compensation, warnings: &mut Vec<Warning>) {
-    let (Some(burden), Deviation { q, force, .. }) = (plan.robot.burden(), &*compensation.result) else {
-        return;
-    };
-    // Where no force acts, nothing gives way to weight either.
-    let unsettled = |k: usize| {
-        force.get(k).is_some_and(|force| !equilibrium(&plan.robot, burden, &q[k], force).converged)
-    };
-    if (0..q.len()).step_by(q.len().div_ceil(LOOKS)).any(unsettled) {
+fn springs(report: &Report, warnings: &mut Vec<Warning>) {
+    let Some(burden) = report.plan.robot.burden() else { return };
+    let q = report.shaped(&report.compensation.q);
+    let unsettled = |k: usize| !equilibrium(&report.plan.robot, burden, &q.at(k), &report.force[k]).converged;
+    let samples = report.samples();
+    if (0..samples).step_by(samples.div_ceil(LOOKS)).any(unsettled) {
         let message = "the joints are so soft under this load that their springs do not come to rest: deflections are not to be trusted";
         warnings.push(Warning::new("springs-unsettled", message));
     }
@@ -155,7 +147,8 @@ fn program(setup: &Setup, warnings: &mut Vec<Warning>) {
     }
 }
 
-fn limits(plan: &Plan, joints: &JointTrajectory, compensation: &Compensation, warnings: &mut Vec<Warning>) {
+fn limits(report: &Report, warnings: &mut Vec<Warning>) {
+    let Report { plan, q: desired, compensation: Compensation { q: compensated, .. }, .. } = report;
     let Some(limits) = plan.robot.limits() else {
         warnings
             .push(Warning::new("joint-limits-unknown", "no joint ranges were given: they are not checked"));
@@ -165,8 +158,8 @@ fn limits(plan: &Plan, joints: &JointTrajectory, compensation: &Compensation, wa
     for (i, (low, high)) in limits.iter().enumerate() {
         // How far a sample is beyond the range, by the desired or by the compensated command.
         let beyond = |q: &Joints| (low - q[i]).max(q[i] - high);
-        let worst = |k: usize| beyond(&joints.q[k]).max(beyond(&compensation.q[k]));
-        let count = joints.q.len();
+        let worst = |k: usize| beyond(&desired[k]).max(beyond(&compensated[k]));
+        let count = desired.len();
         let extreme = (0..count).map(worst).fold(f64::NEG_INFINITY, f64::max);
         let (code, threshold, what) = if extreme > 0.0 {
             ("joint-limit", 0.0, format!("leaves its range by up to {:.1} deg", extreme / DEG))
@@ -186,10 +179,11 @@ fn limits(plan: &Plan, joints: &JointTrajectory, compensation: &Compensation, wa
     }
 }
 
-fn singularities(plan: &Plan, joints: &JointTrajectory, warnings: &mut Vec<Warning>) {
+/// Where the joint commands `q` pass singularities or jump.
+pub(crate) fn singularities(plan: &Plan, q: &[Joints], margins: &[Margin]) -> Vec<Warning> {
+    let mut warnings = Vec::new();
     let dt = plan.trajectory.sample_time;
     let mut remark = |code, margin: fn(&Margin) -> f64, threshold: f64, message: fn(f64) -> String| {
-        let margins = &joints.margin;
         if let Some(range) = range(margins.len(), |k| margin(&margins[k]) < threshold) {
             let least = margins.iter().map(margin).fold(f64::INFINITY, f64::min);
             warnings.push(Warning::new(code, message(least)).within(range, dt));
@@ -229,14 +223,15 @@ fn singularities(plan: &Plan, joints: &JointTrajectory, warnings: &mut Vec<Warni
             )
         },
     );
-    let jumps = |k: usize| k > 0 && (joints.q[k] - joints.q[k - 1]).amax() > JUMP;
-    if let Some(range) = range(joints.q.len(), jumps) {
+    let jumps = |k: usize| k > 0 && (q[k] - q[k - 1]).amax() > JUMP;
+    if let Some(range) = range(q.len(), jumps) {
         let message = format!(
             "a joint turns more than {:.0} deg from one sample to the next: the arm changes branch or passes a singularity",
             JUMP / DEG
         );
         warnings.push(Warning::new("joint-jump", message).within(range, dt));
     }
+    warnings
 }
 
 /// The angle in [0, pi/2] with this sine [rad].
@@ -284,7 +279,7 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
         if trajectory.pace.speed[k] == 0.0 && k > 0 && k + 1 < trajectory.moving {
             return 0.0;
         }
-        let along: f64 = trajectory.pace.heading[k].dot(&trajectory.axis[k]) * trajectory.pace.engaged[k];
+        let along: f64 = trajectory.pace.heading[k].dot(trajectory.axis.at(k)) * trajectory.pace.engaged[k];
         along.abs()
     };
     let steep = math::sin(RAMP);
@@ -311,7 +306,7 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
 }
 
 /// The cut asks for more than the spindle has.
-pub(crate) fn spindle(report: &Report) -> Option<Warning> {
+fn spindle(report: &Report) -> Option<Warning> {
     let (power, rated) = (report.spindle_power(), report.setup.spindle_power?);
     let message = format!(
         "the cut takes {:.2} kW on average, more than the spindle's {:.2} kW; coefficients are known to ±30 %",

@@ -200,7 +200,7 @@ fn force_falls_while_the_arm_accelerates() {
         ("shaper", json!("none")),
     ]);
     let speed = column(&report, "feed_mm_s");
-    let force: Vec<f64> = report.before.force.iter().map(|force| force.norm()).collect();
+    let force: Vec<f64> = report.force.iter().map(|force| force.norm()).collect();
     let full = report.mean_force().norm();
     let mut rising = 0;
     for k in 1..report.plan.trajectory.moving / 3 {

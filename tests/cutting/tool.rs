@@ -56,8 +56,8 @@ fn a_long_tool_adds_its_own_bending() {
     let bending = Bending::of(6e11, 0.06, 0.03, 0.01, 0.01);
     assert!((long.summary().cut["tool_bending_um_n"] - bending.displacement * 1e6).abs() < 1e-12);
     for k in [0, 100, 400] {
-        let added = long.before.deflection[k] - rigid.before.deflection[k];
-        let force = long.before.force[k];
+        let added = long.deflection[k] - rigid.deflection[k];
+        let force = long.force[k];
         let expected = Vector3::new(force.x, force.y, 0.0) * bending.displacement;
         assert!((added - expected).norm() < 1e-12, "{added} against {expected}");
         // The clamped end stays, so the axis, from tip to spindle, leans against the force; of an arm that leans too, to first order.
