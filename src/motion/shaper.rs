@@ -150,7 +150,7 @@ impl Shaper {
     /// Where an impulse falls between samples, the command is taken to be straight in between.
     pub fn apply<T: Shapeable>(&self, command: &[T], sample_time: f64) -> Vec<T> {
         let mut shaped = Vec::with_capacity(command.len());
-        spread(&self.taps(sample_time), command, &mut shaped);
+        stretches(&self.taps(sample_time), command, |_, stretch| shaped.extend_from_slice(stretch));
         shaped
     }
 
@@ -185,17 +185,20 @@ impl Shaper {
     pub fn undo(&self, wanted: &[Vector3<f64>], sample_time: f64, moving: usize) -> Vec<Vector3<f64>> {
         let taps = self.taps(sample_time);
         let mut command = vec![Vector3::zeros(); wanted.len()];
-        let (mut missing, mut ahead) = (Vec::with_capacity(wanted.len()), Vec::with_capacity(wanted.len()));
+        let last = wanted.len().saturating_sub(1);
+        // What is missing, backwards in time.
+        let mut missing = command.clone();
         for _ in 0..UNDO_STEPS {
-            spread(&taps, &command, &mut missing);
-            missing.reverse();
-            for (got, wanted) in missing.iter_mut().zip(wanted.iter().rev()) {
-                *got = wanted - *got;
-            }
-            spread(&taps, &missing, &mut ahead);
-            for (c, more) in command.iter_mut().zip(ahead.iter().rev()) {
-                *c += more;
-            }
+            stretches(&taps, &command, |from, shaped| {
+                for (k, got) in (from..).zip(shaped) {
+                    missing[last - k] = wanted[k] - got;
+                }
+            });
+            stretches(&taps, &missing, |from, ahead| {
+                for (k, more) in (from..).zip(ahead) {
+                    command[last - k] += more;
+                }
+            });
             let arrived = command[moving - 1];
             command[moving..].fill(arrived);
         }
@@ -233,15 +236,17 @@ impl<T: Shapeable> Shaped<'_, T> {
     }
 }
 
-/// Shapes a whole command: tap by tap over stretches that stay in the processor's cache.
-fn spread<T: Shapeable>(taps: &[(usize, f64)], command: &[T], shaped: &mut Vec<T>) {
-    shaped.clear();
+/// Calls `take` with the shaped command, a stretch that stays in the processor's cache at a time, and the number of its first sample.
+fn stretches<T: Shapeable>(taps: &[(usize, f64)], command: &[T], mut take: impl FnMut(usize, &[T])) {
     let (Some((&(first, share), rest)), Some(&start)) = (taps.split_first(), command.first()) else {
-        shaped.extend_from_slice(command);
-        return;
+        return take(0, command);
     };
-    shaped.extend((0..command.len()).map(|k| command[k.saturating_sub(first)] * share));
-    for (stretch, from) in shaped.chunks_mut(STRETCH).zip((0..).step_by(STRETCH)) {
+    let mut stretch = [start; STRETCH];
+    for from in (0..command.len()).step_by(STRETCH) {
+        let stretch = &mut stretch[..STRETCH.min(command.len() - from)];
+        for (now, k) in stretch.iter_mut().zip(from..) {
+            *now = command[k.saturating_sub(first)] * share;
+        }
         for &(delay, share) in rest {
             let held = delay.saturating_sub(from).min(stretch.len());
             let (before, after) = stretch.split_at_mut(held);
@@ -252,5 +257,6 @@ fn spread<T: Shapeable>(taps: &[(usize, f64)], command: &[T], shaped: &mut Vec<T
                 *now = *now + *past * share;
             }
         }
+        take(from, stretch);
     }
 }
