@@ -298,7 +298,7 @@ impl Sheet<'_> {
     pub(super) fn shaped_joint(&self, joint: usize) -> Content {
         let original = degrees(&self.report.q, joint);
         let shaped = self.report.shaped(&self.report.q);
-        let shaped: Vec<f64> = (0..original.len()).map(|k| shaped.at(k)[joint] / DEG).collect();
+        let shaped: Vec<f64> = (0..original.len()).map(|k| shaped.part_at(k, |q| q[joint]) / DEG).collect();
         let apart: Vec<f64> = original.iter().zip(&shaped).map(|(a, b)| (a - b).abs()).collect();
         let description =
             format!("Original and shaped command differ by up to {:.3} deg at the same time.", max(&apart));

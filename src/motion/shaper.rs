@@ -226,7 +226,12 @@ pub struct Shaped<'a, T> {
 impl<T: Shapeable> Shaped<'_, T> {
     /// The sample `k`.
     pub fn at(&self, k: usize) -> T {
-        let told = |delay: usize| self.command[k.saturating_sub(delay)];
+        self.part_at(k, |sample| *sample)
+    }
+
+    /// A part of the sample `k`.
+    pub fn part_at<U: Shapeable>(&self, k: usize, part: impl Fn(&T) -> U) -> U {
+        let told = |delay: usize| part(&self.command[k.saturating_sub(delay)]);
         match self.taps.split_first() {
             Some((&(first, share), rest)) => {
                 rest.iter().fold(told(first) * share, |sum, &(delay, share)| sum + told(delay) * share)

@@ -3,7 +3,6 @@
 use crate::column::Column;
 use crate::path::Axes;
 use crate::report::{Report, norms_mm};
-use crate::robot::Joints;
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
 use std::ops::Range;
@@ -59,9 +58,9 @@ impl Report {
             scaled("arc_length_mm", "Arc length", "mm", &trajectory.pace.arc_length, MM),
         ];
         series.extend(xyz("desired", "Desired", "mm", &trajectory.position, MM));
-        series.extend(joints("q", "Joint", count, |k| self.q[k]));
+        series.extend(joints("q", "Joint", count, |k, i| self.q[k][i]));
         let shaped = self.shaped(&self.q);
-        series.extend(joints("shaped_q", "Shaped joint", count, move |k| shaped.at(k)));
+        series.extend(joints("shaped_q", "Shaped joint", count, move |k, i| shaped.part_at(k, |q| q[i])));
         series.extend(xyz("force", "Force", "n", &self.force, 1.0));
         series.extend(xyz("deflection", "Deflection", "mm", &self.deflection, MM));
         series.extend(xyz("actual", "Actual", "mm", &self.before.actual, MM));
@@ -78,7 +77,7 @@ impl Report {
         series.push(norm("shaping_contour_error_mm", "Contour error by shaping alone", shaping_alone));
         series.extend(xyz("shaped", "Shaped", "mm", &self.shaping_only.actual, MM));
         series.extend(xyz("after_actual", "Actual after", "mm", &self.after.actual, MM));
-        series.extend(joints("compensated_q", "Compensated joint", count, |k| self.compensation.q[k]));
+        series.extend(joints("compensated_q", "Compensated joint", count, |k, i| self.compensation.q[k][i]));
         let actual = &self.before.actual;
         let tracking =
             |samples: Range<usize>| samples.map(|k| (desired[k] - actual[k]).norm() / MM).collect();
@@ -185,11 +184,11 @@ fn joints<'a>(
     key: &str,
     label: &str,
     count: usize,
-    q: impl Fn(usize) -> Joints + Clone + 'a,
+    q: impl Fn(usize, usize) -> f64 + Clone + 'a,
 ) -> [Series<'a>; 6] {
     [0, 1, 2, 3, 4, 5].map(|i| {
         let q = q.clone();
-        let values = move |samples: Range<usize>| samples.map(|k| q(k)[i] / DEG).collect();
+        let values = move |samples: Range<usize>| samples.map(|k| q(k, i) / DEG).collect();
         Series::new(format!("{key}{}_deg", i + 1), format!("{label} {}", i + 1), "deg", count, values)
     })
 }
