@@ -67,7 +67,7 @@ function figureOf(entry) {
 
 const redraw = debounced(() => draw(), 120);
 const resized = new ResizeObserver(() => {
-  if ([...figures.values()].some((figure) => !figure.fits)) redraw();
+  if ([...figures.values()].filter((figure) => !figure.fits).length) redraw(); // each looks at its room anew
 });
 
 async function draw() {

@@ -9,7 +9,7 @@ import { judgeAsProgram } from "./as-program.js";
 import { byId, debounced, make, sentence } from "./dom.js";
 import { download } from "./download.js";
 import { Form } from "./form.js";
-import { Job } from "./job.js";
+import { Job, textOf } from "./job.js";
 import { makeIdentify } from "./identify/panel.js";
 import { makePlacement } from "./placement/panel.js";
 import { formatLength, formatNumber } from "./number.js";
@@ -26,6 +26,7 @@ import { makeTabs } from "./tabs.js";
 import { followTheme } from "./theme.js";
 
 const TYPING_MS = 150; // results follow this long after the last key
+const PUSHED = 4000; // samples of a run that follows a number while it is pushed
 const PATIENCE_MS = 150; // a run that takes longer shows its progress
 
 await begun;
@@ -42,6 +43,7 @@ let formats = []; // programs that a run can be exported to
 let shown = null; // the shown result: { json, summary } and its job
 let slow; // timer that shows the progress
 let typing = false; // there are edits that no run has been started for yet
+let preview; // JSON text of the last job with fewer samples
 
 const state = (name) => (results.dataset.state = name);
 const say = (text) => (byId("status").textContent = text);
@@ -53,6 +55,16 @@ const computeNow = () => {
   if (!form.flawed) core.run(job.json);
 };
 const compute = debounced(computeNow, TYPING_MS);
+
+/** Has a long run follow a number that is pushed with fewer samples; all of them come when it rests. */
+function computeSoon() {
+  const { motion, ...rest } = JSON.parse(job.json);
+  const every = Math.floor(shown.summary.duration_s / motion.sample_time_s / PUSHED);
+  if (!(every > 1)) return computeNow();
+  preview = textOf({ ...rest, motion: { ...motion, sample_time_s: motion.sample_time_s * every } });
+  core.run(preview);
+  compute();
+}
 
 /** After every edit: compute, or say what is wrong and keep the last result. A number that is pushed is complete at every step. */
 function edited(stepped = false) {
@@ -66,8 +78,9 @@ function edited(stepped = false) {
   armView.show(job);
   state("computing");
   typing = true;
-  if (shown && !stepped) compute();
-  else computeNow();
+  if (!shown) computeNow();
+  else if (stepped) computeSoon();
+  else compute();
 }
 
 function stale() {
@@ -118,6 +131,7 @@ const events = {
     placement.look();
     for (const id of ["download-compensated", "download-columns", "download-program", "export-format", "share", "pin"]) byId(id).disabled = false;
     if (form.flawed) return stale();
+    if (shown.json === preview) say(`A preview of ${formatNumber(summary.samples, 1)} samples`);
     if (typing) return; // shown, but of an earlier edit
     state("current");
     say(`${formatNumber(summary.samples, 1)} samples in ${formatNumber(took / 1000, 2)} s`);

@@ -39,7 +39,7 @@ export class Figure {
   #waiting = false;
   #drawing = null;
   #width = 0; // that was drawn at
-
+  #room = 0; // that there is to draw in, measured when it may have changed: to ask makes the browser lay out the page
 
   /** `link(figure, range)` is called when the range of time changes, to take the other charts along. `values` draws it and has its values: the shown result. */
   constructor({ name, title, figure, kind }, link, values = core) {
@@ -119,12 +119,13 @@ export class Figure {
 
   /** Whether it is drawn as wide as it is, or not to be seen. */
   get fits() {
+    this.#room = 0;
     return !this.node.checkVisibility() || this.#width === this.#size().width;
   }
 
   /** The room to draw in [px]. */
   #size() {
-    const width = Math.round((this.#plot.hidden ? this.#table : this.#plot).clientWidth);
+    const width = (this.#room ||= Math.round((this.#plot.hidden ? this.#table : this.#plot).clientWidth));
     const height = this.plane ? Math.min(560, Math.max(230, width * 0.6)) : Math.min(300, Math.max(220, width * 0.38));
     return { width, height: Math.round(height) };
   }

@@ -44,6 +44,7 @@ class Scene {
   #fitted = "fit";
   #tones;
   #due = false;
+  #room = [0, 0]; // of the picture [px]
   #pointed = null; // where the pointer is, until it has been looked up
 
   constructor(node) {
@@ -61,7 +62,10 @@ class Scene {
       key: (key) => this.#key(key),
     });
     this.#camera.look(VIEWS.iso);
-    new ResizeObserver(() => this.#appear()).observe(stage);
+    new ResizeObserver(() => {
+      this.#room = [stage.clientWidth, stage.clientHeight];
+      this.#appear();
+    }).observe(stage);
     canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();
       this.#painter = null;
@@ -81,8 +85,8 @@ class Scene {
 
   /** Starts drawing, or loads the newest paths, once the picture can be seen. */
   #appear() {
-    const { stage, canvas } = this.#panel;
-    const [width, height] = [stage.clientWidth, stage.clientHeight];
+    const { canvas } = this.#panel;
+    const [width, height] = this.#room;
     if (!width || !this.#summary) return;
     const sharp = Math.min(2, devicePixelRatio || 1);
     if (canvas.width !== Math.round(width * sharp) || canvas.height !== Math.round(height * sharp)) {
@@ -153,7 +157,7 @@ class Scene {
 
   /** The cursor has moved: asks the core where the arm stands, one question at a time. */
   async #follow() {
-    if (!this.#paths || !this.#painter || !this.#panel.stage.clientWidth) return;
+    if (!this.#paths || !this.#painter || !this.#room[0]) return;
     this.#redraw();
     if (this.#asking) return;
     this.#asking = true;
@@ -220,7 +224,7 @@ class Scene {
     this.#due = true;
     requestAnimationFrame(() => {
       this.#due = false;
-      if (this.#painter && this.#paths && this.#panel.stage.clientWidth) this.#draw();
+      if (this.#painter && this.#paths && this.#room[0]) this.#draw();
     });
   }
 
