@@ -100,8 +100,9 @@ fn every_shape_of_tool_equals_thin_slices() {
             assert!((ours - mean).norm() < 0.015 * mean.norm(), "mean {ours} against {mean} of {cut:?}");
             for phi in [0.4, 1.7, 2.9, 4.4] {
                 let (ours, slices) = (cut.force(phi, CHIP), brute(&cut, phi, CHIP, 20_000));
-                // Whole slices of ours enter and leave the part at once where it is a plane.
-                let close = 0.01 * mean.norm() + 0.01 * slices.norm();
+                // Whole slices of ours enter and leave the part at once where it is a plane; a cylinder's angles are in closed form.
+                let share = if corner > 0.0 { 0.01 } else { 1e-4 };
+                let close = share * (mean.norm() + slices.norm());
                 assert!((ours - slices).norm() < close, "{ours} against {slices} at {phi} of {cut:?}");
             }
         }
@@ -218,7 +219,9 @@ fn force_falls_while_the_arm_accelerates() {
 #[test]
 fn means_keep_their_tolerance_where_a_corner_only_just_reaches_the_part() {
     // The same against the definition where the engagement starts half way up a ball, and where a bull nose is cut deeper than its corner.
-    for (corner, radial, axial) in [(0.006, 0.0004, 0.006), (0.006, 0.002, 0.004), (0.002, 0.0005, 0.005)] {
+    for (corner, radial, axial) in
+        [(0.006, 0.0004, 0.006), (0.006, 0.00002, 0.006), (0.006, 0.002, 0.004), (0.002, 0.0005, 0.005)]
+    {
         let cut = Cut {
             corner_radius: corner,
             axial_depth: axial,
@@ -259,6 +262,6 @@ fn means_keep_their_tolerance_where_a_corner_only_just_reaches_the_part() {
         }
         let expected = expected * f64::from(cut.flutes) / TAU;
         let ours = cut.mean_force().at(CHIP);
-        assert!((ours - expected).norm() < 3e-4 * expected.norm(), "{ours} against {expected}");
+        assert!((ours - expected).norm() < 1e-4 * expected.norm(), "{ours} against {expected}");
     }
 }

@@ -42,4 +42,14 @@ fn the_wall_is_left_by_the_instant_that_makes_it() {
         Cut { engagement, ..cut }.walls().len()
     };
     assert_eq!([count(30.0, 150.0), count(0.0, 150.0), count(0.0, 180.0)], [0, 1, 2]);
+    // A ball cut as deep as its radius has no cylinder in the part: its wall is looked at from the tip up, as that of a cut a little less deep.
+    let ball = |depth: f64| {
+        let engagement = Engagement::Slot;
+        Cut { corner_radius: 0.005, axial_depth: depth, engagement, helix: 30.0 * DEG, ..cut }.walls()
+    };
+    for (whole, less) in ball(0.005).iter().zip(ball(0.005 - 1e-12)) {
+        for (a, b) in whole.instants.iter().zip(less.instants) {
+            assert!((a.at(1e-4) - b.at(1e-4)).norm() < 1e-6 * a.at(1e-4).norm());
+        }
+    }
 }
