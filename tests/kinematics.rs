@@ -202,6 +202,21 @@ fn up_to_eight_different_solutions() {
 }
 
 #[test]
+fn a_wrist_centre_on_axis_1_is_reached() {
+    // Straight above the shoulder, where the arm may face any way.
+    let robot = common::rx90();
+    let tcp = Pose::from_xyz_rpy(Vector3::new(0.0, 0.0, 0.42 + 0.8 + 0.085), [0.0; 3]);
+    let solutions = inverse(&robot, &tcp, &Joints::zeros()).unwrap();
+    assert!(solutions.iter().count() >= 4, "both elbows, both wrists");
+    for solution in solutions.iter() {
+        assert!((forward::forward(&robot, &solution.q).position - tcp.position).norm() < 1e-12);
+        assert!(solution.margin.shoulder < 1e-12);
+        // The law of cosines: 0.8^2 = 0.45^2 + 0.65^2 + 2 0.45 0.65 cos(q3).
+        assert!((solution.q[2].cos() - 0.015 / 0.585).abs() < 1e-12);
+    }
+}
+
+#[test]
 fn wrist_singularity_keeps_joint_4_and_still_closes() {
     let robot = common::rx90();
     let mut random = fastrand::Rng::with_seed(3);

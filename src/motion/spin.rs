@@ -334,6 +334,10 @@ mod tests {
             let grid: Vec<f64> = [-40.0, -20.0, 0.0, 20.0, 40.0].map(|a| a * DEG).into();
             let mut scale = None;
             let found = search.through(&vec![grid.clone(); 6], &mut scale).unwrap();
+            // The window is between angles, not between their numbers in the grids.
+            let turned = |by: f64| [0.0, 0.0, 0.0, by, by, by].map(|angle| vec![angle * DEG]);
+            assert!(search.through(&turned(29.0), &mut scale).is_some());
+            assert!(search.through(&turned(31.0), &mut scale).is_none());
             let scale = scale.unwrap();
             let spin = |angles: &[f64]| {
                 let points: Vec<_> =
