@@ -32,6 +32,16 @@ fn the_wall_is_left_by_the_instant_that_makes_it() {
     }
     let ours = wall["instant_force_n"];
     assert!((ours - sum).abs() < 1e-3 * sum.abs(), "{ours} against {sum}");
+    // Above a corner the wall is looked at from the corner up.
+    let bull = Cut { corner_radius: 0.002, ..cut };
+    for (k, instant) in (0..heights).zip(&bull.walls()[0].instants) {
+        let z = 0.002 + 0.008 * (f64::from(k) + 0.5) / f64::from(heights);
+        let slices = brute(&bull, PI + lag * z, 1e-4, 20_000);
+        assert!(
+            (instant.at(1e-4) - slices).norm() < 5e-3 * slices.norm(),
+            "{k}: {instant:?} against {slices}"
+        );
+    }
     // With straight flutes the wall is made when the tooth that makes it no longer cuts and its next one is just entering.
     let cut = Cut { helix: 0.0, ..cut };
     let one = Cut { flutes: 2, ..cut };
