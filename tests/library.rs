@@ -70,6 +70,7 @@ fn every_line_is_whole() {
             assert!(-500.0 < low && low < high && high < 500.0, "{}: {low} to {high}", preset.id);
         }
     }
+    assert_eq!(run(&[]).summary().robot, "Stäubli RX-90");
     let known = all.iter().filter(|preset| !preset.stiffness_assumed).count();
     assert_eq!(known, 4);
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/robot/library");

@@ -145,3 +145,39 @@ pub(crate) fn described(robot: &Robot, q: Joints) -> Solution {
         },
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turn_about_an_axis_is_that_axis_times_its_angle() {
+        for angle in [1e-12, 1e-6, 0.1, 1.0, 2.0, 3.1, -0.5, -3.0] {
+            for i in 0..3 {
+                let mut rpy = [0.0; 3];
+                rpy[i] = angle;
+                let turn = rotation_vector(&Pose::from_xyz_rpy(Vector3::zeros(), rpy).rotation);
+                // Beside half a turn the sine is small and its rounding counts.
+                assert!(
+                    (turn - Vector3::ith(i, angle)).norm()
+                        < 1e-15 * (1.0 + 1.0 / angle.sin().abs().max(1e-2)),
+                    "{turn}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn starting_points_are_spread_evenly_within_half_a_turn() {
+        let all: Vec<_> = (1..STARTS).map(start).collect();
+        assert!(all.iter().all(|q| q.amax() <= TAU / 2.0));
+        for i in 0..6 {
+            // As many in each quarter of the turn, of an even spread of 159.
+            let mut quarters = [0; 4];
+            for q in &all {
+                quarters[((q[i] / TAU + 0.5) * 4.0) as usize] += 1;
+            }
+            assert!(quarters.iter().all(|count| (34..=46).contains(count)), "{quarters:?}");
+        }
+    }
+}

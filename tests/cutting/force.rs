@@ -98,7 +98,10 @@ fn every_shape_of_tool_equals_thin_slices() {
             let ours = cut.mean_force().at(CHIP);
             // 600 slices whose lowest ones have the edge 1 / sin(kappa) long: 1.5 % of the edge force at the very tip of a ball.
             assert!((ours - mean).norm() < 0.015 * mean.norm(), "mean {ours} against {mean} of {cut:?}");
-            for phi in [0.4, 1.7, 2.9, 4.4] {
+            let straight = Cut { helix: 0.0, ..cut };
+            for (cut, phi) in
+                [cut, straight].into_iter().flat_map(|cut| [0.4, 1.7, 2.9, 4.4].map(|phi| (cut, phi)))
+            {
                 let (ours, slices) = (cut.force(phi, CHIP), brute(&cut, phi, CHIP, 20_000));
                 // Whole slices of ours enter and leave the part at once where it is a plane; a cylinder's angles are in closed form.
                 let share = if corner > 0.0 { 0.01 } else { 1e-4 };

@@ -97,6 +97,10 @@ fn golden_oblique_cutting() {
 
 #[test]
 fn every_material_of_the_library_cuts() {
+    for (id, word) in [("thesis", "milling"), ("p1", "k_c1.1"), ("ti-6al-4v", "Orthogonal")] {
+        let material = material::library().iter().find(|material| material.id == id).unwrap();
+        assert!(material.model.heading().contains(word), "{id} under {}", material.model.heading());
+    }
     for material in material::library() {
         let report = run(&[
             ("material", json!({ "preset": material.id })),
