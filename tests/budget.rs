@@ -16,7 +16,10 @@ fn reports() -> Vec<Report> {
         json!({"kind":"rectangle","center_mm":[600,0,100],"width_mm":80,"height_mm":50,"corner_radius_mm":5});
     let sharp = json!({"kind":"csv","text":"600,-60,100\n660,0,120\n600,60,100"});
     let leaning = json!({"kind":"csv","text":"600,-60,100,0,0,1\n660,0,120,0.1,0,1\n600,60,100,0,0.1,1"});
-    let changes: [Vec<(&str, Value)>; 4] = [
+    // The RX-90 as if a parallelogram held its forearm.
+    let held = json!({"opw":{"c1_mm":420,"c2_mm":450,"c3_mm":650,"c4_mm":85},"joint_3":"parallelogram",
+        "joint_compliance_rad_per_nm":[9e-7,11e-7,15e-7,28e-7,98e-7,1e-6]});
+    let changes: [Vec<(&str, Value)>; 5] = [
         vec![],
         vec![
             ("path", rectangle),
@@ -24,7 +27,8 @@ fn reports() -> Vec<Report> {
             ("tool_frame", json!({"xyz_mm":[0,50,120],"rpy_deg":[0,30,0]})),
         ],
         vec![("path", sharp), ("shaper", json!("none"))],
-        vec![("path", leaning)],
+        vec![("path", leaning.clone())],
+        vec![("path", leaning), ("robot", held)],
     ];
     changes.iter().map(|changes| run(changes)).collect()
 }

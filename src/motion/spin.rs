@@ -372,6 +372,16 @@ mod tests {
         let search =
             |robot| Search { robot, path, stations: &stations, start, freedom, calm: 2.0, errors: &none };
         let ours = search(&robot);
+        // The mean square of the error over all poses is the scale of it, or 1 where there is none.
+        let scale = |goal, of: f64| {
+            let errors = |at: &[usize], _: &[Joints]| (0..at.len()).map(|k| of * (k % 2) as f64).collect();
+            let mut scale = None;
+            let freedom = Freedom { goal, ..freedom };
+            Search { freedom, errors: &errors, ..search(&robot) }.cells(&vec![vec![0.0]; 5], &mut scale);
+            scale.unwrap()
+        };
+        assert_eq!(scale(Goal::SmoothJoints, 8.0), 1.0);
+        assert_eq!([0.0, 8.0].map(|of| scale(Goal::LeastError, of)), [1.0, 4.0]);
         let close =
             |ours: f64, expected: f64| assert!((ours - expected).abs() < 1e-9, "{ours} for {expected}");
         // A fifth for each of five stations: the error's square, then the squares of what is missing to a margin, as a share of it.

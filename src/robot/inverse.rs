@@ -284,3 +284,41 @@ pub(crate) fn unreachable(tcp: &Pose, distance: f64, (reach_min, reach_max): (f6
     let position = [tcp.position.x, tcp.position.y, tcp.position.z];
     Error::Unreachable { sample: None, arc_length: None, position, distance, reach_min, reach_max }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::library;
+
+    #[test]
+    fn what_continues_is_the_nearest_of_all() {
+        // Steps of up to 9 cm, with the wrist near axis 1, where another shoulder may be nearer; the second arm's plane lies beside that axis.
+        for id in ["staubli-rx90", "staubli-tx90"] {
+            let preset = library::robot(id).unwrap();
+            let robot = Robot::new(id, preset.links(), None, [0.0; 6]).unwrap();
+            let (mut certain, mut open) = (0, 0);
+            for k in 0..1000 {
+                let share = |n: u32| f64::from(k * n % 1009) / 1009.0;
+                let around = |n: u32, size: f64| size * (share(n) - 0.5);
+                let place = Vector3::new(around(17, 0.2), around(19, 0.2), 1.0 + around(13, 0.2));
+                let from = Pose::from_xyz_rpy(place, [3.0 * share(5), 1.5 * share(7), 6.0 * share(11)]);
+                let step = Vector3::new(around(23, 0.1), around(29, 0.1), around(31, 0.1)) * share(37);
+                let to = Pose { position: place + step, ..from };
+                // The arm that stands beside axis 1 does not reach it.
+                let Ok(before) = inverse(&robot, &from, &Joints::zeros()) else { continue };
+                for last in before.iter() {
+                    let Ok(all) = inverse(&robot, &to, &last.q) else { continue };
+                    match continued(&robot, &to, last) {
+                        Some(found) => {
+                            let nearest = all.nearest(&last.q).unwrap();
+                            assert!((found.q - nearest.q).amax() < 1e-9, "{found:?}, not {nearest:?}");
+                            certain += 1;
+                        }
+                        None => open += 1,
+                    }
+                }
+            }
+            assert!(certain > 4 * open, "{id}: all are asked for {open} times, for {certain} one is enough");
+        }
+    }
+}

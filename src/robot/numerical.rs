@@ -152,7 +152,7 @@ mod tests {
 
     #[test]
     fn a_turn_about_an_axis_is_that_axis_times_its_angle() {
-        for angle in [1e-12, 1e-6, 0.1, 1.0, 2.0, 3.1, -0.5, -3.0] {
+        for angle in [0.0, 1e-12, 1e-6, 0.1, 1.0, 2.0, 3.1, -0.5, -3.0] {
             for i in 0..3 {
                 let mut rpy = [0.0; 3];
                 rpy[i] = angle;

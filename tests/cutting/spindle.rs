@@ -28,6 +28,7 @@ fn energy_goes_through_the_spindle() {
     let disc = FRAC_PI_2 * 0.006 * 0.006;
     assert!((ball.section() - disc).abs() < 1e-4 * disc);
     assert!((half().mean_chip(CHIP) - CHIP * 2.0 / PI).abs() < 1e-12, "Altintas's mean over a quarter turn");
+    assert_eq!(Cut { axial_depth: 0.0, ..half() }.mean_chip(CHIP), 0.0, "no cut, no chip");
 }
 
 #[test]
