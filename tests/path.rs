@@ -5,8 +5,8 @@
 mod common;
 
 use armill::math::Pose;
-use armill::motion::Trajectory;
 use armill::motion::trajectory::Tempo;
+use armill::motion::{Pace, Trajectory};
 use armill::path::{Move, MovePace, Path, Program, Segment, shape};
 use common::{any_vector, between};
 use nalgebra::Vector3;
@@ -311,6 +311,10 @@ fn rapids_do_not_cut_and_waits_are_waited() {
     // Rapid: 0.05 m at up to 0.2 m/s; then 0.05 m at 0.1 m/s; both from rest to rest with 1 m/s^2; and the wait.
     let expected = (0.05 / 0.2 + 0.2) + 0.3 + (0.05 / 0.1 + 0.1);
     assert!((trajectory.moving as f64 * 1e-3 - expected).abs() < 3e-3);
+    // Stations stand evenly from the start to the end, at each move's full speed.
+    let Pace { arc_length, speed, engaged, .. } = Trajectory::stations(&path, &tempo, 5).pace;
+    assert!(arc_length.iter().zip([0.0, 0.025, 0.05, 0.075, 0.1]).all(|(s, even)| (s - even).abs() < 1e-15));
+    assert_eq!([speed[1], speed[3], engaged[1], engaged[3]], [0.2, 0.1, 0.0, 1.0]);
 }
 
 #[test]
