@@ -68,7 +68,7 @@ pub struct Deviation {
     pub axis: Vec<Vector3<f64>>,
     /// Contour error, from the actual tip to the closest point of the desired path [m].
     pub contour_error: Vec<Vector3<f64>>,
-    /// Angle between the actual and the desired tool axis where the tool is along the path [rad].
+    /// Angle between the actual and the desired tool axis where the tool is along the path [rad]; empty unless every source acts.
     pub axis_error: Vec<f64>,
 }
 
@@ -176,14 +176,17 @@ pub fn deviate_with(
     q: &[Joints],
     on_share: &mut dyn FnMut(f64),
 ) -> Deviation {
-    let mut whole = Arrivals::new(plan, passage);
+    let mut whole = Arrivals::new(plan, passage, passage.acting);
     send(plan, passage, q, on_share, |k, pose, given_way| whole.push(k, pose, given_way));
     whole.deviation
 }
 
 /// The same and, from the same poses, what each source does.
 pub fn deviate_apart(plan: &Plan, passage: &Passage, q: &[Joints], on_share: &mut dyn FnMut(f64)) -> Parted {
-    let (mut whole, mut shaping) = (Arrivals::new(plan, passage), Arrivals::new(plan, passage));
+    let (mut whole, mut shaping) = (
+        Arrivals::new(plan, passage, passage.acting),
+        Arrivals::new(plan, passage, Sources::only(Source::Shaping)),
+    );
     let mut deflection = Vec::with_capacity(passage.force.len());
     send(plan, passage, q, on_share, |k, pose, given_way| {
         shaping.push(k, pose, &Default::default());
@@ -232,20 +235,21 @@ struct Arrivals<'a> {
     path: &'a Path,
     passage: &'a Passage<'a>,
     keeps_axes: bool,
+    keeps_angles: bool,
     deviation: Deviation,
 }
 
 impl<'a> Arrivals<'a> {
-    fn new(plan: &'a Plan, passage: &'a Passage<'a>) -> Self {
+    fn new(plan: &'a Plan, passage: &'a Passage<'a>, acting: Sources) -> Self {
         let samples = passage.arc_length.len();
-        let keeps_axes = plan.path.is_multi_axis();
+        let (keeps_axes, keeps_angles) = (plan.path.is_multi_axis(), acting == Sources::ALL);
         let deviation = Deviation {
             actual: Vec::with_capacity(samples),
             axis: Vec::with_capacity(if keeps_axes { samples } else { 0 }),
             contour_error: Vec::with_capacity(samples),
-            axis_error: Vec::with_capacity(samples),
+            axis_error: Vec::with_capacity(if keeps_angles { samples } else { 0 }),
         };
-        Self { path: &plan.path, passage, keeps_axes, deviation }
+        Self { path: &plan.path, passage, keeps_axes, keeps_angles, deviation }
     }
 
     /// The tip and axis of the sample `k` that have moved [m] and turned [rad].
@@ -257,14 +261,16 @@ impl<'a> Arrivals<'a> {
     ) {
         let Self { path, passage, deviation, .. } = self;
         let tip = tip + moved;
-        let axis = (axis + turned.cross(axis)).normalize();
-        deviation.axis_error.push(math::angle_between(&axis, passage.axis.at(k)));
-        deviation.contour_error.push(contour::contour_error(
-            path,
-            (passage.arc_length[k], &passage.target[k]),
-            &tip,
-        ));
+        let place = (passage.arc_length[k], &passage.target[k]);
+        deviation.contour_error.push(contour::contour_error(path, place, &tip));
         deviation.actual.push(tip);
+        if !(self.keeps_axes || self.keeps_angles) {
+            return;
+        }
+        let axis = (axis + turned.cross(axis)).normalize();
+        if self.keeps_angles {
+            deviation.axis_error.push(math::angle_between(&axis, passage.axis.at(k)));
+        }
         if self.keeps_axes {
             deviation.axis.push(axis);
         }

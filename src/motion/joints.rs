@@ -6,7 +6,7 @@ use crate::motion::Trajectory;
 use crate::path::{Axes, Path};
 use crate::robot::inverse::{self, Margin, Solution};
 use crate::robot::{Joints, Robot};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 
 /// Which of the up to eight solutions the motion starts on.
@@ -64,9 +64,15 @@ pub fn joint_trajectory_with(
     let mut margin = Vec::with_capacity(positions.len());
     let mut previous: Option<Solution> = None;
     let mut first = None;
+    // Axis, spin and orientation of the last sample: mostly the next one's too.
+    let mut held = (Vector3::zeros(), 0.0, Matrix3::zeros());
     for (k, position) in positions.iter().enumerate() {
         let s = trajectory.pace.arc_length[k];
-        let tcp = Pose { rotation: path.orientation(axes.at(k), path.spin(s)), position: *position };
+        let (axis, spin) = (axes.at(k), path.spin(s));
+        if (held.0, held.1) != (*axis, spin) {
+            held = (*axis, spin, path.orientation(axis, spin));
+        }
+        let tcp = Pose { rotation: held.2, position: *position };
         let place = |error: Error| error.at(k, s);
         let solution = match &previous {
             None => first_solution(robot, &tcp, start).map_err(place)?,
