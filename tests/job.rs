@@ -334,6 +334,14 @@ fn progress_ascends_and_ends() {
     armill::run_json(&Job::default().to_json(), |stage| told.push(stage.fraction)).unwrap();
     assert!(told.len() >= 5 && told.windows(2).all(|pair| pair[0] < pair[1]));
     assert!(told[0] == 0.0 && told.iter().all(|fraction| *fraction <= 1.0));
+    // Many samples tell within their stages too.
+    let mut told = Vec::new();
+    let job = job_text(&[("motion.sample_time_s", json!(4e-4))]);
+    armill::run_json(&job, |stage| told.push((stage.name, stage.fraction))).unwrap();
+    assert!(told.windows(2).all(|pair| pair[0].1 < pair[1].1), "{told:?}");
+    for (stage, least) in [("joint commands", 2), ("deflection and shaping", 2), ("compensation", 4)] {
+        assert!(told.iter().filter(|(name, _)| *name == stage).count() >= least, "{stage}: {told:?}");
+    }
     // A long program tells while it is read, whichever its language.
     let way = |row: fn(f64) -> String| (0..20_000).map(|i| row(f64::from(i) * 1e-3)).collect::<String>();
     for (kind, text) in [
