@@ -219,6 +219,13 @@ fn a_job_says_which_it_is() {
         {"alpha_deg":90,"a_mm":0,"d_mm":450}, {"alpha_deg":-90,"a_mm":0,"d_mm":0}, {"alpha_deg":90,"a_mm":0,"d_mm":85}],
         "joint_3": "parallelogram", "joint_compliance_rad_per_nm": compliance});
     assert_eq!(refused(&[("robot", bent)]).field(), Some("robot.joint_3"));
+    // Axes 2 and 3 are parallel, either way round, or they are not.
+    for (deg, parallel) in [(0.0, true), (90.0, false), (180.0, true), (-90.0, false), (-180.0, true)] {
+        let mut links = *arms()[0].links();
+        links[2].alpha = f64::to_radians(deg);
+        let arm = Robot::new("", links, None, [0.0; 6]).unwrap().with_elbow(Elbow::Parallelogram);
+        assert_eq!(arm.is_ok(), parallel, "{deg} deg");
+    }
     let fanuc = library::robot("fanuc-r-2000ic-210f").unwrap();
     let robot =
         Robot::new("", fanuc.links(), None, fanuc.joint_compliance).unwrap().with_elbow(fanuc.elbow).unwrap();

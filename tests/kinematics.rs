@@ -6,7 +6,7 @@ mod common;
 
 use armill::math::Pose;
 use armill::robot::inverse::{Branch, Margin, Solution, inverse};
-use armill::robot::{Joints, Link, Opw, Robot, compliance, forward, jacobian};
+use armill::robot::{Joints, Link, Opw, Robot, compliance, forward, jacobian, library};
 use common::{any_arm, any_joints, any_vector};
 use nalgebra::{Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
 use serde_json::Value;
@@ -217,6 +217,36 @@ fn a_wrist_centre_on_axis_1_is_reached() {
 }
 
 #[test]
+fn a_stretched_arm_is_still_within_reach() {
+    let robot = common::rx90();
+    for q2 in [0.0, 0.4, 1.0, -0.7] {
+        let tcp = forward::forward(&robot, &Joints::from([0.3, q2, 0.0, 0.2, 0.5, 0.1]));
+        let solutions = inverse(&robot, &tcp, &Joints::zeros()).unwrap();
+        // The reach falls by the square of the elbow's angle: 1e-16 m of rounding is 3e-8 rad.
+        assert!(solutions.iter().all(|s| s.margin.elbow < 1e-6 && s.q[2].abs() < 1e-6), "at {q2}");
+    }
+}
+
+#[test]
+fn an_arm_beside_axis_1_does_not_reach_it() {
+    let robot = library::robot("staubli-tx90").unwrap();
+    assert_eq!(
+        (robot.opw.lengths_mm[2], robot.opw.lengths_mm[3]),
+        (50.0, 478.0),
+        "beside axis 1, and the shoulder's height"
+    );
+    let robot = Robot::new("TX90", robot.links(), None, [0.0; 6]).unwrap();
+    let place = |x: f64| Pose::from_xyz_rpy(Vector3::new(x, 0.0, 0.478 + 0.7), [0.0; 3]);
+    assert!(inverse(&robot, &place(0.051), &Joints::zeros()).is_ok());
+    match inverse(&robot, &place(0.03), &Joints::zeros()) {
+        Err(armill::Error::Unreachable { distance, reach_min, .. }) => {
+            assert!((distance - 0.03).abs() < 1e-12 && (reach_min - 0.05).abs() < 1e-12);
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
 fn wrist_singularity_keeps_joint_4_and_still_closes() {
     let robot = common::rx90();
     let mut random = fastrand::Rng::with_seed(3);
@@ -305,7 +335,7 @@ fn tables_outside_the_family_are_named_by_row() {
         bent(row, change).unwrap().closed_form().unwrap_err().to_string()
     };
     assert!(said(1, &|l| l.alpha = 400_f64.to_radians()).contains("400"));
-    assert!(said(4, &|l| l.a = 0.125).contains("125"));
+    assert!(said(4, &|l| l.a = 0.125).contains(" 125"));
     assert!(said(2, &|l| l.a = 5e-7).contains("0.0005"));
     assert!(said(3, &|l| l.d = 5e-7).contains("0.0005"));
     let refused =

@@ -168,6 +168,26 @@ mod tests {
     }
 
     #[test]
+    fn small_steps_continue_and_large_ones_are_searched() {
+        let preset = crate::robot::library::robot("staubli-rx90").unwrap();
+        let mut links = preset.links();
+        links[0].alpha += 0.5;
+        let robot = Robot::new("tilted", links, None, [0.0; 6]).unwrap();
+        let mut met = 0;
+        for last in (1..60).map(|k| described(&robot, start(k))) {
+            if last.margin.elbow.min(last.margin.wrist).min(last.margin.shoulder) < 0.3 {
+                continue;
+            }
+            met += 1;
+            let at = |step: f64| last.q + Joints::new(step, -step, step, step, -step, step);
+            let to = |step: f64| continued(&robot, &forward::forward(&robot, &at(step)), &last);
+            assert!((to(0.05).unwrap().q - at(0.05)).amax() < 1e-9);
+            assert!(to(0.6).is_none_or(|found| (found.q - last.q).amax() < TRUSTED));
+        }
+        assert!(met > 10, "{met} poses");
+    }
+
+    #[test]
     fn starting_points_are_spread_evenly_within_half_a_turn() {
         let all: Vec<_> = (1..STARTS).map(start).collect();
         assert!(all.iter().all(|q| q.amax() <= TAU / 2.0));
