@@ -87,6 +87,12 @@ fn at_rest_each_joint_turns_as_its_spring_says_under_the_slope_of_the_work() {
             // The mid-point rule errs by a 24th of the third power, at a reach of less than 2 m.
             let turned: f64 = balance.turns.iter().map(|turn| turn.abs()).sum();
             assert!((sum(&balance.parts) - there).norm() < 2.0 * turned.powi(3) / 24.0 + 1e-14);
+            // And they turn it as far, about the axis that the difference of the rotations shows.
+            let [there, here] = [rest, q].map(|q| forward::forward(&robot, &q).rotation);
+            let turn = there * here.transpose();
+            let axis = Vector3::new(turn[(2, 1)], turn[(0, 2)], turn[(1, 0)]);
+            let parts: Vector3<f64> = balance.parts.iter().map(|(_, turned)| turned).sum();
+            assert!((parts - axis).norm() < turned * turned, "{parts} and {axis}");
         }
     }
 }

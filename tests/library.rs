@@ -62,6 +62,7 @@ fn every_line_is_whole() {
             "{}",
             preset.id
         );
+        assert!(preset.mode_note.is_empty() || preset.mode_note.contains("Hz"), "{}", preset.mode_note);
         // Of the size for machining, or of the RX-90's family.
         let reach = robot.reach().1 + preset.opw.lengths_mm[0] * 1e-3;
         assert!(reach > 1.5 || preset.maker == "Stäubli", "{} reaches {reach} m", preset.id);
@@ -71,6 +72,7 @@ fn every_line_is_whole() {
         }
     }
     assert_eq!(run(&[]).summary().robot, "Stäubli RX-90");
+    assert!(all.iter().any(|preset| !preset.mode_note.is_empty()));
     let known = all.iter().filter(|preset| !preset.stiffness_assumed).count();
     assert_eq!(known, 4);
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/robot/library");
