@@ -312,13 +312,7 @@ mod tests {
         let stations = Trajectory::stations(&path, &tempo, 6);
         // Any error that favours other angles here than there.
         let errors = |at: &[usize], q: &[Joints]| {
-            at.iter()
-                .zip(q)
-                .map(|(&k, q)| {
-                    let x = q[3] - 0.3 * k as f64;
-                    x * x
-                })
-                .collect()
+            at.iter().zip(q).map(|(&k, q)| (q[3] - 0.3 * k as f64).powi(2)).collect()
         };
         for goal in [Goal::SmoothJoints, Goal::LeastError] {
             let freedom = Freedom { low: -40.0 * DEG, high: 40.0 * DEG, goal };
@@ -363,14 +357,33 @@ mod tests {
     }
 
     #[test]
+    fn the_angle_that_makes_no_error_is_found() {
+        let (robot, path, tempo) = case();
+        let (stations, start) = (&Trajectory::stations(&path, &tempo, 6), START);
+        for angle in [-33.3 * DEG, 28.4 * DEG] {
+            let held = path.clone().with_spin(Spin::fixed(angle));
+            let desired = (stations.position.as_slice(), &stations.axis);
+            let wanted = joint_trajectory(&robot, &held, stations, desired, START).unwrap().q;
+            let errors = |at: &[usize], q: &[Joints]| {
+                at.iter().zip(q).map(|(&k, q)| (q - wanted[k]).norm_squared()).collect()
+            };
+            let freedom = Freedom { low: -40.0 * DEG, high: 40.0 * DEG, goal: Goal::LeastError };
+            let (robot, path, errors) = (&robot, &path, &errors);
+            let found =
+                Search { robot, path, stations, start, freedom, calm: 1e-9, errors }.best(0.0).unwrap();
+            // The error counts by its fourth power, which is flat there.
+            assert!(stations.pace.arc_length.iter().all(|&s| (found.at(s) - angle).abs() < 0.7 * DEG));
+        }
+    }
+
+    #[test]
     fn cost_of_a_pose_and_of_a_turn() {
         let (robot, path, tempo) = case();
         let stations = Trajectory::stations(&path, &tempo, 5);
         let none = |at: &[usize], _: &[Joints]| vec![0.0; at.len()];
         let freedom = Freedom { low: 0.0, high: 0.0, goal: Goal::SmoothJoints };
-        let (path, start) = (&path, START);
-        let search =
-            |robot| Search { robot, path, stations: &stations, start, freedom, calm: 2.0, errors: &none };
+        let (path, stations, start) = (&path, &stations, START);
+        let search = |robot| Search { robot, path, stations, start, freedom, calm: 2.0, errors: &none };
         let ours = search(&robot);
         // The mean square of the error over all poses is the scale of it, or 1 where there is none.
         let scale = |goal, of: f64| {
