@@ -153,7 +153,9 @@ fn sag_counts_from_where_the_part_was_touched_off() {
     let first = absolute.deflection[0];
     assert!(first.z < -2e-5, "9 kg pull a soft arm down by more than 20 um: {first}");
     assert_eq!(touched.deflection[0], Vector3::zeros());
-    let leans = [&absolute, &touched].map(|report| report.before.axis_error[0]);
+    let leaning = ("path", json!({"kind":"csv","text":"600,-60,100,0,0,1\n600,60,100,0,0.1,1"}));
+    let leans = ["model", "start"]
+        .map(|zero| arc(robot(zero), &[idle[0].clone(), leaning.clone()]).before.axis_error[0]);
     assert!(leans[0] > 2e-5 && leans[1] < 1e-12, "the axis counts from there too: {leans:?}");
     for (a, b) in absolute.deflection.iter().zip(&touched.deflection) {
         assert!((a - b - first).norm() < 1e-15);

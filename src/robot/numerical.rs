@@ -160,7 +160,7 @@ mod tests {
                 // Beside half a turn the sine is small and its rounding counts.
                 assert!(
                     (turn - Vector3::ith(i, angle)).norm()
-                        < 1e-15 * (1.0 + 1.0 / angle.sin().abs().max(1e-2)),
+                        < 1e-15 * (1.0 + 1.0 / math::sin(angle).abs().max(1e-2)),
                     "{turn}"
                 );
             }
