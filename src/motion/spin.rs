@@ -385,18 +385,21 @@ mod tests {
         let (path, stations, start) = (&path, &stations, START);
         let search = |robot| Search { robot, path, stations, start, freedom, calm: 2.0, errors: &none };
         let ours = search(&robot);
-        // The mean square of the error over all poses is the scale of it, or 1 where there is none.
-        let scale = |goal, of: f64| {
-            let errors = |at: &[usize], _: &[Joints]| (0..at.len()).map(|k| of * (k % 2) as f64).collect();
-            let mut scale = None;
-            let freedom = Freedom { goal, ..freedom };
-            Search { freedom, errors: &errors, ..search(&robot) }.cells(&vec![vec![0.0]; 5], &mut scale);
-            scale.unwrap()
-        };
-        assert_eq!(scale(Goal::SmoothJoints, 8.0), 1.0);
-        assert_eq!([0.0, 8.0].map(|of| scale(Goal::LeastError, of)), [1.0, 4.0]);
         let close =
             |ours: f64, expected: f64| assert!((ours - expected).abs() < 1e-9, "{ours} for {expected}");
+        // The mean square of the error over all poses is the scale of it, or 1 where there is none.
+        let scale = |of: f64| {
+            let errors = |at: &[usize], _: &[Joints]| (0..at.len()).map(|k| of * (k % 2) as f64).collect();
+            let mut scale = None;
+            let freedom = Freedom { goal: Goal::LeastError, ..freedom };
+            let search = Search { freedom, errors: &errors, ..search(&robot) };
+            let cells = search.cells(&[vec![0.0]], &mut scale).into_iter().flatten().flatten();
+            for (k, (pose, cost)) in cells.enumerate() {
+                close(cost, search.own(&pose.margin, of * (k % 2) as f64 / scale.unwrap()));
+            }
+            scale.unwrap()
+        };
+        assert_eq!([0.0, 8.0].map(scale), [1.0, 4.0]);
         // A fifth for each of five stations: the error's square, then the squares of what is missing to a margin, as a share of it.
         let margin = |shoulder, elbow, wrist| Margin { shoulder, elbow, wrist };
         close(ours.own(&margin(1.0, 1.0, 1.0), 3.0), 9.0 / 5.0);

@@ -291,6 +291,13 @@ mod tests {
     use crate::robot::library;
 
     #[test]
+    fn a_pose_is_near_in_position_and_in_rotation() {
+        let at = |x: f64, turn: f64| Pose::from_xyz_rpy(Vector3::new(x, 0.0, 0.0), [turn, 0.0, 0.0]);
+        let near = |x: f64, turn: f64| is_near(&at(0.1, 0.2), &at(0.1 + x, 0.2 + turn));
+        assert!(near(1e-10, 1e-10) && !near(1e-8, 0.0) && !near(0.0, 1e-8));
+    }
+
+    #[test]
     fn what_continues_is_the_nearest_of_all() {
         // Steps of up to 9 cm, with the wrist near axis 1, where another shoulder may be nearer; the second arm's plane lies beside that axis.
         for id in ["staubli-rx90", "staubli-tx90"] {
