@@ -260,10 +260,15 @@ fn without_a_network_the_page_goes_on() -> Result {
 /// Before the page's own scripts: keeps its Workers where a test can reach them.
 const HOLD_WORKERS: &str = "window.workers = []; window.Worker = class extends Worker { constructor(...all) { super(...all); workers.push(this); } }";
 
+/// And has it wait a second where it would wait for twenty.
+const HASTEN: &str = "; const later = window.setTimeout.bind(window); \
+    window.setTimeout = (action, delay, ...rest) => later(action, delay === 20_000 ? 1000 : delay, ...rest)";
+
 #[test]
 fn workers_killed_while_they_compute_are_replaced() -> Result {
     visit("/", DESKTOP, async |page| {
-        page.devtools("Page.addScriptToEvaluateOnNewDocument", json!({ "source": HOLD_WORKERS })).await?;
+        let source = format!("{HOLD_WORKERS}{HASTEN}");
+        page.devtools("Page.addScriptToEvaluateOnNewDocument", json!({ "source": source })).await?;
         page.reload().await?;
         current(page).await?;
         page.type_into("#motion-sample_time_s", "2.5e-5").await?;
@@ -272,7 +277,9 @@ fn workers_killed_while_they_compute_are_replaced() -> Result {
             page.js("workers.forEach((worker) => worker.terminate()); return workers.length").await?.as_u64()
                 >= Some(2)
         );
-        // Nobody tells a page that its Worker was taken away: to it the run is a long one, which can be given up.
+        // Nobody tells a page that its Worker was taken away: to it the run is a long one that says nothing, which can be given up.
+        page.wait_for("document.querySelector('#status').textContent.startsWith('Nothing was heard')", 20.0)
+            .await?;
         page.click("#cancel").await?;
         stale(page).await?;
         assert!(text(page, "status").await?.contains("Cancelled. Showing the last valid result."));

@@ -28,6 +28,7 @@ import { followTheme } from "./theme.js";
 const TYPING_MS = 150; // results follow this long after the last key
 const PUSHED = 4000; // samples of a run that follows a number while it is pushed
 const PATIENCE_MS = 150; // a run that takes longer shows its progress
+const SILENCE_MS = 20_000; // of a run that this has not been heard of, the page says so: nobody tells it that a Worker was taken away
 
 await begun;
 
@@ -42,6 +43,7 @@ let standard; // the default job
 let formats = []; // programs that a run can be exported to
 let shown = null; // the shown result: { json, summary } and its job
 let slow; // timer that shows the progress
+let silent; // timer that says that there is none
 let typing = false; // there are edits that no run has been started for yet
 let preview; // JSON text of the last job with fewer samples
 
@@ -111,8 +113,10 @@ const events = {
       say("Computing…");
       results.classList.add("slow");
     }, PATIENCE_MS);
+    heard();
   },
   onprogress({ fraction, stage }) {
+    heard();
     byId("progress").value = fraction;
     if (results.classList.contains("slow")) say(`Computing: ${stage}`);
   },
@@ -131,7 +135,7 @@ const events = {
     placement.look();
     for (const id of ["download-compensated", "download-columns", "download-program", "export-format", "share", "pin"]) byId(id).disabled = false;
     if (form.flawed) return stale();
-    if (shown.json === preview) say(`A preview of ${formatNumber(summary.samples, 1)} samples`);
+    if (shown.json === preview) return say(`A preview of ${formatNumber(summary.samples, 1)} samples`);
     if (typing) return; // shown, but of an earlier edit
     state("current");
     say(`${formatNumber(summary.samples, 1)} samples in ${formatNumber(took / 1000, 2)} s`);
@@ -213,8 +217,15 @@ function wireDrop() {
   });
 }
 
+/** The run in progress is alive. */
+function heard() {
+  clearTimeout(silent);
+  silent = setTimeout(say, SILENCE_MS, `Nothing was heard of the run for ${SILENCE_MS / 1000} s: the browser may have ended it. Cancel, or wait.`);
+}
+
 function idle() {
   clearTimeout(slow);
+  clearTimeout(silent);
   results.classList.remove("slow");
 }
 
