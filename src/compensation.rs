@@ -88,8 +88,13 @@ pub fn compensate(
         let undone = |missing: Vec<Vector3<f64>>| {
             if passage.acting.shaping { plan.shaper.undo(&missing, sample_time, moving) } else { missing }
         };
-        let (correction, axis) =
-            corrected(&plan.path, passage, &best.result, (&best.correction, &best.axis), undone);
+        let (correction, axis) = corrected(
+            &plan.path,
+            (&passage.target, &passage.axis),
+            &best.result,
+            (&best.correction, &best.axis),
+            undone,
+        );
         let positions: Vec<_> =
             plan.trajectory.position.iter().zip(&correction).map(|(desired, c)| desired + c).collect();
         // A pass is one half inverse model, one half all that comes after it.
@@ -127,16 +132,16 @@ pub fn compensate(
     best
 }
 
-/// A correction [m] and tool axes, one a sample, with what `result` is missing at the places of `passage`: `undone` turns the vectors that are
+/// A correction [m] and tool axes, one a sample, with what `result` is missing of the tips and axes wanted: `undone` turns the vectors that are
 /// missing into those to add to the commands.
 pub(crate) fn corrected(
     path: &Path,
-    passage: &Passage,
+    (target, wanted): (&[Vector3<f64>], &Axes),
     result: &Deviation,
     (correction, axis): (&[Vector3<f64>], &Axes),
     undone: impl Fn(Vec<Vector3<f64>>) -> Vec<Vector3<f64>>,
 ) -> (Vec<Vector3<f64>>, Axes) {
-    let missing = passage.target.iter().zip(&result.actual).map(|(target, actual)| target - actual);
+    let missing = target.iter().zip(&result.actual).map(|(target, actual)| target - actual);
     let mut bent = undone(missing.collect());
     for (more, known) in bent.iter_mut().zip(correction) {
         *more = known + *more;
@@ -145,7 +150,7 @@ pub(crate) fn corrected(
         return (bent, axis.clone());
     }
     // The turn that is missing, as a rotation vector: its size is the sine of the angle, small and soon exact.
-    let missing = result.axis.iter().enumerate().map(|(k, actual)| actual.cross(passage.axis.at(k)));
+    let missing = result.axis.iter().enumerate().map(|(k, actual)| actual.cross(wanted.at(k)));
     let turns = undone(missing.collect());
     let turned = turns.iter().enumerate().map(|(k, turn)| {
         let axis = axis.at(k);

@@ -4,7 +4,7 @@
 mod spin;
 
 use crate::compensation::{Goal, compensate};
-use crate::deviation::{Parted, Plan, Source, Sources, deviate, deviate_apart, deviate_with};
+use crate::deviation::{Parted, Plan, Source, Sources, deviate_apart, deviate_with};
 use crate::error::Error;
 use crate::job::Job;
 use crate::motion::Trajectory;
@@ -17,7 +17,7 @@ use std::sync::Arc;
 pub struct Stage {
     /// Share of the work done, from 0 to 1, if every pass is needed.
     pub fraction: f64,
-    /// What is done next.
+    /// What is being done.
     pub name: &'static str,
 }
 
@@ -67,8 +67,7 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
     };
     #[cfg(feature = "full")]
     if let Some(freedom) = &setup.freedom {
-        tell(0.0, "spin about the tool axis");
-        plan.path = spin::chosen(&plan, &setup, freedom);
+        plan.path = spin::chosen(&plan, &setup, freedom, &mut || tell(0.0, "spin about the tool axis"));
     }
     let desired = (plan.trajectory.position.as_slice(), &plan.trajectory.axis);
     let on_share = &mut |share| tell(share, "joint commands");
@@ -115,7 +114,8 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
     let after = if sought.acting == Sources::ALL {
         compensation.result.clone()
     } else {
-        Arc::new(deviate(&plan, &passage, &compensation.q))
+        let on_share = &mut |_| tell(steps - reading - 1.0, "all that acts");
+        Arc::new(deviate_with(&plan, &passage, &compensation.q, on_share))
     };
     let force = passage.force.clone();
     drop(passage);

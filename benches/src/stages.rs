@@ -1,6 +1,5 @@
 //! The stages of the default job, each timed alone on what the earlier ones have made.
 
-use std::borrow::Cow;
 use std::hint::black_box;
 use std::sync::Arc;
 
@@ -88,7 +87,7 @@ impl Stages {
 
     /// Where the tool is, and the force on it.
     fn passage(&self) -> Passage<'_> {
-        Passage::new(&self.plan, Cow::Borrowed(&self.pace), Sources::ALL)
+        Passage::new(&self.plan, self.pace.clone(), Sources::ALL)
     }
 
     /// The number of samples.

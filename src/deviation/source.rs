@@ -4,7 +4,7 @@ use crate::cutting::along::{self, ChipLoad};
 use crate::cutting::{Bending, LinearForce};
 use crate::deviation::contour;
 use crate::math;
-use crate::motion::joints::STRIDE;
+use crate::motion::joints::tell_share;
 use crate::motion::{Pace, Shaper, Trajectory};
 use crate::path::{Axes, Path};
 use crate::robot::{Joints, Robot, compliance, forward};
@@ -72,14 +72,14 @@ pub struct Deviation {
     pub axis_error: Vec<f64>,
 }
 
-/// The same, taken apart.
+/// What becomes of joint commands while every source acts, taken apart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parted {
-    /// By every source that acts.
+    /// By every source.
     pub whole: Deviation,
     /// The same if nothing gave way to forces.
     pub shaping: Deviation,
-    /// Displacement of the tip by the force [m]; empty if it does not act.
+    /// Displacement of the tip by the force [m].
     pub deflection: Vec<Vector3<f64>>,
 }
 
@@ -97,7 +97,7 @@ impl Plan {
     pub fn passage(&self, acting: Sources) -> Passage<'_> {
         let Trajectory { pace, position, axis, .. } = &self.trajectory;
         if acting.shaping {
-            return Passage::new(self, self.pace(acting), acting);
+            return Passage::new(self, self.pace(acting).into_owned(), acting);
         }
         Passage {
             acting,
@@ -126,13 +126,9 @@ pub struct Passage<'a> {
 
 impl<'a> Passage<'a> {
     /// The passage at a pace under the plan's cut.
-    pub fn new(plan: &Plan, pace: Cow<'a, Pace>, acting: Sources) -> Self {
+    pub fn new(plan: &Plan, pace: Pace, acting: Sources) -> Self {
         let force = Self::force(plan, &pace, acting);
-        let arc_length = match pace {
-            Cow::Borrowed(pace) => Cow::Borrowed(pace.arc_length.as_slice()),
-            Cow::Owned(pace) => Cow::Owned(pace.arc_length),
-        };
-        Self::under(&plan.path, arc_length, acting, force.into())
+        Self::under(&plan.path, Cow::Owned(pace.arc_length), acting, force.into())
     }
 
     fn force(plan: &Plan, pace: &Pace, acting: Sources) -> Vec<Vector3<f64>> {
@@ -181,7 +177,7 @@ pub fn deviate_with(
     whole.deviation
 }
 
-/// The same and, from the same poses, what each source does.
+/// The same for a passage where every source acts and, from the same poses, what shaping does alone and how far forces move the shaped tip.
 pub fn deviate_apart(plan: &Plan, passage: &Passage, q: &[Joints], on_share: &mut dyn FnMut(f64)) -> Parted {
     let (mut whole, mut shaping) = (
         Arrivals::new(plan, passage, passage.acting),
@@ -191,9 +187,7 @@ pub fn deviate_apart(plan: &Plan, passage: &Passage, q: &[Joints], on_share: &mu
     send(plan, passage, q, on_share, |k, pose, given_way| {
         shaping.push(k, pose, &Default::default());
         whole.push(k, pose, given_way);
-        if passage.acting.deflection {
-            deflection.push(given_way.0);
-        }
+        deflection.push(given_way.0);
     });
     Parted { whole: whole.deviation, shaping: shaping.deviation, deflection }
 }
@@ -224,9 +218,7 @@ fn send(
             }
         }
         arrived(k, &(tcp.position, axis), &given_way);
-        if k % STRIDE == STRIDE - 1 {
-            on_share(k as f64 / passage.arc_length.len() as f64);
-        }
+        tell_share(on_share, k, passage.arc_length.len());
     }
 }
 

@@ -7,7 +7,6 @@
 
 use crate::compensation;
 use crate::cutting::along::ChipLoad;
-use crate::deviation::{Passage, Source, Sources};
 use crate::error::Error;
 use crate::export::command::{Command, Course, Style};
 use crate::export::replay::{self, Replay};
@@ -16,8 +15,6 @@ use crate::report::{Report, millimetres};
 use crate::units::MM;
 use nalgebra::Vector3;
 use serde::Serialize;
-use std::borrow::Cow;
-use std::sync::Arc;
 
 /// A pass that leaves more than this share of the error is no improvement.
 const IMPROVEMENT: f64 = 0.99;
@@ -97,11 +94,9 @@ fn corrected(report: &Report, course: &Course, outcome: &Replay) -> Course {
         filed(&change, &outcome.instants, report)
     };
     let known = (course.correction.as_slice(), &course.axis);
-    let Replay { arc_length, deviation, .. } = outcome;
+    let Replay { target, axis, deviation, .. } = outcome;
     let path = &report.plan.path;
-    let places = Cow::Borrowed(arc_length.as_slice());
-    let passage = Passage::under(path, places, Sources::only(Source::Shaping), Arc::default());
-    let (correction, axis) = compensation::corrected(path, &passage, deviation, known, undone);
+    let (correction, axis) = compensation::corrected(path, (target, axis), deviation, known, undone);
     Course { correction, axis }
 }
 

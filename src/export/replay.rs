@@ -22,8 +22,10 @@ use std::borrow::Cow;
 pub struct Replay {
     /// The desired motion that its samples stand for.
     pub trajectory: Trajectory,
-    /// Arc length of the desired path where the shaped motion is [m].
-    pub arc_length: Vec<f64>,
+    /// The desired path's points where the shaped motion is [m].
+    pub target: Vec<Vector3<f64>>,
+    /// Its tool axes there.
+    pub axis: Axes,
     /// What becomes of its commands, every source acting, judged against the path first desired.
     pub deviation: Deviation,
     /// For each sample the instant of the report's run that it stands for, in samples; it never goes back.
@@ -103,7 +105,8 @@ pub fn run(report: &Report, course: &Course, program: &Program) -> Result<Replay
     }
     let passage = Passage::under(&plan.path, Cow::Borrowed(&pace.arc_length), Sources::ALL, force.into());
     let deviation = deviate(&plan, &passage, &q);
-    Ok(Replay { trajectory: plan.trajectory, arc_length: pace.arc_length, deviation, instants })
+    let Passage { target, axis, .. } = passage;
+    Ok(Replay { target: target.into_owned(), axis, deviation, instants, trajectory: plan.trajectory })
 }
 
 /// For each sample of the program's own motion the instant of the report's, in samples.

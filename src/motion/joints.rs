@@ -31,8 +31,13 @@ pub struct JointTrajectory {
     pub start: inverse::Branch,
 }
 
-/// Samples between two calls that tell how far a loop over all samples has come.
-pub(crate) const STRIDE: usize = 1 << 15;
+/// Tells now and then, after the sample `k` of `count`, which share of them is done.
+pub(crate) fn tell_share(on_share: &mut dyn FnMut(f64), k: usize, count: usize) {
+    const STRIDE: usize = 1 << 15;
+    if (k + 1).is_multiple_of(STRIDE) {
+        on_share((k + 1) as f64 / count as f64);
+    }
+}
 
 /// Solves the inverse model for TCPs at `positions` [m] with the tool axes `axes` (base frame), each sample nearest to the one before.
 ///
@@ -82,9 +87,7 @@ pub fn joint_trajectory_with(
         q.push(solution.q);
         margin.push(solution.margin);
         previous = Some(solution);
-        if k % STRIDE == STRIDE - 1 {
-            on_share(k as f64 / positions.len() as f64);
-        }
+        tell_share(on_share, k, positions.len());
     }
     match first {
         Some(start) => Ok(JointTrajectory { q: Arc::new(q), margin, start }),

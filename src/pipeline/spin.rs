@@ -10,14 +10,15 @@ use crate::path::{Path, Spin};
 use crate::report::{Effort, SpinGain};
 use crate::robot::Joints;
 use crate::units::DEG;
-use std::borrow::Cow;
 
 /// The path with the spin that suits it best; with the fixed one where none leads to its end, so that the error says where.
-pub(super) fn chosen(plan: &Plan, setup: &Setup, freedom: &Freedom) -> Path {
+/// `on_try` is called before each spin that is tried.
+pub(super) fn chosen(plan: &Plan, setup: &Setup, freedom: &Freedom, on_try: &mut dyn FnMut()) -> Path {
+    on_try();
     let stations = Trajectory::stations(&plan.path, &setup.tempo, spin::STATIONS);
     let acting = Sources::only(Source::Deflection);
     let errors = |at: &[usize], q: &[Joints]| {
-        let passage = Passage::new(plan, Cow::Owned(stations.pace.at(at)), acting);
+        let passage = Passage::new(plan, stations.pace.at(at), acting);
         let errors = deviate(plan, &passage, q).contour_error;
         errors.iter().map(|error| error.norm_squared()).collect()
     };
@@ -35,6 +36,7 @@ pub(super) fn chosen(plan: &Plan, setup: &Setup, freedom: &Freedom) -> Path {
             let held = held(&Plan { trajectory: stations.clone(), ..plan.clone() }, setup, freedom);
             // A little better is no reason to leave the fixed angle.
             for spin in held.into_iter().chain(spin::CALM.into_iter().filter_map(best)) {
+                on_try();
                 let (beyond, error) = outcome(plan, setup, Sources::ALL, &spin);
                 let (now_beyond, now) = known.1;
                 if (now_beyond && !beyond) || (beyond == now_beyond && error < 0.999 * now) {

@@ -118,11 +118,11 @@ impl Report {
     /// Hash over names and bits of all columns (XXH3, 128 bit): the same job gives the same one natively and in every browser.
     pub fn fingerprint(&self) -> String {
         let mut hash = Xxh3::new();
+        let mut bytes = [0; 8 * HASHED];
         for series in self.series() {
             hash.update(series.key.as_bytes());
             // What stays in the processor's cache at a time.
             for from in (0..self.samples()).step_by(HASHED) {
-                let mut bytes = [0; 8 * HASHED];
                 let values = series.values(from..from + HASHED);
                 for (place, value) in bytes.chunks_exact_mut(8).zip(&values) {
                     place.copy_from_slice(&value.to_le_bytes());

@@ -260,9 +260,9 @@ fn without_a_network_the_page_goes_on() -> Result {
 /// Before the page's own scripts: keeps its Workers where a test can reach them.
 const HOLD_WORKERS: &str = "window.workers = []; window.Worker = class extends Worker { constructor(...all) { super(...all); workers.push(this); } }";
 
-/// And has it wait a second where it would wait for twenty.
+/// And has it wait a second where it would wait for thirty.
 const HASTEN: &str = "; const later = window.setTimeout.bind(window); \
-    window.setTimeout = (action, delay, ...rest) => later(action, delay === 20_000 ? 1000 : delay, ...rest)";
+    window.setTimeout = (action, delay, ...rest) => later(action, delay === 30_000 ? 1000 : delay, ...rest)";
 
 #[test]
 fn workers_killed_while_they_compute_are_replaced() -> Result {

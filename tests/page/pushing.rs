@@ -50,18 +50,24 @@ fn a_pushed_number_is_followed_by_previews_and_then_by_all_samples() -> Result {
     visit("/", DESKTOP, async |page| {
         current(page).await?;
         unfold(page, "cutting").await?;
-        page.js("window.seen = []; const samples = document.getElementById('samples'); \
-             new MutationObserver(() => seen.push(Number(samples.dataset.value))) \
-               .observe(samples, { attributes: true, attributeFilter: ['data-value'] })")
-            .await?;
+        page.js(
+            "window.seen = []; \
+             const [samples, taken] = ['samples', 'download-program'].map((id) => document.getElementById(id)); \
+             new MutationObserver(() => seen.push([Number(samples.dataset.value), !taken.disabled])) \
+               .observe(samples, { attributes: true, attributeFilter: ['data-value'] })",
+        )
+        .await?;
         drag(page, "#cutting-axial_depth_mm-label", -20).await?;
         let reached: f64 = page.value("#cutting-axial_depth_mm").await?.parse()?;
         let wanted = run(&[("cutting.axial_depth_mm", json!(reached))]);
         shows(page, &wanted).await?;
-        let seen: Vec<usize> = serde_json::from_value(page.js("return seen").await?)?;
+        // Number of samples, and whether they can be taken away: of a preview they cannot.
+        let seen: Vec<(usize, bool)> = serde_json::from_value(page.js("return seen").await?)?;
         let all = wanted.samples();
-        assert!(seen.iter().any(|samples| (2000..all / 2).contains(samples)), "{seen:?}");
-        assert_eq!(seen.last(), Some(&all));
+        assert!(seen.iter().any(|(samples, _)| (2000..all / 2).contains(samples)), "{seen:?}");
+        assert!(seen.iter().all(|(samples, taken)| (*samples == all) == *taken), "{seen:?}");
+        assert_eq!(seen.last(), Some(&(all, true)));
+        assert_eq!(page.js("return document.querySelectorAll('.preview').length").await?, json!(0));
         Ok(())
     })
 }

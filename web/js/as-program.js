@@ -9,12 +9,12 @@ const LONG_MS = 3000; // a run that takes longer is judged when it is taken away
 let waiting; // timer
 
 /** Judges the shown result once it has stood for a while; `took` is how long its run took [ms]. */
-export function judgeAsProgram({ passes }, took) {
+export function judgeAsProgram({ summary: { passes }, preview }, took) {
   const line = byId("as-program");
   line.textContent = "";
   line.classList.remove("bad");
   clearTimeout(waiting);
-  if (passes === 0) return; // nothing is promised
+  if (passes === 0 || preview) return; // nothing is promised
   if (took > LONG_MS) line.textContent = "Timed by its own moves and feeds, a program may differ: it is run when it is downloaded.";
   else waiting = setTimeout(judge, QUIET_MS, line, core.shownJob());
 }

@@ -35,6 +35,16 @@ export class Job {
     return textOf(this.#data);
   }
 
+  /** Time between samples [s]. */
+  get sampleTime() {
+    return this.get(this.#find("motion.sample_time_s"));
+  }
+
+  /** Its text with another time between samples [s]. */
+  sampledEvery(seconds) {
+    return textOf({ ...this.#data, motion: { ...this.#data.motion, sample_time_s: seconds } });
+  }
+
   /** The job and what is kept for the way back, as plain data of its own. */
   get state() {
     return { job: copy(this.#data), drafts: copy(Object.fromEntries(this.#drafts)) };

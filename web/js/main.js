@@ -9,7 +9,7 @@ import { judgeAsProgram } from "./as-program.js";
 import { byId, debounced, make, sentence } from "./dom.js";
 import { download } from "./download.js";
 import { Form } from "./form.js";
-import { Job, textOf } from "./job.js";
+import { Job } from "./job.js";
 import { makeIdentify } from "./identify/panel.js";
 import { makePlacement } from "./placement/panel.js";
 import { formatLength, formatNumber } from "./number.js";
@@ -27,8 +27,9 @@ import { followTheme } from "./theme.js";
 
 const TYPING_MS = 150; // results follow this long after the last key
 const PUSHED = 4000; // samples of a run that follows a number while it is pushed
+const COARSE_S = 0.005; // but no further apart than this
 const PATIENCE_MS = 150; // a run that takes longer shows its progress
-const SILENCE_MS = 20_000; // of a run that this has not been heard of, the page says so: nobody tells it that a Worker was taken away
+const SILENCE_MS = 30_000; // of a run that has begun and was not heard of for so long the page says so: nobody tells it that a Worker was taken away
 
 await begun;
 
@@ -41,29 +42,32 @@ let form;
 let session;
 let standard; // the default job
 let formats = []; // programs that a run can be exported to
-let shown = null; // the shown result: { json, summary } and its job
+let shown = null; // the shown result: { json, summary, preview } and its job
 let slow; // timer that shows the progress
 let silent; // timer that says that there is none
-let typing = false; // there are edits that no run has been started for yet
-let preview; // JSON text of the last job with fewer samples
+const previews = new Set(); // JSON texts of jobs with fewer samples that were asked for since the last full result
+const TAKEN_AWAY = ["download-compensated", "download-columns", "download-program", "export-format", "share", "pin"];
 
 const state = (name) => (results.dataset.state = name);
 const say = (text) => (byId("status").textContent = text);
 const armView = makeArmView((json) => core.armAtZero(json));
-const lastValid = () => (shown ? " Showing the last valid result." : "");
+const lastValid = () => (shown?.preview ? " Showing a preview with fewer samples." : shown ? " Showing the last valid result." : "");
 
 const computeNow = () => {
-  typing = false;
-  if (!form.flawed) core.run(job.json);
+  if (form.flawed) return;
+  alertOff();
+  form.clearErrors();
+  core.run(job.json);
 };
 const compute = debounced(computeNow, TYPING_MS);
 
 /** Has a long run follow a number that is pushed with fewer samples; all of them come when it rests. */
 function computeSoon() {
-  const { motion, ...rest } = JSON.parse(job.json);
-  const every = Math.floor(shown.summary.duration_s / motion.sample_time_s / PUSHED);
-  if (!(every > 1)) return computeNow();
-  preview = textOf({ ...rest, motion: { ...motion, sample_time_s: motion.sample_time_s * every } });
+  const time = job.sampleTime;
+  const every = Math.floor(Math.min(shown.summary.duration_s / PUSHED, COARSE_S) / time);
+  if (every < 2) return computeNow();
+  const preview = job.sampledEvery(every * time);
+  previews.add(preview);
   core.run(preview);
   compute();
 }
@@ -79,7 +83,6 @@ function edited(stepped = false) {
   form.clearErrors();
   armView.show(job);
   state("computing");
-  typing = true;
   if (!shown) computeNow();
   else if (stepped) computeSoon();
   else compute();
@@ -110,10 +113,9 @@ const events = {
     byId("progress").value = 0;
     clearTimeout(slow);
     slow = setTimeout(() => {
-      say("Computing…");
+      say(shown?.preview ? "Computing all samples…" : "Computing…");
       results.classList.add("slow");
     }, PATIENCE_MS);
-    heard();
   },
   onprogress({ fraction, stage }) {
     heard();
@@ -123,20 +125,24 @@ const events = {
   onresult({ summary, charts }, took) {
     idle();
     const first = !shown;
-    shown = { json: core.shownJob(), summary, get job() { return job.of(JSON.parse(this.json)); } };
+    const json = core.shownJob();
+    const current = json === job.json;
+    shown = { json, summary, preview: !current && previews.has(json), get job() { return job.of(JSON.parse(this.json)); } };
+    if (current) previews.clear();
+    results.classList.toggle("preview", shown.preview);
     showFigures();
     takeLines(summary);
     setCharts(charts);
     if (first) performance.mark("first result"); // for whoever measures
     if (first) restorePin(() => shown);
     scene.show(summary);
-    judgeAsProgram(summary, took);
+    judgeAsProgram(shown, took);
     identify.look();
     placement.look();
-    for (const id of ["download-compensated", "download-columns", "download-program", "export-format", "share", "pin"]) byId(id).disabled = false;
+    for (const id of TAKEN_AWAY) byId(id).disabled = shown.preview;
     if (form.flawed) return stale();
-    if (shown.json === preview) return say(`A preview of ${formatNumber(summary.samples, 1)} samples`);
-    if (typing) return; // shown, but of an earlier edit
+    if (shown.preview) say(`A preview of ${formatNumber(summary.samples, 1)} samples`);
+    if (!current) return; // shown, but of an earlier edit
     state("current");
     say(`${formatNumber(summary.samples, 1)} samples in ${formatNumber(took / 1000, 2)} s`);
   },

@@ -387,6 +387,7 @@ export class Figure {
     this.#table.style.setProperty("height", `${this.#plot.clientHeight || this.#size().height}px`);
     this.#plot.hidden = on;
     this.#table.hidden = !on;
+    this.#room = 0; // a table has a scroll bar
     this.#fill();
   }
 
