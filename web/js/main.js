@@ -51,6 +51,7 @@ const TAKEN_AWAY = ["download-compensated", "download-columns", "download-progra
 const state = (name) => (results.dataset.state = name);
 const say = (text) => (byId("status").textContent = text);
 const armView = makeArmView((json) => core.armAtZero(json));
+const computing = () => (shown?.preview ? "A preview; computing" : "Computing");
 const lastValid = () => (shown?.preview ? " Showing a preview with fewer samples." : shown ? " Showing the last valid result." : "");
 
 const computeNow = () => {
@@ -113,14 +114,14 @@ const events = {
     byId("progress").value = 0;
     clearTimeout(slow);
     slow = setTimeout(() => {
-      say(shown?.preview ? "Computing all samples…" : "Computing…");
+      say(`${computing()}…`);
       results.classList.add("slow");
     }, PATIENCE_MS);
   },
   onprogress({ fraction, stage }) {
     heard();
     byId("progress").value = fraction;
-    if (results.classList.contains("slow")) say(`Computing: ${stage}`);
+    if (results.classList.contains("slow")) say(`${computing()}: ${stage}`);
   },
   onresult({ summary, charts }, took) {
     idle();
