@@ -85,24 +85,9 @@ pub enum Error {
         /// Largest distance the arm can take [m].
         reach_max: f64,
     },
-    /// Only a build with the feature `full` can do this.
-    NeedsFull {
-        /// What it is.
-        what: &'static str,
-    },
 }
 
 impl Error {
-    /// Goes on only in a build with the feature `full`. In the other the compiler then sees that what follows is never reached, and
-    /// leaves it out: this is how the core that the page starts with stays small.
-    ///
-    /// # Errors
-    /// [`Error::NeedsFull`] without that feature.
-    #[inline(always)]
-    pub(crate) fn unless_full(what: &'static str) -> Result<(), Error> {
-        if cfg!(feature = "full") { Ok(()) } else { Err(Error::NeedsFull { what }) }
-    }
-
     /// Stable slug for scripts, tests and links.
     pub fn code(&self) -> &'static str {
         match self {
@@ -113,7 +98,6 @@ impl Error {
             Error::Missing { .. } => "missing",
             Error::Text { .. } => "text",
             Error::Unreachable { .. } => "unreachable",
-            Error::NeedsFull { .. } => "needs-full",
         }
     }
 
@@ -126,7 +110,7 @@ impl Error {
             | Error::Invalid { field, .. }
             | Error::Missing { field, .. }
             | Error::Text { field, .. } => Some(field),
-            Error::Unreachable { .. } | Error::NeedsFull { .. } => None,
+            Error::Unreachable { .. } => None,
         }
     }
 
@@ -182,7 +166,6 @@ impl fmt::Display for Error {
                     "{field} is {value}{space}{unit}; legal is {min} to {max}{space}{unit}, nearest {nearest}"
                 )
             }
-            Error::NeedsFull { what } => write!(f, "{what} needs a build of Armill with the feature `full`"),
             Error::Invalid { field, value, expected } => write!(f, "{field} is {}; {expected}", Short(value)),
             Error::Missing { field, expected } => write!(f, "{field} is missing: {expected}"),
             Error::Text { line, column, found, expected, .. } => {

@@ -34,10 +34,8 @@ pub mod math;
 pub mod units;
 pub mod error;
 pub mod column;
-mod excerpt;
 pub mod robot;
 pub mod path;
-#[cfg(feature = "full")]
 pub mod identify;
 pub mod motion;
 pub mod cutting;
@@ -46,9 +44,7 @@ pub mod compensation;
 pub mod job;
 pub mod report;
 pub mod chart;
-#[cfg(feature = "full")]
 pub mod export;
-#[cfg(feature = "full")]
 pub mod placement;
 mod pipeline;
 #[cfg(target_arch = "wasm32")]

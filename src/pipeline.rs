@@ -1,6 +1,5 @@
 //! The pipeline, end to end: from a job to its report.
 
-#[cfg(feature = "full")]
 mod spin;
 
 use crate::compensation::{Goal, compensate};
@@ -65,7 +64,6 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
         chip: setup.chip,
         bending: setup.bending,
     };
-    #[cfg(feature = "full")]
     if let Some(freedom) = &setup.freedom {
         plan.path = spin::chosen(&plan, &setup, freedom, &mut || tell(0.0, "spin about the tool axis"));
     }
@@ -122,10 +120,7 @@ pub fn run_with(job: &Job, mut on_progress: impl FnMut(Stage)) -> Result<Report,
     let last = steps - reading - 1.0;
     let deflection_only =
         deflection_only.unwrap_or_else(|| by_deflection(&mut |share| tell(last + share, "deflection")).0);
-    #[cfg(feature = "full")]
     let spin = setup.freedom.map(|freedom| spin::gain(&plan, &setup, &freedom, &q, &before));
-    #[cfg(not(feature = "full"))]
-    let spin = None;
     let mut report = Report {
         setup,
         plan,

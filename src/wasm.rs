@@ -2,9 +2,7 @@
 //!
 //! Errors cross as `Error` objects with `code`, `message` and, where they apply, `field`, `line`, `column`.
 
-#[cfg(feature = "full")]
 mod full;
-#[cfg(feature = "full")]
 pub use full::{
     default_job, fields, formats, identify_response, identify_stiffness, presets, thesis_recomputed,
 };

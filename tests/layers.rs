@@ -5,12 +5,11 @@ use std::path::Path;
 
 /// The modules from left to right. The job is read first, but it makes the stages' inputs, so it may name them; `column` is the
 /// currency of report, charts and files.
-const ORDER: [&str; 17] = [
+const ORDER: [&str; 16] = [
     "math",
     "units",
     "error",
     "column",
-    "excerpt",
     "robot",
     "path",
     "identify",

@@ -86,7 +86,6 @@ pub fn charts_of(report: &Report) -> Vec<Entry> {
 /// # Errors
 /// [`Error::Invalid`] for a name that is not in [`CATALOG`], or for options that cannot be drawn.
 pub fn chart(report: &Report, name: &str, options: &Options) -> Result<Chart, Error> {
-    Error::unless_full("drawing a chart")?;
     let content = content(report, name, options.units)?;
     let title = CATALOG.iter().find(|entry| entry.name == name).map_or("", |entry| entry.title);
     content.draw(name, title, options).map_err(|expected| refused(name, expected))
@@ -98,7 +97,6 @@ pub fn chart(report: &Report, name: &str, options: &Options) -> Result<Chart, Er
 /// # Errors
 /// [`Error::Invalid`] for a name that is not in [`CATALOG`].
 pub fn data(report: &Report, name: &str, units: Units) -> Result<Vec<Column>, Error> {
-    Error::unless_full("the values of a chart")?;
     Ok(content(report, name, units)?.columns())
 }
 

@@ -4,7 +4,6 @@
 //! dimensions, through plotters onto our own [`svg`] surface (plotters' own rounds to whole pixels and measures text in the page).
 
 pub mod catalog;
-#[cfg(feature = "full")]
 pub mod identified;
 pub mod plot;
 pub mod space;

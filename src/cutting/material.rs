@@ -6,7 +6,6 @@
 
 use crate::cutting::kienzle::Kienzle;
 use crate::cutting::oblique::Orthogonal;
-use crate::excerpt::excerpt;
 use crate::units::{N_PER_MM, N_PER_MM2};
 use std::sync::OnceLock;
 
@@ -100,11 +99,9 @@ impl Material {
 pub fn library() -> &'static [Material] {
     static LIBRARY: OnceLock<Vec<Material>> = OnceLock::new();
     LIBRARY.get_or_init(|| {
-        // The small core has only the thesis's material, which stands first.
-        let text = excerpt!("materials.txt", 2);
         let mut sources = Vec::new();
         let mut materials = Vec::new();
-        for line in text.lines() {
+        for line in include_str!("materials.txt").lines() {
             if let Some(source) = line.strip_prefix('@') {
                 sources.extend(source.split_once("; "));
             } else {

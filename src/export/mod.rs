@@ -15,8 +15,9 @@ pub mod val3;
 pub mod fanuc;
 pub mod replay;
 pub mod rehearsal;
+pub mod format;
 
-pub use crate::report::format::{FORMATS, Format};
+pub use format::{FORMATS, Format};
 pub use rehearsal::{Promise, promise};
 
 use crate::error::Error;

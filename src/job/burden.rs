@@ -24,7 +24,6 @@ impl Job {
         if points.is_empty() && rows.is_empty() {
             return Ok(None);
         }
-        Error::unless_full("springs and loads")?;
         let field = "robot.joint_springs_nm_arcmin";
         let mut tables: [Vec<(f64, f64)>; 6] = Default::default();
         for (index, &[joint, torque, turn]) in points.iter().enumerate() {

@@ -54,9 +54,6 @@ impl Job {
             engagement: self.engagement()?,
         };
         let (material, model) = self.material_model()?;
-        if model.needs_chip() {
-            Error::unless_full("a material whose coefficients depend on the chip")?;
-        }
         let chip = model.needs_chip().then(|| self.chip_thickness(&cut)).transpose()?;
         let rake = tool.rake_deg.unwrap_or(0.0) * DEG;
         let h0 = chip.unwrap_or(0.0);
@@ -123,14 +120,12 @@ impl Job {
             Some(id) => match material::library().iter().find(|material| material.id == id) {
                 Some(preset) => (Some(preset), preset.model),
                 None => {
-                    Error::unless_full("a material of the library")?;
                     let known = material::library().iter().map(|material| material.id);
                     return Err(unknown_preset("material.preset", id, known));
                 }
             },
             None if linear_given && kienzle_given => return one_of("material.kc11_n_mm2"),
             None if kienzle_given => {
-                Error::unless_full("a material by its specific cutting force")?;
                 let [kc11, mc] = kienzle;
                 let kc11 = kc11.ok_or_else(|| missing("material.kc11_n_mm2", "to go with mc"))?;
                 let mc = mc.ok_or_else(|| missing("material.mc", "to go with kc11_n_mm2"))?;
@@ -192,7 +187,6 @@ impl Job {
                 Err(missing("tool.stickout_mm", "the length out of the holder"))
             }
             (Some(ToolBending::Cantilever), Some(length)) => {
-                Error::unless_full("a tool that bends")?;
                 let fluted = tool.flute_length_mm.unwrap_or(length);
                 let shank = tool.shank_diameter_mm.unwrap_or(tool.diameter_mm);
                 let modulus = tool.modulus_gpa.unwrap_or(CARBIDE) * GPA;

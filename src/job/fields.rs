@@ -116,10 +116,7 @@ const fn field(
     default: fn() -> Value,
     help: &'static str,
 ) -> Row {
-    let row =
-        Row { path, label, unit, kind, default, help, words: &[], range: None, defaults: &[], when: None };
-    // The page has the form's words from a file; its small core only checks.
-    if cfg!(feature = "full") { row } else { Row { label: "", default: || Value::Null, help: "", ..row } }
+    Row { path, label, unit, kind, default, help, words: &[], range: None, defaults: &[], when: None }
 }
 
 impl Row {
@@ -128,11 +125,11 @@ impl Row {
     }
 
     const fn words(self, words: &'static [(&'static str, &'static str)]) -> Self {
-        if cfg!(feature = "full") { Self { words, ..self } } else { self }
+        Self { words, ..self }
     }
 
     const fn defaults(self, defaults: &'static [(&'static str, &'static str)]) -> Self {
-        if cfg!(feature = "full") { Self { defaults, ..self } } else { self }
+        Self { defaults, ..self }
     }
 
     const fn when(self, path: &'static str, is: &'static [&'static str]) -> Self {

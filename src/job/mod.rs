@@ -8,9 +8,7 @@ mod choice;
 mod input;
 mod milling;
 mod path;
-#[cfg(feature = "full")]
 mod program;
-#[cfg(feature = "full")]
 pub mod presets;
 mod read;
 mod burden;

@@ -132,17 +132,9 @@ impl Job {
         Ok((path, Some(Listing { language, text: text.clone(), program })))
     }
 
-    #[cfg(not(feature = "full"))]
-    fn program(&self, _: PathKind, _: &str, _: impl FnMut(f64)) -> Result<path::Program, Error> {
-        Err(Error::NeedsFull { what: "reading a program" })
-    }
-
     /// A path drawn from a shape.
     fn shape(&self) -> Result<path::Path, Error> {
         let given = &self.path;
-        if given.kind != PathKind::Circle {
-            Error::unless_full("a shape other than the circle")?;
-        }
         let vector = |value: Option<[f64; 3]>, key: &str| {
             value.ok_or_else(|| need(key)).map(|v| Vector3::from(v) * MM)
         };

@@ -25,7 +25,6 @@ impl Job {
     /// # Errors
     /// What is wrong with the job, or that none of the places holds the path.
     pub fn place_in_front(&self) -> Result<[f64; 3], Error> {
-        Error::unless_full("a place for the part")?;
         let setup = self.setup()?;
         let (path, robot) = (&setup.path, &setup.robot);
         let along = |k: usize| path.length() * k as f64 / (POSES - 1) as f64;

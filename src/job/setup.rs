@@ -11,7 +11,6 @@ use crate::job::{
 };
 use crate::math::Pose;
 use crate::motion::joints::StartBranch;
-#[cfg(feature = "full")]
 use crate::motion::spin::{self, Freedom};
 use crate::motion::trajectory::Tempo;
 use crate::motion::{self, shaper};
@@ -41,7 +40,6 @@ pub struct Setup {
     /// The program that the path was read from, if it was not drawn from a shape.
     pub listing: Option<Listing>,
     /// Range and goal of the spin, if it is free; until it is chosen, the path has the fixed one.
-    #[cfg(feature = "full")]
     pub freedom: Option<Freedom>,
     /// The fixed spin [rad]; what a free one is compared with.
     pub spin: f64,
@@ -100,11 +98,6 @@ impl Job {
         let (path, listing) = self.desired_path(on_read)?;
         let spin = self.spin.angle_deg * DEG;
         let path = path.placed(&workpiece).with_spin(path::Spin::fixed(spin));
-        #[cfg(not(feature = "full"))]
-        if self.spin.mode == SpinMode::Free {
-            return Err(Error::NeedsFull { what: "choosing the spin" });
-        }
-        #[cfg(feature = "full")]
         let freedom = self.freedom()?;
         let (shaper, mode) = self.input_shaper()?;
         let (cut, stock) = self.cut()?;
@@ -164,7 +157,6 @@ impl Job {
             base,
             workpiece,
             listing,
-            #[cfg(feature = "full")]
             freedom,
             spin,
             tempo,
@@ -211,7 +203,6 @@ impl Job {
             library_note = Some((preset.stiffness_note.clone(), preset.stiffness_assumed));
             (preset.name(), preset.links(), preset.limits(), Some(preset.joint_compliance))
         } else if let Some(rows) = given.modified_dh {
-            Error::unless_full("a table of links")?;
             let links = rows.map(|row| Link {
                 alpha: row.alpha_deg * DEG,
                 a: row.a_mm * MM,
@@ -221,7 +212,6 @@ impl Job {
             });
             (String::new(), links, None, None)
         } else if let Some(opw) = &given.opw {
-            Error::unless_full("ortho-parallel parameters")?;
             (String::new(), ortho_parallel(opw)?.links(), None, None)
         } else {
             return Err(missing("robot.preset", "name a preset, or give modified_dh or opw"));
@@ -245,7 +235,6 @@ impl Job {
         Ok((robot.with_elbow(elbow)?, note, assumed))
     }
 
-    #[cfg(feature = "full")]
     fn freedom(&self) -> Result<Option<Freedom>, Error> {
         let crate::job::Spin { mode, range_deg: [low, high], goal, .. } = self.spin;
         if mode == SpinMode::Fixed {

@@ -4,7 +4,6 @@ pub mod profile;
 pub mod trajectory;
 pub mod shaper;
 pub mod joints;
-#[cfg(feature = "full")]
 pub mod spin;
 
 pub use profile::Profile;

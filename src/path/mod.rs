@@ -9,13 +9,9 @@ pub mod axes;
 pub mod spin;
 pub mod program;
 pub mod unit;
-#[cfg(feature = "full")]
 mod draft;
-#[cfg(feature = "full")]
 pub mod gcode;
-#[cfg(feature = "full")]
 pub mod apt;
-#[cfg(feature = "full")]
 pub mod csv;
 
 pub use axes::Axes;

@@ -2,10 +2,8 @@
 
 pub mod columns;
 pub mod warning;
-#[cfg(feature = "full")]
 pub mod thesis;
 pub mod scene;
-pub mod format;
 mod budget;
 mod cut;
 mod spin;

@@ -1,14 +1,9 @@
 //! What a free spin brings, compared with the fixed one.
 
-#[cfg(feature = "full")]
 use crate::deviation::{Deviation, Plan, contour};
-#[cfg(feature = "full")]
 use crate::motion::spin::{Freedom, Goal, effort};
-#[cfg(feature = "full")]
 use crate::report::millimetres;
-#[cfg(feature = "full")]
 use crate::robot::Joints;
-#[cfg(feature = "full")]
 use crate::units::{DEG, MM};
 use serde::Serialize;
 
@@ -23,7 +18,6 @@ pub struct Effort {
     pub error_mm: f64,
 }
 
-#[cfg(feature = "full")]
 impl Effort {
     /// Of joint commands and what becomes of them.
     pub fn of(plan: &Plan, q: &[Joints], before: &Deviation) -> Self {
@@ -49,7 +43,6 @@ pub struct SpinGain {
     pub sentence: String,
 }
 
-#[cfg(feature = "full")]
 impl SpinGain {
     pub(crate) fn new(
         plan: &Plan,

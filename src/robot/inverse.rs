@@ -82,8 +82,6 @@ const CLOSURE: f64 = 1e-9;
 /// |sin q5| below which only the sum of q4 and q6 is determined.
 const WRIST_SINGULAR: f64 = 1e-10;
 
-const NUMERICAL: &str = "an arm without a closed form";
-
 /// All joint values that put the TCP at `tcp` (base frame); each is checked by the forward model (1e-9 m, 1e-9).
 ///
 /// Each angle is the one of its full turns that is nearest to `near` [rad]; at a wrist singularity q4 is taken from `near`.
@@ -99,10 +97,7 @@ pub fn inverse(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solutions, Er
             })?;
             solutions
         }
-        Err(_) => {
-            Error::unless_full(NUMERICAL)?;
-            numerical::solutions(robot, tcp, near)?
-        }
+        Err(_) => numerical::solutions(robot, tcp, near)?,
     };
     match solutions.iter().next() {
         Some(_) => Ok(solutions),
@@ -125,7 +120,6 @@ fn is_near(tcp: &Pose, reached: &Pose) -> bool {
 /// quarter turn where the wrist centre is further ahead than beside. What is less than half as far from `last` is the nearest.
 pub(crate) fn continued(robot: &Robot, tcp: &Pose, last: &Solution) -> Option<Solution> {
     let Ok(geometry) = robot.geometry() else {
-        Error::unless_full(NUMERICAL).ok()?;
         return numerical::continued(robot, tcp, last);
     };
     let mut found = None;

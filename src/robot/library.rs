@@ -1,17 +1,16 @@
 //! Robots that come with Armill, each with the source of its numbers and how far to trust them. The data stand in `library/`.
 
 use crate::error::Error;
-use crate::excerpt::excerpt;
 use crate::math;
 use crate::robot::Opw;
 use crate::robot::model::{Elbow, Link};
 use crate::units::DEG;
 
 // The small core has only the thesis's robot, which stands first.
-const ROBOTS: &str = excerpt!("library/robots.csv", 2);
+const ROBOTS: &str = include_str!("library/robots.csv");
 const ZEROS: &str = include_str!("library/zeros.csv");
-const STIFFNESS: &str = excerpt!("library/stiffness.csv", 2);
-const SOURCES: &str = excerpt!("library/sources.txt", 1);
+const STIFFNESS: &str = include_str!("library/stiffness.csv");
+const SOURCES: &str = include_str!("library/sources.txt");
 
 /// A robot of the library.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,7 +74,6 @@ pub fn robot(id: &str) -> Result<Preset, Error> {
     if let Some((row, _)) = rows(ROBOTS).zip(names()).find(|(_, [key, ..])| *key == id) {
         return Ok(preset(row));
     }
-    Error::unless_full("a robot of the library")?;
     let mut keys: Vec<_> = names().map(|[key, ..]| (strsim::jaro_winkler(id, key), key)).collect();
     keys.sort_by(|a, b| b.0.total_cmp(&a.0));
     let like: Vec<_> = keys.iter().take(3).map(|(_, key)| *key).collect();

@@ -240,7 +240,7 @@ impl Robot {
 
     /// Springs and weight, where they are more than [`Robot::compliance`].
     pub fn burden(&self) -> Option<&Burden> {
-        if cfg!(feature = "full") { self.burden.as_deref() } else { None }
+        self.burden.as_deref()
     }
 
     /// What each joint's sag has moved [m] and turned [rad] the TCP by where the workpiece was touched off.

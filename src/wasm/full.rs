@@ -1,16 +1,11 @@
-//! What only the full core answers: the page loads it when one of these is asked for, or a job that the small one refuses with
-//! [`Error::NeedsFull`](crate::Error::NeedsFull). The page fetches it anyway once the first result is shown.
-//!
-//! To place code here: `#[cfg(feature = "full")]` before its module, its wasm-bindgen function in this file, and its name in `FULL` of
-//! `web/js/answers.js`; or, in a function of both cores, `Error::unless_full` before what only the full one is to have. What `Run` holds is
-//! computed again in the full core, with the same bits.
+//! Charts aside: the libraries, files, programs read back, identification, placement.
 
 use super::{Run, chart_options, columns_of, object, thrown, units};
 use crate::chart::identified;
+use crate::export::FORMATS;
 use crate::identify::{Convention, Fit, Mode, measurement, response, stiffness, summary};
 use crate::job::fields as table;
 use crate::job::presets as libraries;
-use crate::report::format::FORMATS;
 use crate::report::thesis;
 use crate::units::MM;
 use crate::{Job, export, placement};
