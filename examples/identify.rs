@@ -82,7 +82,7 @@ fn identify() -> Result<serde_json::Value, Refusal> {
             Job::from_json(&serde_json::json!({ "version": 1, "robot": { "preset": preset } }).to_string())?
         }
     };
-    let robot = job.robot()?;
+    let robot = armill::setup::robot(&job)?;
     convention.suits(&robot)?;
     let measurements = measurement::read(&text, convention)?;
     let fit = stiffness::fit(&robot, &measurements.rows)?;

@@ -3,7 +3,8 @@
 //!
 //! `cargo run --release --example run -- [job.json] [--columns out.csv]`
 
-use armill::{Error, Job};
+use armill::verification::Programs;
+use armill::{Error, Job, Progress};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -25,7 +26,7 @@ fn main() -> ExitCode {
         Some(Ok(text)) => text,
         Some(Err(error)) => return usage(&format!("{}: {error}", job.unwrap_or_default())),
     };
-    let report = match armill::run_json(&text, |_| {}) {
+    let report = match armill::run_json(&text, &mut Progress::none()) {
         Ok(report) => report,
         Err(error) => return refuse(&error),
     };
@@ -35,7 +36,7 @@ fn main() -> ExitCode {
         return usage(&format!("{file}: {error}"));
     }
     let mut summary = serde_json::json!(report.summary());
-    summary["as_program"] = match armill::export::promise(&report) {
+    summary["as_program"] = match Programs::default().accuracy(&report, "gcode") {
         Ok(promise) => serde_json::json!(promise),
         Err(error) => serde_json::json!({ "error": error.to_string() }),
     };

@@ -9,22 +9,30 @@
 //!
 //! [`Shaper::undo`]: crate::motion::Shaper::undo
 
-use crate::deviation::{Deviation, Passage, Plan, contour, deviate_with};
+use crate::deviation::contour::MeanMax;
+use crate::deviation::{Deviation, Reference, simulate};
 use crate::error::Error;
 use crate::motion::Trajectory;
-use crate::motion::joints::{StartBranch, joint_trajectory_with};
+use crate::motion::joints::{Targets, joint_trajectory};
 use crate::path::{Axes, Path};
+use crate::plan::Plan;
+use crate::progress::Progress;
 use crate::robot::Joints;
+use crate::setup::Goal;
 use nalgebra::Vector3;
 use std::sync::Arc;
 
-/// When to stop.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Goal {
-    /// Largest contour error to reach [m].
-    pub tolerance: f64,
-    /// Most passes.
-    pub max_passes: usize,
+/// What is asked of a compensation.
+#[derive(Debug, Clone, Copy)]
+pub struct Question<'a> {
+    /// Where the tool is meant to be; the sources that act in it are compensated.
+    pub reference: &'a Reference<'a>,
+    /// Joint commands for the desired path [rad].
+    pub q: &'a Arc<Vec<Joints>>,
+    /// Their outcome under the same sources: [`simulate`] of them.
+    pub before: &'a Arc<Deviation>,
+    /// When to stop.
+    pub goal: Goal,
 }
 
 /// The path to command and how it was found.
@@ -55,64 +63,42 @@ const AIM: f64 = 0.1;
 /// A pass that leaves more than this share of the error is no improvement.
 const IMPROVEMENT: f64 = 0.99;
 
-/// Corrects the path for the sources that act in `passage` until the largest contour error is well within the tolerance (a tenth of it), the
-/// passes are used up, or a pass no longer improves; the best pass is kept. A path that is within the tolerance is left alone. `before` is [`deviate`](crate::deviation::deviate) of the joint commands `q` with the same sources.
-///
-/// `on_pass` is told now and then how many passes are done, with the share done of the present one.
-pub fn compensate(
-    plan: &Plan,
-    passage: &Passage,
-    start: StartBranch,
-    q: &Arc<Vec<Joints>>,
-    before: &Arc<Deviation>,
-    goal: Goal,
-    on_pass: &mut dyn FnMut(f64),
-) -> Compensation {
-    let (mean, max) = contour::mean_and_max(&before.contour_error);
+/// Corrects the path until the largest contour error is well within the tolerance (a tenth of it), the
+/// passes are used up, or a pass no longer improves; the best pass is kept. A path that is within the
+/// tolerance is left alone.
+pub fn compensate(plan: &Plan, question: &Question, progress: &mut Progress) -> Compensation {
+    let Question { reference, q, before, goal } = *question;
     let mut best = Compensation {
         correction: vec![Vector3::zeros(); q.len()],
         axis: plan.trajectory.axis.clone(),
         q: q.clone(),
         result: before.clone(),
-        history_max: vec![max],
-        history_mean: vec![mean],
+        history_max: vec![before.statistics.max],
+        history_mean: vec![before.statistics.mean],
         passes: 0,
-        converged: max <= goal.tolerance,
+        converged: before.statistics.max <= goal.tolerance,
         stopped: None,
     };
     for pass in 1..=goal.max_passes {
         if best.history_max[best.passes] <= goal.tolerance * if best.passes == 0 { 1.0 } else { AIM } {
             break;
         }
-        let Trajectory { sample_time, moving, .. } = plan.trajectory;
-        let undone = |missing: Vec<Vector3<f64>>| {
-            if passage.acting.shaping { plan.shaper.undo(&missing, sample_time, moving) } else { missing }
-        };
-        let (correction, axis) = corrected(
-            &plan.path,
-            (&passage.target, &passage.axis),
-            &best.result,
-            (&best.correction, &best.axis),
-            undone,
+        let mut progress = progress.part(
+            "",
+            (pass - 1) as f64 / goal.max_passes as f64,
+            pass as f64 / goal.max_passes as f64,
         );
-        let positions: Vec<_> =
-            plan.trajectory.position.iter().zip(&correction).map(|(desired, c)| desired + c).collect();
+        let (correction, axis) = next_correction(plan, reference, &best);
         // A pass is one half inverse model, one half all that comes after it.
-        let done = |share: f64| (pass - 1) as f64 + share / 2.0;
-        on_pass(done(0.0));
-        let (desired, told) = ((positions.as_slice(), &axis), &mut |share| on_pass(done(share)));
-        let commands =
-            match joint_trajectory_with(&plan.robot, &plan.path, &plan.trajectory, desired, start, told) {
-                Ok(joints) => joints.q,
-                Err(error) => {
-                    best.stopped = Some(error);
-                    break;
-                }
-            };
-        drop(positions);
-        let result =
-            Arc::new(deviate_with(plan, passage, &commands, &mut |share| on_pass(done(1.0 + share))));
-        let (mean, max) = contour::mean_and_max(&result.contour_error);
+        let commands = match commands(plan, &correction, &axis, &mut progress.part("", 0.0, 0.5)) {
+            Ok(commands) => commands,
+            Err(error) => {
+                best.stopped = Some(error);
+                break;
+            }
+        };
+        let result = Arc::new(simulate(plan, reference, &commands, &mut progress.part("", 0.5, 1.0)));
+        let MeanMax { mean, max } = result.statistics;
         let least = best.history_max[best.passes];
         best.history_max.push(max);
         best.history_mean.push(mean);
@@ -130,6 +116,29 @@ pub fn compensate(
         };
     }
     best
+}
+
+/// The correction [m] and tool axes of the next pass.
+fn next_correction(plan: &Plan, reference: &Reference, best: &Compensation) -> (Vec<Vector3<f64>>, Axes) {
+    let Trajectory { sample_time, moving, .. } = *plan.trajectory;
+    let undone = |missing: Vec<Vector3<f64>>| {
+        if reference.acting.shaping { plan.shaper().undo(&missing, sample_time, moving) } else { missing }
+    };
+    let wanted = (&*reference.target, &reference.axis);
+    corrected(&plan.path, wanted, &best.result, (&best.correction, &best.axis), undone)
+}
+
+/// Joint commands for the desired path with a correction [m] and tool axes.
+fn commands(
+    plan: &Plan,
+    correction: &[Vector3<f64>],
+    axis: &Axes,
+    progress: &mut Progress,
+) -> Result<Arc<Vec<Joints>>, Error> {
+    let position: Vec<_> =
+        plan.trajectory.position.iter().zip(correction).map(|(desired, c)| desired + c).collect();
+    let targets = Targets { position: &position, axis, ..Targets::desired(&plan.path, &plan.trajectory) };
+    Ok(joint_trajectory(&plan.robot, &targets, plan.setup.start, progress)?.q)
 }
 
 /// A correction [m] and tool axes, one a sample, with what `result` is missing of the tips and axes wanted: `undone` turns the vectors that are

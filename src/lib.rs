@@ -14,7 +14,7 @@
 //! *Modelling and Compensation of Positioning Errors in Robotic Machining Systems*; equation numbers are its own.
 //!
 //! ```
-//! let report = armill::run(&armill::Job::default())?;
+//! let report = armill::run(&armill::Job::default(), &mut armill::Progress::none())?;
 //! assert!(report.summary().after_mm.max < 0.01);
 //! # Ok::<(), armill::Error>(())
 //! ```
@@ -34,23 +34,28 @@ pub mod math;
 pub mod units;
 pub mod error;
 pub mod column;
+pub mod progress;
 pub mod robot;
 pub mod path;
-pub mod identify;
 pub mod motion;
 pub mod cutting;
+pub mod job;
+pub mod setup;
+pub mod plan;
 pub mod deviation;
 pub mod compensation;
-pub mod job;
 pub mod report;
+pub mod simulation;
+pub mod identify;
 pub mod chart;
 pub mod export;
+pub mod verification;
 pub mod placement;
-mod pipeline;
 #[cfg(target_arch = "wasm32")]
 pub mod wasm;
 
 pub use error::Error;
 pub use job::Job;
-pub use pipeline::{Stage, run, run_json, run_with};
+pub use progress::{Progress, Stage};
 pub use report::Report;
+pub use simulation::{run, run_json};

@@ -94,7 +94,7 @@ fn examples_that_are_not_compensated_keep_their_arcs() {
 
 /// What was read back has the moves of the original, one for one, and no block was split.
 fn stays(report: &Report, export: &Export, read: &Program) {
-    let original = &report.setup.listing.as_ref().unwrap().program.moves;
+    let original = &report.setup().program.as_ref().unwrap().program.moves;
     assert_eq!(read.moves.len(), original.len(), "{}", export.text);
     for (read, original) in read.moves.iter().zip(original) {
         let name = format!("line {} for line {}", read.line, original.line);

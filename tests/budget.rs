@@ -128,7 +128,7 @@ fn the_frames_end_in_the_tip_that_the_columns_name() {
                 // Millimetres from metres and back: the last bits.
                 assert!((tcp + deflection[axis][k] - actual[axis][k]).abs() < 1e-9);
                 assert!(
-                    (frames[8 * FRAME + axis] - report.setup.workpiece.position[axis] * 1e3).abs() < 1e-9
+                    (frames[8 * FRAME + axis] - report.setup().workpiece.position[axis] * 1e3).abs() < 1e-9
                 );
             }
         }

@@ -6,7 +6,8 @@
 mod common;
 
 use armill::Report;
-use armill::export::{Options, export};
+use armill::export::Options;
+use armill::verification::export;
 use common::{column, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};

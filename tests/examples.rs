@@ -209,7 +209,7 @@ fn is_read_as_meant(known: &Known, report: &Report) {
         assert!(from > -1e-4 && to > -1e-4, "{file}: {name} within the path's");
         assert!(known.bulges || (from < 1e-4 && to < 1e-4), "{file}: {name} as the path's");
     }
-    let remarks = &report.setup.listing.as_ref().unwrap().program.remarks;
+    let remarks = &report.setup().program.as_ref().unwrap().program.remarks;
     assert!(
         remarks.iter().map(|remark| remark.code).eq(known.remarks.iter().copied()),
         "{file}: {remarks:?}"
@@ -217,9 +217,9 @@ fn is_read_as_meant(known: &Known, report: &Report) {
 }
 
 fn rapids_carry_no_force(known: &Known, report: &Report) {
-    let pace = &report.plan.trajectory.pace;
-    let still = (report.plan.shaper.duration() / report.plan.trajectory.sample_time).ceil() as usize + 1;
-    let on_time = report.plan.passage(Sources::only(Source::Deflection)).force;
+    let pace = &report.plan.trajectory.timing;
+    let still = (report.plan.shaper().duration() / report.plan.trajectory.sample_time).ceil() as usize + 1;
+    let on_time = armill::deviation::Reference::along(&report.plan, Sources::only(Source::Deflection)).force;
     let mut rapid_for = 0;
     for (k, engaged) in pace.engaged.iter().enumerate() {
         let rapid = *engaged == 0.0;

@@ -168,7 +168,7 @@ fn mistakes_are_named() {
         ("start_branch.shoulder", json!("left"), "json", "start_branch.shoulder"),
     ];
     for (path, value, code, field) in cases {
-        let result = armill::run_json(&job_text(&[(path, value.clone())]), |_| {});
+        let result = armill::run_json(&job_text(&[(path, value.clone())]), &mut armill::Progress::none());
         let Err(error) = result else { panic!("{path} = {value} was computed") };
         assert_eq!((error.code(), error.field()), (code, Some(field)), "{path} = {value}: {error}");
         assert!(!error.to_string().is_empty());
@@ -321,23 +321,33 @@ fn a_start_branch_without_solution_is_refused_and_others_are_taken() {
 
 #[test]
 fn what_a_job_leaves_out_is_remarked() {
-    let report = armill::run_json("{\"version\":1,\"motion\":{\"feed_mm_s\":50}}", |_| {}).unwrap();
+    let report =
+        armill::run_json("{\"version\":1,\"motion\":{\"feed_mm_s\":50}}", &mut armill::Progress::none())
+            .unwrap();
     let remark = report.warnings.iter().find(|warning| warning.code == "default-used").unwrap();
     assert!(remark.message.contains("path") && remark.message.contains("motion.sample_time_s"));
-    let full = armill::run_json(&Job::default().to_json(), |_| {}).unwrap();
+    let full = armill::run_json(&Job::default().to_json(), &mut armill::Progress::none()).unwrap();
     assert!(!full.warnings.iter().any(|warning| warning.code == "default-used"));
 }
 
 #[test]
 fn progress_ascends_and_ends() {
     let mut told = Vec::new();
-    armill::run_json(&Job::default().to_json(), |stage| told.push(stage.fraction)).unwrap();
+    armill::run_json(
+        &Job::default().to_json(),
+        &mut armill::Progress::new(&mut |stage: armill::Stage| told.push(stage.fraction)),
+    )
+    .unwrap();
     assert!(told.len() >= 5 && told.windows(2).all(|pair| pair[0] < pair[1]));
     assert!(told[0] == 0.0 && told.iter().all(|fraction| *fraction <= 1.0));
     // Many samples tell within their stages too.
     let mut told = Vec::new();
     let job = job_text(&[("motion.sample_time_s", json!(4e-4))]);
-    armill::run_json(&job, |stage| told.push((stage.name, stage.fraction))).unwrap();
+    armill::run_json(
+        &job,
+        &mut armill::Progress::new(&mut |stage: armill::Stage| told.push((stage.name, stage.fraction))),
+    )
+    .unwrap();
     assert!(told.windows(2).all(|pair| pair[0].1 < pair[1].1), "{told:?}");
     for (stage, least) in [("joint commands", 2), ("deflection and shaping", 2), ("compensation", 4)] {
         assert!(told.iter().filter(|(name, _)| *name == stage).count() >= least, "{stage}: {told:?}");
@@ -351,7 +361,11 @@ fn progress_ascends_and_ends() {
     ] {
         let mut told = Vec::new();
         let job = job_text(&[("path", json!({"kind":kind,"text":text}))]);
-        armill::run_json(&job, |stage| told.push((stage.name, stage.fraction))).unwrap();
+        armill::run_json(
+            &job,
+            &mut armill::Progress::new(&mut |stage: armill::Stage| told.push((stage.name, stage.fraction))),
+        )
+        .unwrap();
         assert!(told.windows(2).all(|pair| pair[0].1 < pair[1].1), "{kind}: {told:?}");
         let reading = told.iter().take_while(|(name, _)| *name == "reading the program").count();
         assert!(reading >= 9 && told[reading].0 == "joint commands", "{kind}: {told:?}");
@@ -461,7 +475,7 @@ fn chart_data_are_the_columns_in_the_unit_asked_for() {
 fn the_readme_s_job_is_the_default_job() {
     let readme = include_str!("../README.md");
     let job = readme.split("```json").nth(1).unwrap().split("```").next().unwrap();
-    let report = armill::run_json(job, |_| {}).unwrap();
+    let report = armill::run_json(job, &mut armill::Progress::none()).unwrap();
     assert_eq!(report.fingerprint(), run(&[]).fingerprint());
 }
 

@@ -45,7 +45,7 @@ fn a_rigid_arm_does_not_deflect() {
 #[test]
 fn no_depth_no_force_no_shaper_no_error() {
     let report = arc(&[("cutting.axial_depth_mm", json!(0)), ("shaper", json!("none"))]);
-    assert_eq!(report.summary().cut["power_kw"].to_bits(), 0.0_f64.to_bits(), "no power, and not -0");
+    assert_eq!(report.summary().cut.power_kw.to_bits(), 0.0_f64.to_bits(), "no power, and not -0");
     assert!(report.summary().before_mm.both.max < 1e-6);
     assert!(report.summary().passes == 0 && report.summary().converged);
     let left = arc(&[("compensation.max_passes", json!(0))]).summary();

@@ -306,7 +306,7 @@ fn a_path_out_of_reach_is_placed_where_the_robot_mills_it() {
         ];
         assert_eq!(common::refused(&far).code(), "unreachable");
         let job = armill::Job::from_json(&common::job_text(&far)).unwrap();
-        let place = job.place_in_front().unwrap();
+        let place = armill::placement::in_front(&job).unwrap();
         let mut near = far.to_vec();
         near.push(("workpiece_frame", json!({"xyz_mm":place,"rpy_deg":[0,0,0]})));
         let report = run(&near);
@@ -317,7 +317,8 @@ fn a_path_out_of_reach_is_placed_where_the_robot_mills_it() {
         );
     }
     let wide = [("path", json!({"kind":"line","from_mm":[-3000,0,0],"to_mm":[3000,0,0]}))];
-    let error = armill::Job::from_json(&common::job_text(&wide)).unwrap().place_in_front().unwrap_err();
+    let error =
+        armill::placement::in_front(&armill::Job::from_json(&common::job_text(&wide)).unwrap()).unwrap_err();
     assert_eq!(error.field(), Some("workpiece_frame.xyz_mm"));
     assert!(error.to_string().contains("6000 x 0 x 0 mm"), "{error}");
 }

@@ -307,7 +307,7 @@ fn downloads_hold_the_columns() -> Result {
         holds(&page.downloaded("armill-compensated-path.csv").await?, &path)?;
         page.click("#download-job").await?;
         let job = armill::Job::from_json(&page.downloaded("armill-job.json").await?)?;
-        assert_eq!(armill::run(&job)?.fingerprint(), report.fingerprint());
+        assert_eq!(armill::run(&job, &mut armill::Progress::none())?.fingerprint(), report.fingerprint());
         Ok(())
     })
 }
@@ -498,7 +498,7 @@ fn programs_come_in_and_go_out() -> Result {
         for (id, file) in [("gcode", "armill-gcode.nc"), ("krl", "armill-krl.src")] {
             page.choose("#export-format", id).await?;
             page.click("#download-program").await?;
-            let native = armill::export::export(&report, id, &armill::export::Options::default())?;
+            let native = armill::verification::export(&report, id, &armill::export::Options::default())?;
             assert_eq!(page.downloaded(file).await?, native.text, "{id}");
         }
         // A mistake is placed, and what was typed stays.

@@ -5,8 +5,8 @@
 mod common;
 
 use armill::math::Pose;
-use armill::motion::trajectory::Tempo;
-use armill::motion::{Pace, Trajectory};
+use armill::motion::trajectory::MotionLimits;
+use armill::motion::{TimingLaw, Trajectory};
 use armill::path::{Move, MovePace, Path, Program, Segment, shape};
 use common::{any_vector, between};
 use nalgebra::Vector3;
@@ -161,7 +161,7 @@ fn a_sharp_corner_is_a_stop_and_a_blunt_one_is_not() {
     let turn = |degrees: f64| {
         let end = Vector3::new(0.1 + 0.1 * degrees.to_radians().cos(), 0.1 * degrees.to_radians().sin(), 0.0);
         let path = Path::new(shape::polyline(&[Vector3::zeros(), Vector3::x() * 0.1, end])).unwrap();
-        let tempo = Tempo {
+        let limits = MotionLimits {
             feed: 0.1,
             rapid: 1.0,
             acceleration: 0.5,
@@ -170,18 +170,18 @@ fn a_sharp_corner_is_a_stop_and_a_blunt_one_is_not() {
             corner_dwell: 0.2,
             settle: 0.0,
         };
-        Trajectory::new(&path, &tempo)
+        Trajectory::new(&path, &limits)
     };
     let smooth = turn(4.0);
     assert!(smooth.stops.is_empty());
     let middle = smooth.len() / 2;
-    assert!((smooth.pace.speed[middle] - 0.1).abs() < 1e-12, "no slowing down");
+    assert!((smooth.timing.speed[middle] - 0.1).abs() < 1e-12, "no slowing down");
     let stop = turn(6.0);
     assert_eq!(stop.stops.len(), 1);
     // Two stretches of 0.1 m with 0.2 s ramps, and the wait.
     let expected = 2.0 * (1.0 + 0.2) + 0.2;
     assert!((stop.moving as f64 * 1e-3 - expected).abs() < 3e-3, "{}", stop.moving);
-    let resting = stop.pace.speed[5..stop.len() - 5].iter().filter(|speed| **speed == 0.0).count();
+    let resting = stop.timing.speed[5..stop.len() - 5].iter().filter(|speed| **speed == 0.0).count();
     assert!((195..=205).contains(&resting), "at rest for {resting} samples");
 }
 
@@ -190,7 +190,7 @@ fn speed_and_acceleration_stay_within_what_was_asked() {
     let mut random = fastrand::Rng::with_seed(24);
     for _ in 0..50 {
         let path = any_path(&mut random);
-        let tempo = Tempo {
+        let limits = MotionLimits {
             feed: between(&mut random, 0.01, 0.5),
             rapid: 1.0,
             acceleration: between(&mut random, 0.05, 2.0),
@@ -199,17 +199,17 @@ fn speed_and_acceleration_stay_within_what_was_asked() {
             corner_dwell: between(&mut random, 0.0, 0.1),
             settle: 0.05,
         };
-        let trajectory = Trajectory::new(&path, &tempo);
-        let s = &trajectory.pace.arc_length;
-        assert!((Trajectory::count(&path, &tempo) - trajectory.len() as f64).abs() <= 2.0);
+        let trajectory = Trajectory::new(&path, &limits);
+        let s = &trajectory.timing.arc_length;
+        assert!((Trajectory::count(&path, &limits) - trajectory.len() as f64).abs() <= 2.0);
         for k in 1..s.len() {
             let step = s[k] - s[k - 1];
-            assert!(step >= -1e-15 && step <= tempo.feed * 2e-3 * (1.0 + 1e-9));
+            assert!(step >= -1e-15 && step <= limits.feed * 2e-3 * (1.0 + 1e-9));
         }
         for k in 2..s.len() {
             let second = (s[k] - 2.0 * s[k - 1] + s[k - 2]) / 4e-6;
             // Across a stop of no or little wait, two ramps meet within a step: twice the acceleration.
-            assert!(second.abs() <= 2.0 * tempo.acceleration * (1.0 + 1e-6) + 1e-6, "{second}");
+            assert!(second.abs() <= 2.0 * limits.acceleration * (1.0 + 1e-6) + 1e-6, "{second}");
         }
         assert_eq!(*s.last().unwrap(), path.length());
     }
@@ -233,7 +233,7 @@ fn straight(paces: &[(f64, MovePace)]) -> Path {
 #[test]
 fn feeds_change_without_a_stop_and_within_the_acceleration() {
     let mut random = fastrand::Rng::with_seed(25);
-    let tempo = Tempo {
+    let limits = MotionLimits {
         feed: 0.08,
         rapid: 0.5,
         acceleration: 0.4,
@@ -254,28 +254,28 @@ fn feeds_change_without_a_stop_and_within_the_acceleration() {
             })
             .collect();
         let path = straight(&paces);
-        let trajectory = Trajectory::new(&path, &tempo);
+        let trajectory = Trajectory::new(&path, &limits);
         assert!(trajectory.stops.is_empty());
         let limit = |s: f64| {
             let index = (0..8).rev().find(|&i| path.start(i) <= s).unwrap();
             match path.moves()[index].pace {
-                MovePace::Rapid => tempo.rapid,
+                MovePace::Rapid => limits.rapid,
                 MovePace::Feed(feed) => feed,
-                MovePace::JobFeed => tempo.feed,
+                MovePace::JobFeed => limits.feed,
             }
         };
-        let pace = &trajectory.pace;
+        let pace = &trajectory.timing;
         for k in 0..trajectory.len() {
             // A sample on a junction belongs to the next move.
             let allowed = limit(pace.arc_length[k]).max(limit((pace.arc_length[k] - 1e-9).max(0.0)));
             assert!(pace.speed[k] <= allowed * (1.0 + 1e-9), "{} > {allowed}", pace.speed[k]);
             if k > 0 {
                 let change = (pace.speed[k] - pace.speed[k - 1]).abs();
-                assert!(change <= tempo.acceleration * 1e-3 * (1.0 + 1e-6), "{change}");
+                assert!(change <= limits.acceleration * 1e-3 * (1.0 + 1e-6), "{change}");
                 let step = pace.arc_length[k] - pace.arc_length[k - 1];
                 let mean = (pace.speed[k] + pace.speed[k - 1]) / 2.0;
                 assert!(
-                    (step - mean * 1e-3).abs() < 1e-3 * tempo.acceleration * 1e-3,
+                    (step - mean * 1e-3).abs() < 1e-3 * limits.acceleration * 1e-3,
                     "distance is the integral of speed"
                 );
             }
@@ -293,7 +293,7 @@ fn rapids_do_not_cut_and_waits_are_waited() {
     };
     program.dwells.push(armill::path::program::Dwell { after: 1, time: 0.3, line: 2 });
     let path = Path::of_program(&program).unwrap();
-    let tempo = Tempo {
+    let limits = MotionLimits {
         feed: 0.1,
         rapid: 0.2,
         acceleration: 1.0,
@@ -302,17 +302,17 @@ fn rapids_do_not_cut_and_waits_are_waited() {
         corner_dwell: 0.0,
         settle: 0.0,
     };
-    let trajectory = Trajectory::new(&path, &tempo);
-    let resting = (0..trajectory.len()).filter(|&k| trajectory.pace.arc_length[k] == 0.05).count();
+    let trajectory = Trajectory::new(&path, &limits);
+    let resting = (0..trajectory.len()).filter(|&k| trajectory.timing.arc_length[k] == 0.05).count();
     assert!((299..=302).contains(&resting), "{resting} samples at rest");
-    for (s, engaged) in trajectory.pace.arc_length.iter().zip(&trajectory.pace.engaged) {
+    for (s, engaged) in trajectory.timing.arc_length.iter().zip(&trajectory.timing.engaged) {
         assert!(*s == 0.05 || *engaged == if *s < 0.05 { 0.0 } else { 1.0 });
     }
     // Rapid: 0.05 m at up to 0.2 m/s; then 0.05 m at 0.1 m/s; both from rest to rest with 1 m/s^2; and the wait.
     let expected = (0.05 / 0.2 + 0.2) + 0.3 + (0.05 / 0.1 + 0.1);
     assert!((trajectory.moving as f64 * 1e-3 - expected).abs() < 3e-3);
     // Stations stand evenly from the start to the end, at each move's full speed.
-    let Pace { arc_length, speed, engaged, .. } = Trajectory::stations(&path, &tempo, 5).pace;
+    let TimingLaw { arc_length, speed, engaged, .. } = Trajectory::stations(&path, &limits, 5).timing;
     assert!(arc_length.iter().zip([0.0, 0.025, 0.05, 0.075, 0.1]).all(|(s, even)| (s - even).abs() < 1e-15));
     assert_eq!([speed[1], speed[3], engaged[1], engaged[3]], [0.2, 0.1, 0.0, 1.0]);
 }

@@ -4,7 +4,7 @@
 mod common;
 
 use armill::Job;
-use armill::placement::{Mark, Survey};
+use armill::placement::{PlacementMap, PlacementStatus};
 use common::job_text;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
@@ -27,17 +27,17 @@ fn job(place: [f64; 3], changes: &[(&str, Value)]) -> Job {
 
 #[test]
 fn every_place_is_what_a_whole_run_there_says() {
-    let survey = Survey::new(&job([0.0, 500.0, 400.0], &[])).unwrap();
+    let survey = PlacementMap::new(&job([0.0, 500.0, 400.0], &[])).unwrap();
     let mut seen = [0; 4];
     for x in [-900.0, -300.0, 100.0, 500.0] {
         for y in [-400.0, 300.0, 600.0, 1000.0] {
             for z in [250.0, 500.0] {
                 let place = survey.at(Vector3::new(x, y, z) * 1e-3);
-                seen[place.mark as usize] += 1;
-                let run = match armill::run(&job([x, y, z], &[])) {
+                seen[place.status as usize] += 1;
+                let run = match armill::run(&job([x, y, z], &[]), &mut armill::Progress::none()) {
                     Ok(run) => run,
                     Err(error) => {
-                        assert_eq!(place.mark, Mark::Unreachable, "{x}, {y}, {z}: {error}");
+                        assert_eq!(place.status, PlacementStatus::Unreachable, "{x}, {y}, {z}: {error}");
                         assert!(place.max.is_nan());
                         continue;
                     }
@@ -45,13 +45,13 @@ fn every_place_is_what_a_whole_run_there_says() {
                 let has = |codes: &[&str]| run.warnings.iter().any(|warning| codes.contains(&warning.code));
                 let summary = run.summary().before_mm.deflection;
                 let apart = (place.max / 1e-3 - summary.max).abs();
-                match place.mark {
-                    Mark::Good | Mark::Limit => {
+                match place.status {
+                    PlacementStatus::Good | PlacementStatus::Limit => {
                         assert!(apart < 0.02 * summary.max, "{x}, {y}, {z}: {place:?} and {summary:?}");
                         // Ramps and corners take longer in time than along the path.
                         assert!((place.mean / 1e-3 - summary.mean).abs() < 0.1 * summary.mean);
                     }
-                    Mark::Singular => {
+                    PlacementStatus::Singular => {
                         assert!(has(&[
                             "singularity-wrist",
                             "singularity-elbow",
@@ -59,10 +59,10 @@ fn every_place_is_what_a_whole_run_there_says() {
                             "joint-jump"
                         ]));
                     }
-                    Mark::Unreachable => panic!("{x}, {y}, {z} can be run"),
+                    PlacementStatus::Unreachable => panic!("{x}, {y}, {z} can be run"),
                 }
                 // By compensation a command may leave the range where the desired path just keeps it, not the other way round.
-                assert!(place.mark != Mark::Limit || has(&["joint-limit"]), "{x}, {y}, {z}");
+                assert!(place.status != PlacementStatus::Limit || has(&["joint-limit"]), "{x}, {y}, {z}");
             }
         }
     }
@@ -71,7 +71,7 @@ fn every_place_is_what_a_whole_run_there_says() {
 
 #[test]
 fn the_present_place_is_on_the_map_and_the_extent_holds_all_that_can_be_reached() {
-    let survey = Survey::new(&job([0.0, 500.0, 400.0], &[])).unwrap();
+    let survey = PlacementMap::new(&job([0.0, 500.0, 400.0], &[])).unwrap();
     let [x, y, z] = survey.extent();
     let inside =
         |p: Vector3<f64>| [x, y, z].iter().zip(p.iter()).all(|([low, high], p)| (low..=high).contains(&p));
@@ -80,7 +80,7 @@ fn the_present_place_is_on_the_map_and_the_extent_holds_all_that_can_be_reached(
     for i in -8..=8 {
         for k in -8..=8 {
             let place = Vector3::new(f64::from(i) * 0.25, f64::from(k) * 0.25, 0.4);
-            if survey.at(place).mark != Mark::Unreachable {
+            if survey.at(place).status != PlacementStatus::Unreachable {
                 reached += 1;
                 assert!(inside(place), "{place}");
             }

@@ -4,9 +4,10 @@
 mod common;
 
 use armill::Report;
-use armill::export::{Options, export};
+use armill::export::Options;
 use armill::math::rotation_about;
-use armill::path::{Axes, Listing, Move, MovePace, Path, Program, Segment};
+use armill::path::{Axes, Move, MovePace, Path, Program, Segment, SourceProgram};
+use armill::verification::export;
 use common::program::{chain, commanded, largest_distance, read_back, small_jobs, written};
 use common::run;
 use nalgebra::Vector3;
@@ -15,7 +16,7 @@ use serde_json::{Value, json};
 #[test]
 fn a_wait_in_a_corner_is_written() {
     let report = run(&small_jobs()[2].1);
-    let wait = report.setup.tempo.corner_dwell;
+    let wait = report.setup().limits.corner_dwell;
     for (id, word) in [
         ("gcode", "G4 P"),
         ("apt", "DELAY/"),
@@ -65,8 +66,9 @@ fn from_gcode(text: &str, unit: &'static str) -> Report {
         })
         .collect();
     let program = Program { moves, unit, lines: text.lines().count(), ..Program::default() };
-    report.plan.path = Path::of_program(&program).unwrap().placed(&report.setup.workpiece);
-    report.setup.listing = Some(Listing { language: "gcode", text: text.into(), program });
+    report.plan.path = Path::of_program(&program).unwrap().placed(&report.setup().workpiece);
+    std::sync::Arc::make_mut(&mut report.plan.setup).program =
+        Some(SourceProgram { language: "gcode", text: text.into(), program });
     report
 }
 
@@ -102,7 +104,7 @@ fn a_program_keeps_its_lines() {
     }
     // A plain line that need not bend stays one block with its number.
     let mut straight = report.clone();
-    straight.setup.goal.max_passes = 0;
+    std::sync::Arc::make_mut(&mut straight.plan.setup).goal.max_passes = 0;
     straight.compensation.correction.iter_mut().for_each(|c| *c = Vector3::new(1e-4, 0.0, 0.0));
     let text = written(&straight, "gcode").text;
     assert!(text.contains("\nN30 G1 X60.1 Y0.0 Z0.0 F6000.0 (side)\n"), "{text}");
@@ -128,7 +130,7 @@ fn a_tilted_axis_goes_to_apt_not_to_gcode() {
     let export = written(&report, "apt");
     let apt = &export.text;
     assert!(apt.contains("\nMULTAX/ON\n") && apt.ends_with("FINI\n"));
-    let back = report.setup.workpiece.inverse();
+    let back = report.setup().workpiece.inverse();
     let wanted: Vec<_> = tilted.iter().map(|axis| back.direction(axis)).collect();
     let mut chain = Vec::new();
     for line in apt.lines().filter_map(|line| line.strip_prefix("GOTO/")) {
@@ -191,7 +193,7 @@ fn an_export_simulated_again_meets_the_tolerance() {
         assert!(worst <= allowed, "{name}: {worst}");
     }
     let changes = with(&sharp, &[rigid, light]);
-    let workpiece = run(&changes).setup.workpiece;
+    let workpiece = run(&changes).setup().workpiece;
     let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]]
         .map(|[x, y]| workpiece.point(&Vector3::new(0.06 * x, 0.04 * y, 0.0)));
     let errors = simulated_again(&changes);

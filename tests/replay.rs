@@ -3,16 +3,23 @@
 
 mod common;
 
+use armill::export::Options;
 use armill::export::command::Course;
-use armill::export::replay::{self, replay};
-use armill::export::{Options, export, promise};
 use armill::math::Pose;
 use armill::motion::Trajectory;
 use armill::path::{Path, gcode};
+use armill::verification::{Programs, Replay, export, read_back, replay};
+use armill::{Error, Report};
 use common::program::small_jobs;
 use common::run;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
+use std::sync::Arc;
+
+/// A report's program, read back and run.
+fn back(report: &Report, format: &str) -> Result<Replay, Error> {
+    read_back(report, &Programs::default(), format, &Options::default())
+}
 
 /// Jobs that promise their tolerance: name and changes of the default job.
 fn jobs() -> Vec<(&'static str, Vec<(&'static str, Value)>)> {
@@ -64,16 +71,16 @@ fn a_program_read_back_and_run_keeps_the_promise() {
         let report = run(&changes);
         let tolerance = report.summary().tolerance_mm;
         assert!(report.summary().after_mm.max <= tolerance, "{name}");
-        let promise = promise(&report).unwrap();
+        let promise = Programs::default().accuracy(&report, "gcode").unwrap();
         assert!(promise.met && promise.sentence.contains("within"), "{name}: {promise:?}");
         for format in ["gcode", "apt", "path-csv"] {
-            let outcome = replay(&report, format, &Options::default()).unwrap();
+            let outcome = back(&report, format).unwrap();
             let error = outcome.statistics();
             assert!(error.max <= tolerance, "{name} as {format}: {error:?}");
             assert!(error.mean <= error.max && error.max > 0.0, "{name} as {format}: {error:?}");
         }
     }
-    let refused = replay(&run(&[]), "krl", &Options::default()).unwrap_err();
+    let refused = back(&run(&[]), "krl").unwrap_err();
     assert_eq!((refused.code(), refused.field()), ("invalid", Some("format")));
 }
 
@@ -84,14 +91,14 @@ fn what_no_program_keeps_is_not_promised() {
         let report = run(&changes);
         let tolerance = report.summary().tolerance_mm;
         assert!(report.summary().after_mm.max <= tolerance, "{name}");
-        let promise = promise(&report).unwrap();
+        let promise = Programs::default().accuracy(&report, "gcode").unwrap();
         assert!(!promise.met && promise.sentence.contains("beyond"), "{name}: {promise:?}");
         let text = export(&report, "gcode", &Options::default()).unwrap().text;
-        let outcome = replay(&report, "gcode", &Options::default()).unwrap();
+        let outcome = back(&report, "gcode").unwrap();
         let read_back = outcome.statistics().max;
         assert!(read_back <= promise.max_mm * 1.02, "{name}: {promise:?}, read back {read_back}");
         let read = gcode::program(&text, &gcode::Options::default(), |_| {}).unwrap();
-        let own = Trajectory::new(&Path::of_program(&read).unwrap(), &report.setup.tempo);
+        let own = Trajectory::new(&Path::of_program(&read).unwrap(), &report.setup().limits);
         assert_eq!(own.stops.len(), report.plan.trajectory.stops.len(), "{name}: {:?}", own.stops);
         // Ten times less than the deflection itself, which is what an error of the whole correction would be.
         assert!(read_back < 0.1 * report.summary().before_mm.deflection.max, "{name}: {read_back}");
@@ -111,9 +118,45 @@ fn the_header_says_what_comes_out_of_the_program() {
         let said: f64 = figure.split(' ').next().unwrap().parse().unwrap();
         assert_eq!(line.contains("tolerance met"), met, "{line}");
         // Read back, places and feeds are rounded, and the figure has three digits.
-        let outcome = replay(&report, "gcode", &Options::default()).unwrap().statistics().max;
+        let outcome = back(&report, "gcode").unwrap().statistics().max;
         assert!((said - outcome).abs() <= 0.02 * outcome, "{line}, read back {outcome}");
     }
+}
+
+/// The largest contour error [mm] that the header of a robot program states, as it is written.
+fn stated(text: &str) -> String {
+    // FANUC breaks its remarks into short lines.
+    let comment =
+        |line: &str| line.split_once('!').map_or(line.to_owned(), |(_, rest)| rest.replace(" ;", ""));
+    let text: Vec<String> = text.lines().map(comment).collect();
+    let text = text.join(" ").split_whitespace().collect::<Vec<_>>().join(" ");
+    let (_, own) = text.split_once("Run from this file").unwrap();
+    let (_, figure) = own.split_once("largest contour error ").unwrap();
+    figure.split(' ').next().unwrap().to_owned()
+}
+
+/// A robot program waits and moves at rapid speed where a list of points does not, so it has an error
+/// of its own; the figure beside the file is the one in its header.
+#[test]
+fn a_robot_program_is_judged_by_its_own_timing() {
+    let text = "G21 G90 M3 S4000\nG0 X560 Y-60 Z110\nG1 Z100 F3000\nG1 Y60\nG4 P0.5\nG1 X620\nG0 Z110\nM30";
+    let report = run(&[("path", json!({"kind":"gcode","text":text}))]);
+    let programs = Programs::default();
+    let points = programs.accuracy(&report, "path-csv").unwrap().max_mm;
+    for (id, name) in [
+        ("krl", "a KUKA KRL"),
+        ("rapid", "an ABB RAPID"),
+        ("val3", "a Staubli VAL3"),
+        ("fanuc", "a FANUC LS"),
+    ] {
+        let accuracy = programs.accuracy(&report, id).unwrap();
+        assert!(accuracy.sentence.starts_with(&format!("As {name} program")), "{accuracy:?}");
+        let header = stated(&programs.export(&report, id, &Options::default()).unwrap().text);
+        assert!(accuracy.sentence.contains(&format!(" {header} mm")), "{id}: {header}, {accuracy:?}");
+        assert!((accuracy.max_mm - points).abs() > 0.05 * points, "{id}: {accuracy:?}, points {points}");
+    }
+    let refused = programs.accuracy(&report, "joints-csv").unwrap_err();
+    assert_eq!((refused.code(), refused.field()), ("invalid", Some("format")));
 }
 
 /// A file that needs no pass tells the report's own correction; one that does is no worse for it.
@@ -124,10 +167,10 @@ fn a_rehearsal_only_improves() {
         let report = run(&changes);
         let unrehearsed = {
             let mut report = report.clone();
-            report.setup.goal.max_passes = 0;
-            replay(&report, "gcode", &Options::default()).unwrap().largest()
+            Arc::make_mut(&mut report.plan.setup).goal.max_passes = 0;
+            back(&report, "gcode").unwrap().largest()
         };
-        let rehearsed = replay(&report, "gcode", &Options::default()).unwrap().largest();
+        let rehearsed = back(&report, "gcode").unwrap().largest();
         let course = export(&report, "gcode", &Options::default()).unwrap().course;
         assert_eq!(course != Course::of(&report), passes);
         assert!(if passes { rehearsed < 0.5 * unrehearsed } else { rehearsed == unrehearsed });

@@ -37,10 +37,10 @@ fn follow<'a>(name: &str, points: impl Iterator<Item = &'a Vector3<f64>>, path: 
 
 /// Commanded poses in the workpiece frame, as many lists as the path has moves.
 fn samples(report: &Report, course: &Course) -> Vec<Vec<Pose>> {
-    let back = report.setup.workpiece.inverse();
+    let back = report.setup().workpiece.inverse();
     let axes = (0..report.samples()).map(|k| back.direction(course.axis.at(k)));
     let mut samples = course.positions(report).into_iter().map(|p| back.point(&p)).zip(axes);
-    let arc_length = &report.plan.trajectory.pace.arc_length;
+    let arc_length = &report.plan.trajectory.timing.arc_length;
     let path = &report.plan.path;
     let moves = path.moves().len();
     let ends = (1..=moves).map(|i| if i == moves { f64::INFINITY } else { path.start(i) });

@@ -41,7 +41,7 @@ fn without_a_file_the_default_job_is_printed() {
     let output = script().output().unwrap();
     assert!(output.status.success());
     let printed = json_of(&output.stdout);
-    let summary = armill::run(&armill::Job::default()).unwrap().summary();
+    let summary = armill::run(&armill::Job::default(), &mut armill::Progress::none()).unwrap().summary();
     assert_eq!(printed["fingerprint"], summary.fingerprint);
     assert_eq!(printed["samples"], summary.samples);
     assert_eq!(printed["before_mm"]["both"]["max"], summary.before_mm.both.max);

@@ -22,7 +22,7 @@ fn text(spin: Value, changes: &[(&str, Value)]) -> String {
 }
 
 fn angled(spin: Value, changes: &[(&str, Value)]) -> Report {
-    armill::run_json(&text(spin, changes), |_| {}).unwrap()
+    armill::run_json(&text(spin, changes), &mut armill::Progress::none()).unwrap()
 }
 
 fn free(goal: &str, low: f64, high: f64) -> Value {
@@ -70,7 +70,7 @@ fn a_free_spin_does_what_it_is_chosen_for() {
     let exact = angled(free("least-error", -90.0, 90.0), &[]);
     // Square turn of the joints along the path, and the largest error: the goals themselves, over all samples.
     let turning = |report: &Report| {
-        let steps = report.q.windows(2).zip(report.plan.trajectory.pace.arc_length.windows(2));
+        let steps = report.q.windows(2).zip(report.plan.trajectory.timing.arc_length.windows(2));
         steps
             .map(|(q, s)| if s[1] > s[0] { (q[1] - q[0]).norm_squared() / (s[1] - s[0]) } else { 0.0 })
             .sum::<f64>()
@@ -81,7 +81,7 @@ fn a_free_spin_does_what_it_is_chosen_for() {
     for angle in [-90, -60, -30, 30, 60, 90] {
         // Any one angle is worse; 1 % for what lies between the stations.
         let Ok(job) = armill::Job::from_json(&text(json!({"angle_deg":angle}), &[])) else { panic!() };
-        let Ok(held) = armill::run(&job) else { continue };
+        let Ok(held) = armill::run(&job, &mut armill::Progress::none()) else { continue };
         assert!(
             turning(&calm) < 1.01 * turning(&held),
             "{angle} deg: {} of {}",

@@ -15,7 +15,7 @@ use std::sync::OnceLock;
 
 fn default_report() -> &'static Report {
     static REPORT: OnceLock<Report> = OnceLock::new();
-    REPORT.get_or_init(|| armill::run(&Job::default()).unwrap())
+    REPORT.get_or_init(|| armill::run(&Job::default(), &mut armill::Progress::none()).unwrap())
 }
 
 fn close(ours: f64, printed: f64, tolerance: f64, what: &str) {
@@ -170,7 +170,7 @@ fn eq_4_7_mean_force() {
 
 #[test]
 fn eq_4_15_zvd() {
-    let impulses = default_report().setup.shaper.impulses();
+    let impulses = default_report().setup().shaper.impulses();
     let printed = [(0.3344, 0.0), (0.4877, 0.1754), (0.1778, 0.3508)];
     assert_eq!(impulses.len(), 3);
     for (impulse, (amplitude, time)) in impulses.iter().zip(printed) {
@@ -261,7 +261,7 @@ fn the_after_figures_come_from_the_whole_model() {
     // Sent through once more by hand: the commanded joints, shaped, bent by C F, against the circle's own equation.
     let report = default_report();
     let robot = &report.plan.robot;
-    let shaped = report.plan.shaper.apply(&report.compensation.q, 0.001);
+    let shaped = report.plan.shaper().apply(&report.compensation.q, 0.001);
     let normal = Vector3::new(0.2, 0.3, 0.5).normalize();
     let mut worst = 0.0_f64;
     for (q, force) in shaped.iter().zip(report.force.iter()) {
@@ -277,7 +277,7 @@ fn the_after_figures_come_from_the_whole_model() {
 #[test]
 fn one_source_compensated_leaves_the_other() {
     let shaping = run(&[("compensation.sources", json!(["shaping"]))]);
-    let sought = shaping.plan.passage(Sources::ALL).without_force();
+    let sought = armill::deviation::Reference::along(&shaping.plan, Sources::ALL).without_force();
     assert!(
         sought.force.is_empty() && !sought.acting.deflection,
         "the force is not known to what is compensated"

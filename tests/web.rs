@@ -132,6 +132,30 @@ fn what_charts_show_comes_as_columns_in_the_units_asked_for() {
 }
 
 #[wasm_bindgen_test]
+fn options_are_refused_with_their_key() {
+    let run = wasm::run(&wasm::default_job(), None).unwrap();
+    let refused = |options: &str| {
+        let error = run.chart("before-after", js_sys::JSON::parse(options).unwrap()).unwrap_err();
+        (text(&error, "code"), text(&error, "field"), text(&error, "message"))
+    };
+    for (options, code, field, part) in [
+        (r#"{"width":"wide","height":300}"#, "invalid", "width", "\"wide\"; expected a number"),
+        (r#"{"width":640}"#, "missing", "height", "need it"),
+        (r#"{"width":640,"height":300,"widht":1}"#, "invalid", "widht", "`height`"),
+        (r#"{"width":640,"height":300,"x_range":[1]}"#, "invalid", "x_range", "[1]"),
+        (r#"{"width":640,"height":300,"x_range":[1,"b"]}"#, "invalid", "x_range[1]", "a number"),
+        (r#"{"width":640,"height":300,"hidden":"all"}"#, "invalid", "hidden", "\"all\""),
+        (r#"{"width":640,"height":300,"length":"yard"}"#, "invalid", "length", "`mm` or `inch`"),
+        (r#"{"width":20,"height":300}"#, "invalid", "chart", "between 120 and 8000"),
+    ] {
+        let (is, at, message) = refused(options);
+        assert_eq!((is.as_str(), at.as_str()), (code, field), "{options}: {message}");
+        assert!(message.contains(part), "{options}: {message}");
+    }
+    assert!(run.chart_data("before-after", JsValue::UNDEFINED).is_ok(), "units may be left out");
+}
+
+#[wasm_bindgen_test]
 fn progress_is_told_and_files_come_out() {
     let told = js_sys::eval("(() => { const told = []; const tell = (f, s) => told.push([f, s]); tell.told = told; return tell; })()").unwrap();
     let run = wasm::run(&wasm::default_job(), Some(told.clone().unchecked_into())).unwrap();

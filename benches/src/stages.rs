@@ -66,7 +66,7 @@ pub const STAGES: [Work<Stages>; 9] = [
 /// # Errors
 /// What is wrong with the job.
 pub fn whole(text: &str) -> Result<Report, Error> {
-    let report = armill::run_json(text, |_| {})?;
+    let report = armill::run_json(text, &mut Progress::none())?;
     drop(black_box(report.summary()));
     Ok(report)
 }
@@ -79,7 +79,7 @@ impl Stages {
     pub fn new(samples: usize) -> Result<Self, Error> {
         let text = job(samples);
         let report = whole(&text)?;
-        let (setup, plan) = (report.setup.clone(), report.plan.clone());
+        let (setup, plan) = (report.setup().clone(), report.plan.clone());
         let joints = joints(&setup, &plan)?;
         let (before, pace) = (report.before.clone(), plan.pace(Sources::ALL).into_owned());
         Ok(Self { text, setup, plan, joints, pace, before, report })

@@ -78,7 +78,7 @@ pub const CATALOG: [Entry; 28] = [
 
 /// The charts that have something to show of a report.
 pub fn charts_of(report: &Report) -> Vec<Entry> {
-    CATALOG.into_iter().filter(|entry| entry.name != SPIN || report.spin.is_some()).collect()
+    CATALOG.into_iter().filter(|entry| entry.name != SPIN || report.roll.is_some()).collect()
 }
 
 /// Draws the chart `name` of a report.

@@ -47,7 +47,7 @@ impl Sheet<'_> {
     }
 
     fn tolerance(&self) -> (f64, Vec<Band>) {
-        let tolerance = self.report.setup.goal.tolerance;
+        let tolerance = self.report.setup().goal.tolerance;
         (tolerance, vec![Band { from: 0.0, to: tolerance / self.units.length.in_m(), label: "tolerance" }])
     }
 
@@ -223,9 +223,9 @@ impl Sheet<'_> {
     }
 
     pub(super) fn revolution(&self) -> Content {
-        let setup = &self.report.setup;
+        let setup = self.report.setup();
         let (size, unit) = (self.units.force.in_n(), self.units.force.name());
-        let chip = setup.chip.at(setup.tempo.feed, None);
+        let chip = setup.chip.at(setup.limits.feed, None);
         let (angles, forces) = setup.cut.revolution(720, chip);
         let mut curves: Vec<_> = AXES
             .iter()
@@ -282,11 +282,11 @@ impl Sheet<'_> {
     pub(super) fn spin(&self) -> Content {
         let plan = &self.report.plan;
         let values: Vec<f64> =
-            plan.trajectory.pace.arc_length.iter().map(|&s| plan.path.spin(s) / DEG).collect();
+            plan.trajectory.timing.arc_length.iter().map(|&s| plan.path.roll(s) / DEG).collect();
         let mut description = format!("From {:.1} to {:.1} deg", min(&values), max(&values));
         let count = values.len();
         let mut curves = vec![Curve { key: "spin", label: "Chosen", class: "s1", values }];
-        if let Some(gain) = &self.report.spin {
+        if let Some(gain) = &self.report.roll {
             description += &format!(", compared with {:.1} deg all along", gain.fixed_deg);
             let values = vec![gain.fixed_deg; count];
             curves.push(Curve { key: "fixed", label: "Fixed", class: "desired", values });
@@ -308,8 +308,8 @@ impl Sheet<'_> {
 
     /// A unit step at time 0 and what the shaper makes of it (Fig. 4.10).
     pub(super) fn step(&self) -> Content {
-        let impulses = self.report.setup.shaper.impulses();
-        let duration = self.report.setup.shaper.duration();
+        let impulses = self.report.setup().shaper.impulses();
+        let duration = self.report.setup().shaper.duration();
         let margin = if duration > 0.0 { 0.25 * duration } else { 0.1 };
         let (mut at, mut original, mut shaped) = (vec![-margin], vec![0.0], vec![0.0]);
         let mut level = 0.0;
@@ -337,9 +337,9 @@ impl Sheet<'_> {
 
     /// Residual vibration over the true frequency, as a share of the design frequency.
     pub(super) fn robustness(&self) -> Content {
-        let shaper = &self.report.setup.shaper;
+        let shaper = &self.report.setup().shaper;
         let at: Vec<f64> = (0..=400).map(|i| 0.5 + f64::from(i) / 400.0).collect();
-        let left: Vec<f64> = match self.report.setup.mode {
+        let left: Vec<f64> = match self.report.setup().mode {
             Some((frequency, damping)) => {
                 at.iter().map(|r| 100.0 * shaper.residual_vibration(r * frequency, damping)).collect()
             }
@@ -347,7 +347,7 @@ impl Sheet<'_> {
         };
         let little = at.iter().zip(&left).filter(|(_, left)| **left <= 5.0).map(|(ratio, _)| *ratio);
         let within: Vec<f64> = little.collect();
-        let description = if self.report.setup.mode.is_none() {
+        let description = if self.report.setup().mode.is_none() {
             "No shaper: all of the vibration is left.".to_owned()
         } else if within.is_empty() {
             "Nowhere below 5 % of the vibration of an unshaped command.".to_owned()

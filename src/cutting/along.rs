@@ -1,7 +1,7 @@
 //! Milling force along the path, in the base frame (thesis eq. 4.11, Fig. 4.6).
 
 use crate::cutting::LinearForce;
-use crate::motion::Pace;
+use crate::motion::TimingLaw;
 use crate::path::Path;
 use nalgebra::Vector3;
 
@@ -29,30 +29,31 @@ impl ChipLoad {
     }
 }
 
-/// Mean force on the tool [N] in the base frame, one a sample, where `pace` says the tool is; none on rapid moves.
+/// Mean force on the tool [N] in the base frame, one a sample, where `timing` says the tool is; none on rapid moves.
 ///
 /// {T} is turned with the local feed: x = feed across the tool axis, z = tool axis, y = z x x (eq. 4.11). Where the tool moves
 /// along its own axis x is undefined; the last direction holds (at the start: the first one that follows), and the report warns.
-pub fn forces(path: &Path, pace: &Pace, mean: &LinearForce, chip: &ChipLoad) -> Vec<Vector3<f64>> {
-    let mut forces = Vec::with_capacity(pace.heading.len());
-    each(path, pace, |k, x, axis| {
-        let (index, _) = path.locate(pace.arc_length[k]);
-        let f = mean.at(chip.at(pace.speed[k], path.moves()[index].spindle)) * pace.engaged[k];
+pub fn forces(path: &Path, timing: &TimingLaw, mean: &LinearForce, chip: &ChipLoad) -> Vec<Vector3<f64>> {
+    let mut forces = Vec::with_capacity(timing.heading.len());
+    each(path, timing, |k, x, axis| {
+        let spindle = path.moves()[timing.index[k] as usize].spindle;
+        let f = mean.at(chip.at(timing.speed[k], spindle)) * timing.engaged[k];
         forces.push(x * f.x + axis.cross(&x) * f.y + axis * f.z);
     });
     forces
 }
 
 /// Calls `at` for every sample with its number and the directions x and z of {T} there, in the base frame.
-pub fn each(path: &Path, pace: &Pace, mut at: impl FnMut(usize, Vector3<f64>, Vector3<f64>)) {
+pub fn each(path: &Path, timing: &TimingLaw, mut at: impl FnMut(usize, Vector3<f64>, Vector3<f64>)) {
     let across = |heading: &Vector3<f64>, axis: &Vector3<f64>| {
         (heading - axis * axis.dot(heading)).try_normalize(1e-6)
     };
-    let samples = || pace.heading.iter().zip(&pace.arc_length);
-    let first = samples().find_map(|(heading, &s)| across(heading, &path.axis(s)));
+    let axis_at = |k: usize| path.axis_at(path.within(timing.index[k] as usize, timing.arc_length[k]));
+    let samples = || timing.heading.iter().enumerate();
+    let first = samples().find_map(|(k, heading)| across(heading, &axis_at(k)));
     let mut x = first.unwrap_or_else(|| path.reference(&path.axis(0.0)));
-    for (k, (heading, &s)) in samples().enumerate() {
-        let axis = path.axis(s);
+    for (k, heading) in samples() {
+        let axis = axis_at(k);
         x = across(heading, &axis).or_else(|| across(&x, &axis)).unwrap_or(x);
         at(k, x, axis);
     }

@@ -3,23 +3,34 @@
 use crate::path::Path;
 use nalgebra::Vector3;
 
-/// Contour error vector epsilon = P_c - P_a [m] (eq. 5.2) of a tip that is meant to be at `target`, the path's point at the arc length `s` [m].
+/// Contour error vector epsilon = P_c - P_a [m] (eq. 5.2) of a tip that is meant to be at `target`, the
+/// path's point at the arc length `s` [m].
 ///
-/// P_c is searched around there. The target is at some distance d from the tip, the closest point is at most that far, so the two are at
-/// most 2 d apart; 3 d leaves room for the path's bends.
+/// P_c is searched around there. The target is at some distance d from the tip, the closest point is at
+/// most that far, so the two are at most 2 d apart; 3 d leaves room for the path's bends.
 pub fn contour_error(path: &Path, (s, target): (f64, &Vector3<f64>), tip: &Vector3<f64>) -> Vector3<f64> {
     let distance = (tip - target).norm();
     path.closest(tip, s, 3.0 * distance + 1e-6).point - tip
 }
 
-/// Mean and largest length of the vectors [m].
-pub fn mean_and_max(errors: &[Vector3<f64>]) -> (f64, f64) {
-    let mut sum = 0.0;
-    let mut max = 0.0_f64;
-    for error in errors {
-        let norm = error.norm();
-        sum += norm;
-        max = max.max(norm);
+/// Mean and largest length of contour errors.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MeanMax {
+    /// Mean over all samples [m].
+    pub mean: f64,
+    /// Largest [m].
+    pub max: f64,
+}
+
+impl MeanMax {
+    /// Of error vectors [m].
+    pub fn of(errors: &[Vector3<f64>]) -> Self {
+        let (mut sum, mut max) = (0.0, 0.0_f64);
+        for error in errors {
+            let norm = error.norm();
+            sum += norm;
+            max = max.max(norm);
+        }
+        Self { mean: sum / errors.len().max(1) as f64, max }
     }
-    (sum / errors.len().max(1) as f64, max)
 }

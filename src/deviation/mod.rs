@@ -1,6 +1,82 @@
-//! What gives way: deflection by cutting forces, distortion by the input shaper, and the contour error of both.
+//! What gives way: deflection by cutting forces, distortion by the input shaper, and the contour error
+//! of both (thesis sections 4.3-4.5, 5.2).
 
 pub mod contour;
-pub mod source;
+pub mod reference;
+pub mod simulate;
 
-pub use source::{Deviation, Parted, Passage, Plan, Source, Sources, deviate, deviate_apart, deviate_with};
+pub use crate::job::{Source, Sources};
+pub use reference::Reference;
+pub use simulate::{ErrorsBySource, simulate, simulate_by_source};
+
+use crate::math;
+use crate::path::Path;
+use contour::MeanMax;
+use nalgebra::Vector3;
+
+/// The outcome of joint commands.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Deviation {
+    /// Actual tip in the base frame [m].
+    pub actual: Vec<Vector3<f64>>,
+    /// Actual tool axis, from tip to spindle, in the base frame; empty along a path that keeps one axis.
+    pub axis: Vec<Vector3<f64>>,
+    /// Contour error, from the actual tip to the closest point of the desired path [m].
+    pub contour_error: Vec<Vector3<f64>>,
+    /// Its mean and largest length.
+    pub statistics: MeanMax,
+    /// Angle between the actual and the desired tool axis where the tool is along the path [rad]; empty
+    /// unless every source acts.
+    pub axis_error: Vec<f64>,
+}
+
+/// Where a shaped command and what gives way bring the tool: tip or displacement [m], axis or turn [rad].
+type TipAndAxis = (Vector3<f64>, Vector3<f64>);
+
+/// Collects a [`Deviation`] sample by sample.
+struct DeviationBuilder<'a> {
+    path: &'a Path,
+    reference: &'a Reference<'a>,
+    keeps_axes: bool,
+    keeps_angles: bool,
+    deviation: Deviation,
+}
+
+impl<'a> DeviationBuilder<'a> {
+    fn new(path: &'a Path, reference: &'a Reference<'a>, acting: Sources) -> Self {
+        let samples = reference.arc_length.len();
+        let (keeps_axes, keeps_angles) = (path.is_multi_axis(), acting == Sources::ALL);
+        let deviation = Deviation {
+            actual: Vec::with_capacity(samples),
+            axis: Vec::with_capacity(if keeps_axes { samples } else { 0 }),
+            contour_error: Vec::with_capacity(samples),
+            statistics: MeanMax::default(),
+            axis_error: Vec::with_capacity(if keeps_angles { samples } else { 0 }),
+        };
+        Self { path, reference, keeps_axes, keeps_angles, deviation }
+    }
+
+    /// Adds the sample `k`: the shaped pose, moved [m] and turned [rad].
+    fn push(&mut self, k: usize, (tip, axis): &TipAndAxis, (moved, turned): &TipAndAxis) {
+        let Self { path, reference, deviation, .. } = self;
+        let tip = tip + moved;
+        let place = (reference.arc_length[k], &reference.target[k]);
+        deviation.contour_error.push(contour::contour_error(path, place, &tip));
+        deviation.actual.push(tip);
+        if !(self.keeps_axes || self.keeps_angles) {
+            return;
+        }
+        let axis = (axis + turned.cross(axis)).normalize();
+        if self.keeps_angles {
+            deviation.axis_error.push(math::angle_between(&axis, reference.axis.at(k)));
+        }
+        if self.keeps_axes {
+            deviation.axis.push(axis);
+        }
+    }
+
+    fn finish(mut self) -> Deviation {
+        self.deviation.statistics = MeanMax::of(&self.deviation.contour_error);
+        self.deviation
+    }
+}

@@ -6,6 +6,7 @@
 
 use crate::compensation::Compensation;
 use crate::error::Error;
+use crate::export::Format;
 use crate::export::arc::{self, Step, rounded};
 use crate::export::fillet;
 use crate::export::thin::{self, Point};
@@ -37,6 +38,27 @@ pub struct Style {
 }
 
 impl Style {
+    /// How many there are of [`Style::index`].
+    pub const COUNT: usize = 8;
+
+    /// How a format says the path of a report; `None` for a table of samples.
+    pub fn of(format: &Format, report: &Report) -> Option<Self> {
+        let inches = report.setup().program.as_ref().is_some_and(|source| source.program.unit == "inch");
+        match format.id {
+            "columns-csv" | "compensated-csv" | "joints-csv" => None,
+            id => Some(Self {
+                arcs: id == "gcode",
+                inch: inches && ["gcode", "apt"].contains(&id),
+                points_only: id == "path-csv",
+            }),
+        }
+    }
+
+    /// Its number among all styles.
+    pub fn index(self) -> usize {
+        usize::from(self.arcs) + 2 * usize::from(self.inch) + 4 * usize::from(self.points_only)
+    }
+
     /// Positions are written in steps of this size [m].
     pub fn resolution(self) -> f64 {
         if self.inch { INCH * 1e-6 } else { MM * 1e-5 }
@@ -112,7 +134,7 @@ impl Command {
     /// [`Error::OutOfRange`] for a tolerance that is not from [`FINEST`] to [`COARSEST`]; [`Error::Invalid`] if what is left strays
     /// further from the samples than that.
     pub fn new(report: &Report, course: &Course, thinning: Option<f64>, style: Style) -> Result<Self, Error> {
-        let thinning = thinning.unwrap_or((report.setup.goal.tolerance / 10.0).clamp(FINEST, COARSEST));
+        let thinning = thinning.unwrap_or((report.setup().goal.tolerance / 10.0).clamp(FINEST, COARSEST));
         if !(FINEST..=COARSEST).contains(&thinning) {
             return Err(Error::OutOfRange {
                 field: "thinning_mm".into(),
@@ -122,9 +144,9 @@ impl Command {
                 unit: "mm",
             });
         }
-        let back = report.setup.workpiece.inverse();
+        let back = report.setup().workpiece.inverse();
         let path = report.plan.path.placed(&back);
-        let turn = SMOOTH * report.setup.tempo.corner_angle;
+        let turn = SMOOTH * report.setup().limits.corner_angle;
         let mut start = None;
         let mut end: Option<Point> = None;
         let mut deviation = 0.0_f64;
@@ -138,9 +160,9 @@ impl Command {
             end = Some(steps.last().map_or(first, |last| last.to));
             deviation = deviation.max(strayed);
             let feed = match step.pace {
-                MovePace::Rapid => report.setup.tempo.rapid,
+                MovePace::Rapid => report.setup().limits.rapid,
                 MovePace::Feed(feed) => feed * piece.stretch,
-                MovePace::JobFeed => report.setup.tempo.feed * piece.stretch,
+                MovePace::JobFeed => report.setup().limits.feed * piece.stretch,
             };
             blocks.push(Block {
                 line: step.line,
@@ -148,7 +170,7 @@ impl Command {
                 feed,
                 spindle: step
                     .spindle
-                    .unwrap_or(report.setup.teeth_per_second / f64::from(report.setup.cut.flutes)),
+                    .unwrap_or(report.setup().teeth_per_second / f64::from(report.setup().cut.flutes)),
                 wait: piece.wait,
                 stops: true,
                 steps,
@@ -170,7 +192,7 @@ impl Command {
             });
         }
         let start =
-            start.unwrap_or(Point { position: path.point(0.0), axis: path.axis(0.0), spin: path.spin(0.0) });
+            start.unwrap_or(Point { position: path.point(0.0), axis: path.axis(0.0), spin: path.roll(0.0) });
         Ok(Self { start, blocks, thinning, deviation, samples: report.samples(), style, reached: None, path })
     }
 
@@ -242,12 +264,12 @@ struct Piece {
 
 fn pieces(report: &Report, course: &Course, path: &Path, back: &Pose) -> Vec<Piece> {
     let trajectory = &report.plan.trajectory;
-    let arc_length = &trajectory.pace.arc_length;
+    let arc_length = &trajectory.timing.arc_length;
     let correction = &course.correction;
     let sample = |k: usize| Point {
         position: back.point(&(trajectory.position[k] + correction[k])),
         axis: back.direction(course.axis.at(k)),
-        spin: path.spin(arc_length[k]),
+        spin: path.roll(arc_length[k]),
     };
     let last = arc_length.len() - 1;
     let mut k = 0;
@@ -260,7 +282,7 @@ fn pieces(report: &Report, course: &Course, path: &Path, back: &Pose) -> Vec<Pie
         let mut desired: Vec<_> = previous_end.iter().map(|_| path.point(start)).collect();
         let mut resting = 0;
         while k <= last && (is_last || arc_length[k] < end) {
-            if index > 0 && arc_length[k] == start && trajectory.pace.speed[k] == 0.0 {
+            if index > 0 && arc_length[k] == start && trajectory.timing.speed[k] == 0.0 {
                 resting += 1;
             }
             points.push(sample(k));
@@ -276,7 +298,7 @@ fn pieces(report: &Report, course: &Course, path: &Path, back: &Pose) -> Vec<Pie
                 position: path.point(end)
                     + back.direction(&(correction[k - 1] * (1.0 - t) + correction[k] * t)),
                 axis: turned.normalize(),
-                spin: path.spin(end),
+                spin: path.roll(end),
             });
             desired.push(path.point(end));
         }

@@ -43,7 +43,10 @@ pub fn path(report: &Report, command: &Command) -> String {
         text.push_str(&cells.collect::<Vec<_>>().join(","));
         text.push('\n');
     };
-    row(&command.start, command.blocks.first().map_or(report.setup.tempo.feed, |block: &Block| block.feed));
+    row(
+        &command.start,
+        command.blocks.first().map_or(report.setup().limits.feed, |block: &Block| block.feed),
+    );
     for block in &command.blocks {
         for point in block.points() {
             row(point, block.feed);

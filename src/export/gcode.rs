@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::export::arc::Step;
 use crate::export::command::{Block, Command};
 use crate::export::header::{self, number};
-use crate::path::Listing;
+use crate::path::SourceProgram;
 use crate::report::Report;
 use crate::units::{INCH, MM, RPM};
 use nalgebra::Vector3;
@@ -38,7 +38,7 @@ pub fn program(report: &Report, command: &Command) -> Result<String, Error> {
         });
     }
     let original =
-        report.setup.listing.as_ref().filter(|listing| {
+        report.setup().program.as_ref().filter(|listing| {
             listing.language == "gcode" && command.blocks.is_sorted_by_key(|block| block.line)
         });
     let unit = match command.style.inch {
@@ -183,7 +183,7 @@ impl Writer {
         self.line("%");
     }
 
-    fn rewritten(&mut self, listing: &Listing, command: &Command, header: &[String]) {
+    fn rewritten(&mut self, listing: &SourceProgram, command: &Command, header: &[String]) {
         let mut blocks = command.blocks.iter().peekable();
         let mut preamble = false;
         let mut started = false;

@@ -1,6 +1,5 @@
 //! What stands at the top of every program: where it comes from, what it promises and what it does not.
 
-use crate::deviation::contour;
 use crate::export::command::Command;
 use crate::export::orientation::roll_pitch_yaw;
 use crate::math::Pose;
@@ -9,9 +8,9 @@ use crate::units::{DEG, MM};
 
 /// The lines of the header, plain ASCII without brackets, for any language's comments. No date: the same run gives the same text.
 pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
-    let setup = &report.setup;
+    let setup = report.setup();
     let reached = report.after_max();
-    let (_, before) = contour::mean_and_max(&report.before.contour_error);
+    let before = report.before.statistics.max;
     let sources = match (setup.sources.deflection, setup.sources.shaping) {
         _ if report.compensation.passes == 0 => "not compensated",
         (true, true) => "compensated for deflection and shaping",

@@ -20,7 +20,7 @@ pub fn program(report: &Report, command: &Command) -> String {
         "; Every LIN is an exact stop. To blend, set $APO.CDIS in mm and write C_DIS after each LIN;".into(),
         "; what that rounds off comes on top of the figures above.".into(),
         "BAS(#INITMOV,0)".into(),
-        format!("$BASE={}", frame("FRAME: ", &report.setup.workpiece)),
+        format!("$BASE={}", frame("FRAME: ", &report.setup().workpiece)),
         format!("$TOOL={}", frame("FRAME: ", report.plan.robot.tool())),
         "$IPO_MODE=#BASE".into(),
         "$ORI_TYPE=#VAR".into(),

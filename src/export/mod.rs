@@ -13,17 +13,29 @@ pub mod krl;
 pub mod rapid;
 pub mod val3;
 pub mod fanuc;
-pub mod replay;
-pub mod rehearsal;
 pub mod format;
+mod post {
+    use crate::error::Error;
+    use crate::export::command::Command;
+    use crate::export::{apt, fanuc, gcode, krl, rapid, val3};
+    use crate::report::Report;
+    pub(super) fn program(report: &Report, command: &Command, id: &str) -> Result<String, Error> {
+        Ok(match id {
+            "gcode" => gcode::program(report, command)?,
+            "apt" => apt::program(report, command),
+            "krl" => krl::program(report, command),
+            "rapid" => rapid::program(report, command),
+            "val3" => val3::program(report, command),
+            _ => fanuc::program(report, command),
+        })
+    }
+}
 
 pub use format::{FORMATS, Format};
-pub use rehearsal::{Promise, promise};
 
 use crate::error::Error;
 use crate::report::Report;
-use command::{Course, Style};
-use rehearsal::rehearse;
+use command::{Command, Course};
 
 /// What a person may choose.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -47,45 +59,46 @@ pub struct Export {
     pub course: Course,
 }
 
-/// Writes the file of the format `id`.
+/// The format `id`.
 ///
 /// # Errors
-/// [`Error::Invalid`] for a format that is not in [`FORMATS`] or cannot say the path; else see [`rehearse`].
-pub fn export(report: &Report, id: &str, options: &Options) -> Result<Export, Error> {
-    let Some(format) = FORMATS.iter().find(|format| format.id == id) else {
+/// [`Error::Invalid`] if there is none.
+pub fn format(id: &str) -> Result<&'static Format, Error> {
+    FORMATS.iter().find(|format| format.id == id).ok_or_else(|| {
         let known: Vec<_> = FORMATS.iter().map(|format| format.id).collect();
-        return Err(Error::Invalid {
-            field: "format".into(),
-            value: format!("\"{id}\""),
-            expected: format!("there are {}", known.join(", ")),
-        });
+        Error::invalid("format", format!("\"{id}\""), format!("there are {}", known.join(", ")))
+    })
+}
+
+/// A file of numbers, one row a sample.
+pub fn table(report: &Report, format: &Format) -> Export {
+    let text = match format.id {
+        "compensated-csv" => csv::compensated(report),
+        "joints-csv" => csv::joints(report),
+        _ => csv::columns(report),
     };
-    let file_name = format!("armill-{id}.{}", format.extension);
-    let table = |text| {
-        let (file_name, course) = (file_name.clone(), Course::of(report));
-        Ok(Export { text, file_name, points: report.samples(), deviation: 0.0, course })
+    let (points, course) = (report.samples(), Course::of(report));
+    Export { text, file_name: file_name(format), points, deviation: 0.0, course }
+}
+
+/// A file that says a command, made to follow `course`.
+///
+/// # Errors
+/// [`Error::Invalid`] if the format cannot say it.
+pub fn program(
+    report: &Report,
+    format: &Format,
+    course: &Course,
+    command: &Command,
+) -> Result<Export, Error> {
+    let text = match format.id {
+        "path-csv" => csv::path(report, command),
+        _ => post::program(report, command, format.id)?,
     };
-    match id {
-        "columns-csv" => return table(csv::columns(report)),
-        "compensated-csv" => return table(csv::compensated(report)),
-        "joints-csv" => return table(csv::joints(report)),
-        _ => {}
-    }
-    let inches = report.setup.listing.as_ref().is_some_and(|listing| listing.program.unit == "inch");
-    let style = Style {
-        arcs: id == "gcode",
-        inch: inches && ["gcode", "apt"].contains(&id),
-        points_only: id == "path-csv",
-    };
-    let (course, command) = rehearse(report, options.thinning, style)?;
-    let text = match id {
-        "gcode" => gcode::program(report, &command)?,
-        "apt" => apt::program(report, &command),
-        "krl" => krl::program(report, &command),
-        "rapid" => rapid::program(report, &command),
-        "val3" => val3::program(report, &command),
-        "fanuc" => fanuc::program(report, &command),
-        _ => csv::path(report, &command),
-    };
-    Ok(Export { text, file_name, points: command.points(), deviation: command.deviation, course })
+    let (points, deviation) = (command.points(), command.deviation);
+    Ok(Export { text, file_name: file_name(format), points, deviation, course: course.clone() })
+}
+
+fn file_name(format: &Format) -> String {
+    format!("armill-{}.{}", format.id, format.extension)
 }

@@ -27,7 +27,7 @@ pub fn program(report: &Report, command: &Command) -> String {
         ),
         format!(
             "  PERS wobjdata wPart:=[FALSE,TRUE,\"\",{},[[0,0,0],[1,0,0,0]]];",
-            frame(&report.setup.workpiece)
+            frame(&report.setup().workpiece)
         ),
     ]);
     let mut feeds: Vec<f64> = Vec::new();

@@ -25,7 +25,7 @@ pub fn program(report: &Report, command: &Command) -> String {
     lines.extend(header::lines(report, Some(command)).iter().map(|line| format!("  // {line}")));
     lines.extend([
         "  // Data to declare in the application, lengths in mm: frame fPart, tool tMill, pointRx pPath in fPart, mdesc mPath.".to_owned(),
-        format!("  fPart.trsf={}", trsf(&report.setup.workpiece)),
+        format!("  fPart.trsf={}", trsf(&report.setup().workpiece)),
         format!("  tMill.trsf={}", trsf(report.plan.robot.tool())),
         "  link(pPath,fPart)".into(),
         "  mPath.blend=off".into(),

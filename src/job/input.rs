@@ -2,9 +2,10 @@
 
 use crate::error::Error;
 use crate::job::choice::{Choice, Dwell, choice};
+use crate::job::cutting::{Cutting, Material, Tool};
 use crate::job::json::{Node, Read, keys};
-use crate::job::milling::{Cutting, Material, Tool};
 use crate::job::path::{Path, PathKind};
+use crate::job::source::Source;
 use serde::Serialize;
 
 /// The whole question. `Job::default()` is the thesis's case.
@@ -233,10 +234,6 @@ choice! {
 choice! {
     /// Kind of input shaper.
     ShaperKind { /** Zero vibration. */ Zv = "zv", #[default] /** And its derivative. */ Zvd = "zvd", /** And two derivatives. */ Zvdd = "zvdd", /** Extra-insensitive. */ Ei = "ei" }
-}
-choice! {
-    /// A source of error.
-    Source { #[default] /** Cutting forces bend the arm. */ Deflection = "deflection", /** The input shaper bends the path. */ Shaping = "shaping" }
 }
 /// Speed and sampling.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

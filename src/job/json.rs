@@ -21,6 +21,8 @@ pub(super) struct Node<'a> {
     raw: &'a str,
     /// What this value is a part of, and which; nothing for the whole.
     parent: Option<(&'a Node<'a>, Step<'a>)>,
+    /// The members of the whole, which is asked twice: a text of megabytes is scanned for them once.
+    members: Option<Members<'a>>,
 }
 
 #[derive(Clone, Copy)]
@@ -29,18 +31,30 @@ enum Step<'a> {
     Index(usize),
 }
 
+/// What an object is called in an error.
+const OBJECT: &str = "an object with named keys";
+
 /// The members of a list or an object, unread.
+#[derive(Clone)]
 enum Members<'a> {
     List(Vec<&'a RawValue>),
     Object(Vec<(String, &'a RawValue)>),
 }
 
 impl<'a> Node<'a> {
-    /// The whole of a text, which is checked to be JSON.
+    /// The whole of a text, which is an object.
     pub(super) fn of(text: &'a str) -> Result<Self, Error> {
-        let whole = Node { text, raw: text, parent: None };
-        let raw: &RawValue = whole.value()?;
-        Ok(Node { raw: raw.get(), ..whole })
+        let raw = text.trim_matches([' ', '\t', '\r', '\n']);
+        let whole = Node { text, raw, parent: None, members: None };
+        let members = whole.members(OBJECT)?;
+        Ok(Node { members: Some(members), ..whole })
+    }
+
+    /// The member of an object with this key, if it has one.
+    pub(super) fn get<'s>(&'s self, key: &'s str) -> Result<Option<Node<'s>>, Error> {
+        let Members::Object(members) = self.members(OBJECT)? else { return Ok(None) };
+        let member = members.into_iter().find(|(name, _)| name == key);
+        Ok(member.map(|(_, raw)| self.member(Step::Key(key), raw)))
     }
 
     /// This value as one of serde's own types.
@@ -73,7 +87,7 @@ impl<'a> Node<'a> {
 
     /// Reads an object: each of its keys at most once, `required` ones at least once, no others.
     pub(super) fn object(&self, keys: &mut [(&str, &mut dyn Read)], required: &[&str]) -> Result<(), Error> {
-        let Members::Object(members) = self.members("an object with named keys")? else {
+        let Members::Object(members) = self.members(OBJECT)? else {
             return Err(self.error("a list stands where an object with named keys belongs"));
         };
         for (k, (key, raw)) in members.iter().enumerate() {
@@ -111,12 +125,17 @@ impl<'a> Node<'a> {
     }
 
     fn member<'s>(&'s self, step: Step<'s>, raw: &'s RawValue) -> Node<'s> {
-        Node { text: self.text, raw: raw.get(), parent: Some((self, step)) }
+        Node { text: self.text, raw: raw.get(), parent: Some((self, step)), members: None }
     }
 
+    /// The members of a list or an object, which `expected` names.
     fn members(&self, expected: &str) -> Result<Members<'a>, Error> {
+        if let Some(members) = &self.members {
+            return Ok(members.clone());
+        }
         let mut deserializer = serde_json::Deserializer::from_str(self.raw);
-        deserializer.deserialize_any(Expected(expected)).map_err(|error| self.refused(&error))
+        let members = deserializer.deserialize_any(Expected(expected));
+        members.and_then(|members| deserializer.end().map(|()| members)).map_err(|error| self.refused(&error))
     }
 
     /// JSON path of this value; empty for the whole.

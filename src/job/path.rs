@@ -1,14 +1,11 @@
-//! The job's path: its keys, and the way from there to a path in SI.
+//! The job's path, one to one as in the JSON. Values are as typed, not yet checked.
 
 use crate::error::Error;
 use crate::job::choice::choice;
-use crate::job::json::keys;
-use crate::job::setup::{invalid, missing};
-use crate::job::{Job, fields};
-use crate::path::{self, Listing, shape};
-use crate::units::{DEG, MM};
-use nalgebra::Vector3;
-use serde::Serialize;
+use crate::job::json::{Node, Read, keys};
+use serde::{Serialize, Serializer};
+use std::ops::Deref;
+use std::sync::Arc;
 
 choice! {
     /// What the path is made from.
@@ -79,7 +76,7 @@ pub struct Path {
     pub points_mm: Option<Vec<[f64; 3]>>,
     /// Text of a program, or pasted rows.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub text: Option<String>,
+    pub text: Option<ProgramText>,
     /// Unit of length of rows, or of an APT text, that do not say their own; default mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<Unit>,
@@ -106,86 +103,39 @@ impl Path {
     }
 }
 
-/// JSON path of the text of a program.
-pub(super) const TEXT: &str = "path.text";
+/// A text that may be long; its clones share it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProgramText(Arc<str>);
 
-impl Job {
-    /// The desired path in the workpiece frame, with the program it was read from, if it was.
-    /// `on_read` hears which share of the program is read.
-    pub(super) fn desired_path(
-        &self,
-        on_read: impl FnMut(f64),
-    ) -> Result<(path::Path, Option<Listing>), Error> {
-        fields::check_path_keys(self)?;
-        let kind = self.path.kind;
-        let language = match kind {
-            PathKind::Csv => "csv",
-            PathKind::Gcode => "gcode",
-            PathKind::Apt => "apt",
-            _ => return self.shape().map(|path| (path, None)),
-        };
-        let text = self.path.text.as_ref().ok_or_else(|| need("text"))?;
-        let program = self.program(kind, text, on_read)?;
-        let path = path::Path::of_program(&program).ok_or_else(|| {
-            invalid(TEXT, "a text without a move", "two positions or more that are not all the same")
-        })?;
-        Ok((path, Some(Listing { language, text: text.clone(), program })))
-    }
-
-    /// A path drawn from a shape.
-    fn shape(&self) -> Result<path::Path, Error> {
-        let given = &self.path;
-        let vector = |value: Option<[f64; 3]>, key: &str| {
-            value.ok_or_else(|| need(key)).map(|v| Vector3::from(v) * MM)
-        };
-        let length = |value: Option<f64>, key: &str| value.ok_or_else(|| need(key)).map(|v| v * MM);
-        let normal = Vector3::from(given.normal.unwrap_or([0.0, 0.0, 1.0]));
-        if normal.norm() < 1e-9 {
-            return Err(invalid("path.normal", "(0, 0, 0)", "a direction; its length does not matter"));
-        }
-        let segments = match given.kind {
-            PathKind::Circle => {
-                let center = vector(given.center_mm, "center_mm")?;
-                vec![shape::circle(center, length(given.radius_mm, "radius_mm")?, normal)]
-            }
-            PathKind::Arc => {
-                let center = vector(given.center_mm, "center_mm")?;
-                let sweep = given.sweep_deg.ok_or_else(|| need("sweep_deg"))? * DEG;
-                let start = given.start_deg.unwrap_or(0.0) * DEG;
-                vec![shape::arc(center, length(given.radius_mm, "radius_mm")?, normal, start, sweep)]
-            }
-            PathKind::Line => {
-                shape::polyline(&[vector(given.from_mm, "from_mm")?, vector(given.to_mm, "to_mm")?])
-            }
-            PathKind::Rectangle => {
-                let (width, height) =
-                    (length(given.width_mm, "width_mm")?, length(given.height_mm, "height_mm")?);
-                let radius = given.corner_radius_mm.unwrap_or(0.0) * MM;
-                let largest = width.min(height) / 2.0;
-                if radius > largest {
-                    let (value, max) = (radius / MM, largest / MM);
-                    let field = "path.corner_radius_mm".into();
-                    return Err(Error::OutOfRange { field, value, min: 0.0, max, unit: "mm" });
-                }
-                shape::rectangle(vector(given.center_mm, "center_mm")?, width, height, radius)
-            }
-            _ => {
-                let points = given.points_mm.as_ref().ok_or_else(|| need("points_mm"))?;
-                let points: Vec<_> = points.iter().map(|point| Vector3::from(*point) * MM).collect();
-                shape::polyline(&points)
-            }
-        };
-        path::Path::new(segments).ok_or_else(|| {
-            let (field, expected) = match given.kind {
-                PathKind::Polyline => ("path.points_mm", "two points or more that are not all the same"),
-                PathKind::Line => ("path.to_mm", "another point than from_mm"),
-                _ => ("path.sweep_deg", "a sweep that is not zero"),
-            };
-            invalid(field, "a path without length", expected)
-        })
+impl Default for ProgramText {
+    fn default() -> Self {
+        "".into()
     }
 }
 
-fn need(key: &str) -> Error {
-    missing(&format!("path.{key}"), "this kind of path needs it")
+impl<T: Into<Arc<str>>> From<T> for ProgramText {
+    fn from(text: T) -> Self {
+        Self(text.into())
+    }
+}
+
+impl Deref for ProgramText {
+    type Target = Arc<str>;
+
+    fn deref(&self) -> &Arc<str> {
+        &self.0
+    }
+}
+
+impl Serialize for ProgramText {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.0)
+    }
+}
+
+impl Read for ProgramText {
+    fn read(&mut self, node: &Node) -> Result<(), Error> {
+        *self = node.value::<String>()?.into();
+        Ok(())
+    }
 }

@@ -6,14 +6,25 @@ use crate::job::json::{Node, Read};
 use serde_json::Value;
 
 impl Job {
-    /// Reads a job. Keys that are not given take the default job's value; [`Job::not_given`] tells which.
+    /// Reads a job. Keys that are not given take the default job's value.
     ///
     /// # Errors
-    /// [`Error::Json`] or [`Error::UnknownKey`], with line and column. Values are not checked yet: see [`Job::setup`].
+    /// [`Error::Json`] or [`Error::UnknownKey`], with line and column. Values are not checked yet: see
+    /// [`Setup::of`](crate::setup::Setup::of).
     pub fn from_json(text: &str) -> Result<Self, Error> {
+        Job::read_json(text).map(|(job, _)| job)
+    }
+
+    /// The same, with the keys that the text leaves to the default, as JSON paths: whole sections, or
+    /// keys within a given section.
+    ///
+    /// # Errors
+    /// See [`Job::from_json`].
+    pub fn read_json(text: &str) -> Result<(Self, Vec<String>), Error> {
+        let node = Node::of(text)?;
         let mut job = Job::default();
-        job.read(&Node::of(text)?)?;
-        Ok(job)
+        job.read(&node)?;
+        Ok((job, not_given(&node)?))
     }
 
     /// The job as indented JSON text.
@@ -21,33 +32,28 @@ impl Job {
         // A job is plain data: serde_json cannot fail on it.
         serde_json::to_string_pretty(self).unwrap_or_default()
     }
+}
 
-    /// The keys that a job's text leaves to the default, as JSON paths: whole sections, or keys within a given section.
-    pub fn not_given(text: &str) -> Vec<String> {
-        let (Ok(given), Ok(default)) = (serde_json::from_str(text), serde_json::to_value(Job::default()))
-        else {
-            return Vec::new();
-        };
-        let mut missing = Vec::new();
-        let (Value::Object(given), Value::Object(default)) = (given, default) else { return missing };
-        for (section, content) in default {
-            match (given.get(&section), content) {
-                (None, _) => missing.push(section),
-                // These sections are all or nothing; what they lack is an error, not a default.
-                (Some(_), _) if ["robot", "path", "material", "shaper"].contains(&section.as_str()) => {}
-                (Some(Value::Object(keys)), Value::Object(content)) => {
-                    missing.extend(
-                        content
-                            .keys()
-                            .filter(|key| !keys.contains_key(*key))
-                            .map(|key| format!("{section}.{key}")),
-                    );
+/// The keys that are in the default job and not in a text.
+fn not_given(given: &Node) -> Result<Vec<String>, Error> {
+    let mut missing = Vec::new();
+    let Ok(Value::Object(default)) = serde_json::to_value(Job::default()) else { return Ok(missing) };
+    for (section, content) in default {
+        match (given.get(&section)?, content) {
+            (None, _) => missing.push(section),
+            // These sections are all or nothing; what they lack is an error, not a default.
+            (Some(_), _) if ["robot", "path", "material", "shaper"].contains(&section.as_str()) => {}
+            (Some(given), Value::Object(content)) => {
+                for key in content.keys() {
+                    if given.get(key)?.is_none() {
+                        missing.push(format!("{section}.{key}"));
+                    }
                 }
-                _ => {}
             }
+            _ => {}
         }
-        missing
     }
+    Ok(missing)
 }
 
 #[cfg(test)]
@@ -125,11 +131,11 @@ mod tests {
     #[test]
     fn what_is_not_given_is_listed() {
         let given = "{\"version\":1,\"robot\":{},\"motion\":{\"feed_mm_s\":1},\"path\":{}}";
-        let missing = Job::not_given(given);
+        let missing = not_given(&Node::of(given).unwrap()).unwrap();
         assert!(
             missing.contains(&"cutting".to_owned()) && missing.contains(&"motion.sample_time_s".to_owned())
         );
         assert!(!missing.iter().any(|key| key.starts_with("path") || key.starts_with("robot")));
-        assert!(Job::not_given(&Job::default().to_json()).is_empty());
+        assert!(Job::read_json(&Job::default().to_json()).unwrap().1.is_empty());
     }
 }

@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::math::Pose;
 use crate::motion::Trajectory;
 use crate::path::{Axes, Path};
+use crate::progress::Progress;
 use crate::robot::inverse::{self, Margin, Solution};
 use crate::robot::{Joints, Robot};
 use nalgebra::{Matrix3, Vector3};
@@ -31,51 +32,51 @@ pub struct JointTrajectory {
     pub start: inverse::Branch,
 }
 
-/// Tells now and then, after the sample `k` of `count`, which share of them is done.
-pub(crate) fn tell_share(on_share: &mut dyn FnMut(f64), k: usize, count: usize) {
-    const STRIDE: usize = 1 << 15;
-    if (k + 1).is_multiple_of(STRIDE) {
-        on_share((k + 1) as f64 / count as f64);
+/// TCPs to reach, one a sample.
+#[derive(Clone, Copy)]
+pub struct Targets<'a> {
+    /// The path that gives orientation and roll.
+    pub path: &'a Path,
+    /// Where along it each sample is [m].
+    pub arc_length: &'a [f64],
+    /// Positions in the base frame [m].
+    pub position: &'a [Vector3<f64>],
+    /// Tool axes in the base frame.
+    pub axis: &'a Axes,
+}
+
+impl<'a> Targets<'a> {
+    /// A trajectory's own positions and axes along a path.
+    pub fn desired(path: &'a Path, trajectory: &'a Trajectory) -> Self {
+        let Trajectory { timing, position, axis, .. } = trajectory;
+        Self { path, arc_length: &timing.arc_length, position, axis }
     }
 }
 
-/// Solves the inverse model for TCPs at `positions` [m] with the tool axes `axes` (base frame), each sample nearest to the one before.
+/// Solves the inverse model for each target, each sample nearest to the one before.
 ///
 /// # Errors
-/// [`Error::Unreachable`] with the sample and its arc length; [`Error::Invalid`] if the start has no solution on the branch asked for.
+/// [`Error::Unreachable`] with the sample and its arc length; [`Error::Invalid`] if the start has no
+/// solution on the branch asked for.
 pub fn joint_trajectory(
     robot: &Robot,
-    path: &Path,
-    trajectory: &Trajectory,
-    desired: (&[Vector3<f64>], &Axes),
+    targets: &Targets,
     start: StartBranch,
+    progress: &mut Progress,
 ) -> Result<JointTrajectory, Error> {
-    joint_trajectory_with(robot, path, trajectory, desired, start, &mut |_| {})
-}
-
-/// The same; `on_share` is told now and then which share of the samples is done.
-///
-/// # Errors
-/// See [`joint_trajectory`].
-pub fn joint_trajectory_with(
-    robot: &Robot,
-    path: &Path,
-    trajectory: &Trajectory,
-    (positions, axes): (&[Vector3<f64>], &Axes),
-    start: StartBranch,
-    on_share: &mut dyn FnMut(f64),
-) -> Result<JointTrajectory, Error> {
+    let Targets { path, arc_length, position: positions, axis: axes } = *targets;
+    progress.at(0.0);
     let mut q = Vec::with_capacity(positions.len());
     let mut margin = Vec::with_capacity(positions.len());
     let mut previous: Option<Solution> = None;
     let mut first = None;
-    // Axis, spin and orientation of the last sample: mostly the next one's too.
+    // Axis, roll and orientation of the last sample: mostly the next one's too.
     let mut held = (Vector3::zeros(), 0.0, Matrix3::zeros());
     for (k, position) in positions.iter().enumerate() {
-        let s = trajectory.pace.arc_length[k];
-        let (axis, spin) = (axes.at(k), path.spin(s));
-        if (held.0, held.1) != (*axis, spin) {
-            held = (*axis, spin, path.orientation(axis, spin));
+        let s = arc_length[k];
+        let (axis, roll) = (axes.at(k), path.roll(s));
+        if (held.0, held.1) != (*axis, roll) {
+            held = (*axis, roll, path.orientation(axis, roll));
         }
         let tcp = Pose { rotation: held.2, position: *position };
         let place = |error: Error| error.at(k, s);
@@ -87,7 +88,7 @@ pub fn joint_trajectory_with(
         q.push(solution.q);
         margin.push(solution.margin);
         previous = Some(solution);
-        tell_share(on_share, k, positions.len());
+        progress.sample(k, positions.len());
     }
     match first {
         Some(start) => Ok(JointTrajectory { q: Arc::new(q), margin, start }),

@@ -4,8 +4,8 @@ pub mod profile;
 pub mod trajectory;
 pub mod shaper;
 pub mod joints;
-pub mod spin;
+pub mod roll;
 
 pub use profile::Profile;
 pub use shaper::Shaper;
-pub use trajectory::{Pace, Trajectory};
+pub use trajectory::{TimingLaw, Trajectory};

@@ -3,7 +3,6 @@
 //! A shaper splits every command into a few delayed parts. The delay bends the path; that is why Armill is interested.
 
 use crate::math::{self, PI};
-use crate::motion::Pace;
 use nalgebra::Vector3;
 
 /// One part of the command: which share of it comes how late.
@@ -203,16 +202,6 @@ impl Shaper {
             command[moving..].fill(arrived);
         }
         command
-    }
-
-    /// Where along the path the shaped motion is, to first order in the curvature: the shaped pace.
-    pub fn pace(&self, pace: &Pace, sample_time: f64) -> Pace {
-        Pace {
-            arc_length: self.apply(&pace.arc_length, sample_time),
-            speed: self.apply(&pace.speed, sample_time),
-            heading: self.apply(&pace.heading, sample_time),
-            engaged: self.apply(&pace.engaged, sample_time),
-        }
     }
 }
 

@@ -1,12 +1,12 @@
 //! The desired motion: where along the path, and where in space, at each sample (thesis section 5.2, Figs. 5.2, 5.3).
 
-use crate::motion::Profile;
+use crate::motion::{Profile, Shaper};
 use crate::path::{Axes, Corner, Move, MovePace, Path};
 use nalgebra::Vector3;
 
 /// How the path is travelled.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tempo {
+pub struct MotionLimits {
     /// Highest speed of moves that state none [m/s].
     pub feed: f64,
     /// Speed of rapid moves [m/s].
@@ -23,11 +23,13 @@ pub struct Tempo {
     pub settle: f64,
 }
 
-/// Progress along the path over time, one value a sample.
+/// Timing law: progress along the path over time, one value a sample.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Pace {
+pub struct TimingLaw {
     /// Arc length [m].
     pub arc_length: Vec<f64>,
+    /// The path's move that holds it.
+    pub index: Vec<u32>,
     /// Speed along the path [m/s].
     pub speed: Vec<f64>,
     /// Direction of the feed, a vector of at most unit length; it turns evenly while the tool waits in a corner.
@@ -36,17 +38,57 @@ pub struct Pace {
     pub engaged: Vec<f64>,
 }
 
-impl Pace {
+impl TimingLaw {
+    /// A law without samples yet, with room for `count`.
+    fn with_capacity(count: usize) -> Self {
+        Self {
+            arc_length: Vec::with_capacity(count),
+            index: Vec::with_capacity(count),
+            speed: Vec::with_capacity(count),
+            heading: Vec::with_capacity(count),
+            engaged: Vec::with_capacity(count),
+        }
+    }
+
     /// The same at some samples, in any order and number.
     pub fn at(&self, samples: &[usize]) -> Self {
         let numbers = |all: &[f64]| samples.iter().map(|&k| all[k]).collect();
         Self {
             arc_length: numbers(&self.arc_length),
+            index: samples.iter().map(|&k| self.index[k]).collect(),
             speed: numbers(&self.speed),
             heading: samples.iter().map(|&k| self.heading[k]).collect(),
             engaged: numbers(&self.engaged),
         }
     }
+
+    /// Where along the path a shaped motion is, to first order in the curvature: every value shaped.
+    pub fn shaped(&self, shaper: &Shaper, path: &Path, sample_time: f64) -> Self {
+        let arc_length = shaper.apply(&self.arc_length, sample_time);
+        Self {
+            index: indices(path, &arc_length),
+            arc_length,
+            speed: shaper.apply(&self.speed, sample_time),
+            heading: shaper.apply(&self.heading, sample_time),
+            engaged: shaper.apply(&self.engaged, sample_time),
+        }
+    }
+
+    /// The path's points, one a sample [m].
+    pub fn points(&self, path: &Path) -> Vec<Vector3<f64>> {
+        let places = self.index.iter().zip(&self.arc_length);
+        places.map(|(&index, &s)| path.point_at(path.within(index as usize, s))).collect()
+    }
+}
+
+/// The move that holds each of these arc lengths [m], which seldom go back.
+pub(crate) fn indices(path: &Path, arc_length: &[f64]) -> Vec<u32> {
+    let mut near = 0;
+    let index = |&s: &f64| {
+        (near, _) = path.locate_near(s, near);
+        near as u32
+    };
+    arc_length.iter().map(index).collect()
 }
 
 /// The desired motion, sampled evenly; the last sample of the motion is the exact end of the path, samples at rest follow.
@@ -55,7 +97,7 @@ pub struct Trajectory {
     /// Sample time [s].
     pub sample_time: f64,
     /// Progress along the path.
-    pub pace: Pace,
+    pub timing: TimingLaw,
     /// Desired TCP position in the base frame [m].
     pub position: Vec<Vector3<f64>>,
     /// Desired tool axis from tip to spindle in the base frame.
@@ -68,36 +110,35 @@ pub struct Trajectory {
 
 impl Trajectory {
     /// The number of samples that [`Trajectory::new`] would give.
-    pub fn count(path: &Path, tempo: &Tempo) -> f64 {
-        let moving: f64 = runs(path, tempo).iter().map(Run::duration).sum();
-        (moving + tempo.settle) / tempo.sample_time + 2.0
+    pub fn count(path: &Path, limits: &MotionLimits) -> f64 {
+        let moving: f64 = stretches(path, limits).iter().map(Stretch::duration).sum();
+        (moving + limits.settle) / limits.sample_time + 2.0
     }
 
     /// Travels the path by the trapezoidal profile, from rest to rest between the corners that are stops and the program's waits.
-    pub fn new(path: &Path, tempo: &Tempo) -> Self {
-        let runs = runs(path, tempo);
-        let dt = tempo.sample_time;
-        let settling = (tempo.settle / dt).ceil() as usize;
-        let most = (runs.iter().map(Run::duration).sum::<f64>() / dt) as usize + settling + 2;
-        let mut pace = Pace {
-            arc_length: Vec::with_capacity(most),
-            speed: Vec::with_capacity(most),
-            heading: Vec::with_capacity(most),
-            engaged: Vec::with_capacity(most),
-        };
+    pub fn new(path: &Path, limits: &MotionLimits) -> Self {
+        let stretches = stretches(path, limits);
+        let dt = limits.sample_time;
+        let settling = (limits.settle / dt).ceil() as usize;
+        let most = (stretches.iter().map(Stretch::duration).sum::<f64>() / dt) as usize + settling + 2;
+        let mut timing = TimingLaw::with_capacity(most);
         let mut position = Vec::with_capacity(most);
+        let mut near = 0;
         let mut sample = |s: f64, speed: f64, heading: Vector3<f64>, engaged: bool| {
-            pace.arc_length.push(s);
-            pace.speed.push(speed);
-            pace.heading.push(heading);
-            pace.engaged.push(if engaged { 1.0 } else { 0.0 });
-            position.push(path.point(s));
+            let place = path.locate_near(s, near);
+            near = place.0;
+            timing.arc_length.push(s);
+            timing.index.push(near as u32);
+            timing.speed.push(speed);
+            timing.heading.push(heading);
+            timing.engaged.push(if engaged { 1.0 } else { 0.0 });
+            position.push(path.point_at(place));
         };
         let cuts = |index: usize| path.moves()[index].pace != MovePace::Rapid;
         let mut clock = 0.0;
         let mut k = 0_usize;
-        for run in &runs {
-            for (index, profile) in &run.profiles {
+        for stretch in &stretches {
+            for (index, profile) in &stretch.profiles {
                 let end = clock + profile.duration();
                 while (k as f64) * dt < end {
                     let (distance, speed) = profile.at(k as f64 * dt - clock);
@@ -107,8 +148,8 @@ impl Trajectory {
                 }
                 clock = end;
             }
-            let (arrived, last) = (clock, run.profiles.last().map_or(0, |(index, _)| *index));
-            let Some(Rest { corner, time }) = run.rest else { continue };
+            let (arrived, last) = (clock, stretch.profiles.last().map_or(0, |(index, _)| *index));
+            let Some(Stop { corner, time }) = stretch.stop else { continue };
             while (k as f64) * dt < arrived + time {
                 let part = (k as f64 * dt - arrived) / time;
                 let heading = corner.before * (1.0 - part) + corner.after * part;
@@ -127,27 +168,29 @@ impl Trajectory {
         for _ in 0..=settling {
             sample(length, 0.0, path.tangent(length), cuts(path.moves().len() - 1));
         }
-        let stops = runs.iter().filter_map(|run| run.rest.map(|rest| rest.corner)).collect();
-        let axis = Axes::along(path, &pace.arc_length);
-        Self { sample_time: dt, pace, position, axis, stops, moving }
+        let stops = stretches.iter().filter_map(|stretch| stretch.stop.map(|stop| stop.corner)).collect();
+        let axis = Axes::along(path, &timing.arc_length, &timing.index);
+        Self { sample_time: dt, timing, position, axis, stops, moving }
     }
 
     /// A few places along the path instead of every sample, evenly spaced over its length, each at the full speed of its move: for
     /// searches over many poses.
-    pub fn stations(path: &Path, tempo: &Tempo, count: usize) -> Self {
-        let mut pace = Pace::default();
+    pub fn stations(path: &Path, limits: &MotionLimits, count: usize) -> Self {
+        let mut timing = TimingLaw::with_capacity(count);
         let mut position = Vec::with_capacity(count);
         for k in 0..count {
             let s = path.length() * k as f64 / (count - 1) as f64;
-            let step = &path.moves()[path.locate(s).0];
-            pace.arc_length.push(s);
-            pace.speed.push(limit(step, tempo));
-            pace.heading.push(path.tangent(s));
-            pace.engaged.push(if step.pace == MovePace::Rapid { 0.0 } else { 1.0 });
-            position.push(path.point(s));
+            let place = path.locate(s);
+            let step = &path.moves()[place.0];
+            timing.arc_length.push(s);
+            timing.index.push(place.0 as u32);
+            timing.speed.push(limit(step, limits));
+            timing.heading.push(step.segment.tangent(place.1));
+            timing.engaged.push(if step.pace == MovePace::Rapid { 0.0 } else { 1.0 });
+            position.push(path.point_at(place));
         }
-        let axis = Axes::along(path, &pace.arc_length);
-        Self { sample_time: tempo.sample_time, pace, position, axis, stops: Vec::new(), moving: count }
+        let axis = Axes::along(path, &timing.arc_length, &timing.index);
+        Self { sample_time: limits.sample_time, timing, position, axis, stops: Vec::new(), moving: count }
     }
 
     /// The number of samples.
@@ -161,28 +204,28 @@ impl Trajectory {
     }
 }
 
-/// A stretch from rest to rest: its moves with their profiles, and the rest that follows.
-struct Run {
+/// A stretch between full stops: its moves with their profiles, and the stop that follows.
+struct Stretch {
     profiles: Vec<(usize, Profile)>,
-    rest: Option<Rest>,
+    stop: Option<Stop>,
 }
 
-/// A stop along the path.
+/// A stop along the path, and the time at rest there [s].
 #[derive(Debug, Clone, Copy)]
-struct Rest {
+struct Stop {
     corner: Corner,
     time: f64,
 }
 
-impl Run {
+impl Stretch {
     fn duration(&self) -> f64 {
         let moving: f64 = self.profiles.iter().map(|(_, profile)| profile.duration()).sum();
-        moving + self.rest.map_or(0.0, |rest| rest.time)
+        moving + self.stop.map_or(0.0, |stop| stop.time)
     }
 }
 
-fn runs(path: &Path, tempo: &Tempo) -> Vec<Run> {
-    let mut runs = Vec::new();
+fn stretches(path: &Path, limits: &MotionLimits) -> Vec<Stretch> {
+    let mut stretches = Vec::new();
     let mut first = 0;
     let mut waits = path.waits().iter().peekable();
     // Waits before the first move are no part of the motion.
@@ -192,34 +235,34 @@ fn runs(path: &Path, tempo: &Tempo) -> Vec<Run> {
         while let Some(wait) = waits.next_if(|wait| wait.s <= corner.s) {
             asked += wait.time;
         }
-        let sharp = corner.angle > tempo.corner_angle;
+        let sharp = corner.angle > limits.corner_angle;
         if sharp || asked > 0.0 {
-            let time = if sharp { asked.max(tempo.corner_dwell) } else { asked };
-            let profiles = profiles(path, tempo, first..index + 1);
-            runs.push(Run { profiles, rest: Some(Rest { corner, time }) });
+            let time = if sharp { asked.max(limits.corner_dwell) } else { asked };
+            let profiles = profiles(path, limits, first..index + 1);
+            stretches.push(Stretch { profiles, stop: Some(Stop { corner, time }) });
             first = index + 1;
         }
     }
-    runs.push(Run { profiles: profiles(path, tempo, first..path.moves().len()), rest: None });
-    runs
+    stretches.push(Stretch { profiles: profiles(path, limits, first..path.moves().len()), stop: None });
+    stretches
 }
 
 /// Highest speed of a move [m/s].
-fn limit(step: &Move, tempo: &Tempo) -> f64 {
+fn limit(step: &Move, limits: &MotionLimits) -> f64 {
     match step.pace {
-        MovePace::Rapid => tempo.rapid,
+        MovePace::Rapid => limits.rapid,
         MovePace::Feed(feed) => feed,
-        MovePace::JobFeed => tempo.feed,
+        MovePace::JobFeed => limits.feed,
     }
 }
 
 /// Profiles of moves that are travelled without a stop: each junction is passed as fast as both its feeds and the braking distance
 /// behind it allow.
-fn profiles(path: &Path, tempo: &Tempo, range: std::ops::Range<usize>) -> Vec<(usize, Profile)> {
+fn profiles(path: &Path, limits: &MotionLimits, range: std::ops::Range<usize>) -> Vec<(usize, Profile)> {
     let moves = &path.moves()[range.clone()];
-    let limit = |step: &Move| limit(step, tempo);
+    let limit = |step: &Move| limit(step, limits);
     let reach =
-        |speed: f64, step: &Move| (speed * speed + 2.0 * tempo.acceleration * step.segment.length()).sqrt();
+        |speed: f64, step: &Move| (speed * speed + 2.0 * limits.acceleration * step.segment.length()).sqrt();
     let mut speeds = vec![0.0; moves.len() + 1];
     for i in 1..moves.len() {
         speeds[i] = limit(&moves[i - 1]).min(limit(&moves[i])).min(reach(speeds[i - 1], &moves[i - 1]));
@@ -229,7 +272,7 @@ fn profiles(path: &Path, tempo: &Tempo, range: std::ops::Range<usize>) -> Vec<(u
     }
     let profile = |(i, step): (usize, &Move)| {
         let ends = (speeds[i], speeds[i + 1]);
-        (range.start + i, Profile::between(step.segment.length(), ends, limit(step), tempo.acceleration))
+        (range.start + i, Profile::between(step.segment.length(), ends, limit(step), limits.acceleration))
     };
     moves.iter().enumerate().map(profile).collect()
 }

@@ -13,13 +13,14 @@ pub enum Axes {
 }
 
 impl Axes {
-    /// The path's axes at these arc lengths [m].
-    pub fn along(path: &Path, arc_length: &[f64]) -> Self {
+    /// The path's axes at these arc lengths [m], each in the move `index`.
+    pub fn along(path: &Path, arc_length: &[f64], index: &[u32]) -> Self {
         let first = path.moves()[0].axis_from;
         if path.moves().iter().all(|step| step.axis_from == first && step.axis_to == first) {
             Self::One(first)
         } else {
-            Self::Each(arc_length.iter().map(|&s| path.axis(s)).collect())
+            let places = index.iter().zip(arc_length).map(|(&index, &s)| path.within(index as usize, s));
+            Self::Each(places.map(|place| path.axis_at(place)).collect())
         }
     }
 

@@ -6,7 +6,7 @@
 pub mod segment;
 pub mod shape;
 pub mod axes;
-pub mod spin;
+pub mod roll;
 pub mod program;
 pub mod unit;
 mod draft;
@@ -15,22 +15,23 @@ pub mod apt;
 pub mod csv;
 
 pub use axes::Axes;
-pub use program::{Listing, Move, MovePace, Program, Tool};
+pub use program::{Move, MovePace, Program, SourceProgram, Tool};
+pub use roll::Roll;
 pub use segment::Segment;
-pub use spin::Spin;
 
 use crate::math::{self, Pose};
 use nalgebra::{Matrix3, Vector3};
+use std::sync::Arc;
 
-/// A chain of moves with its running arc length.
+/// A chain of moves with its running arc length. Clones share the moves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Path {
-    moves: Vec<Move>,
+    moves: Arc<[Move]>,
     /// Arc length at the start of each move, and at the end of the last [m].
-    starts: Vec<f64>,
-    waits: Vec<Wait>,
+    starts: Arc<[f64]>,
+    waits: Arc<[Wait]>,
     x_reference: Vector3<f64>,
-    spin: Spin,
+    roll: Roll,
 }
 
 /// A wait that a program asks for.
@@ -92,11 +93,11 @@ impl Path {
         starts.push(s);
         waits.extend(dwells.map(|dwell| Wait { s, time: dwell.time }));
         (!moves.is_empty()).then_some(Self {
-            moves,
-            starts,
-            waits,
+            moves: moves.into(),
+            starts: starts.into(),
+            waits: waits.into(),
             x_reference: Vector3::x(),
-            spin: Spin::fixed(0.0),
+            roll: Roll::fixed(0.0),
         })
     }
 
@@ -116,14 +117,14 @@ impl Path {
     }
 
     /// The same path with the TCP turned about the tool axis.
-    pub fn with_spin(self, spin: Spin) -> Self {
-        Self { spin, ..self }
+    pub fn with_roll(self, roll: Roll) -> Self {
+        Self { roll, ..self }
     }
 
-    /// The same path with the spin of another one, at the same share of the way.
-    pub fn spun_as(self, other: &Path) -> Self {
-        let spin = other.spin.stretched(self.length() / other.length());
-        self.with_spin(spin)
+    /// The same path with the roll of another one, at the same share of the way.
+    pub fn rolled_as(self, other: &Path) -> Self {
+        let roll = other.roll.stretched(self.length() / other.length());
+        self.with_roll(roll)
     }
 
     /// The moves in order; none is without length.
@@ -161,7 +162,11 @@ impl Path {
 
     /// Unit vector from the tool's tip to the spindle (I, J, K) at the arc length `s` [m]; it turns evenly along each move.
     pub fn axis(&self, s: f64) -> Vector3<f64> {
-        let (index, within) = self.locate(s);
+        self.axis_at(self.locate(s))
+    }
+
+    /// The same at a place of [`Path::locate`].
+    pub(crate) fn axis_at(&self, (index, within): (usize, f64)) -> Vector3<f64> {
         let Move { segment, axis_from, axis_to, .. } = &self.moves[index];
         if axis_from == axis_to {
             return *axis_from;
@@ -173,8 +178,8 @@ impl Path {
     }
 
     /// How far the TCP is turned about the tool axis at the arc length `s` [m], in rad: counter-clockwise, seen from the spindle.
-    pub fn spin(&self, s: f64) -> f64 {
-        self.spin.at(s)
+    pub fn roll(&self, s: f64) -> f64 {
+        self.roll.at(s)
     }
 
     /// Workpiece +X projected across a tool axis.
@@ -182,12 +187,12 @@ impl Path {
         math::across(&-axis, &self.x_reference, &axis.cross(&self.x_reference))
     }
 
-    /// Orientation of the TCP for a tool axis: z = approach (against the axis), x = workpiece +X projected across it, turned by `spin` [rad].
-    pub fn orientation(&self, axis: &Vector3<f64>, spin: f64) -> Matrix3<f64> {
+    /// Orientation of the TCP for a tool axis: z = approach (against the axis), x = workpiece +X projected across it, turned by `roll` [rad].
+    pub fn orientation(&self, axis: &Vector3<f64>, roll: f64) -> Matrix3<f64> {
         let z = -axis;
         let mut x = self.reference(axis);
-        if spin != 0.0 {
-            let (sin, cos) = math::sin_cos(spin);
+        if roll != 0.0 {
+            let (sin, cos) = math::sin_cos(roll);
             x = x * cos + axis.cross(&x) * sin;
         }
         Matrix3::from_columns(&[x, z.cross(&x), z])
@@ -196,14 +201,29 @@ impl Path {
     /// The move that holds the arc length `s` [m], and the arc length within it; ends belong to the move that starts there.
     pub(crate) fn locate(&self, s: f64) -> (usize, f64) {
         let after = self.starts.partition_point(|&start| start <= s);
-        let index = after.saturating_sub(1).min(self.moves.len() - 1);
+        self.within(after.saturating_sub(1).min(self.moves.len() - 1), s)
+    }
+
+    /// The same, looked for first in the move `near`: motions go from one move to the next.
+    pub(crate) fn locate_near(&self, s: f64, near: usize) -> (usize, f64) {
+        let last = self.moves.len() - 1;
+        let holds = |index: usize| self.starts[index] <= s && (index == last || s < self.starts[index + 1]);
+        if near <= last && holds(near) { self.within(near, s) } else { self.locate(s) }
+    }
+
+    /// A place in a move that holds the arc length `s` [m].
+    pub(crate) fn within(&self, index: usize, s: f64) -> (usize, f64) {
         (index, (s - self.starts[index]).clamp(0.0, self.moves[index].segment.length()))
+    }
+
+    /// The point at a place of [`Path::locate`].
+    pub(crate) fn point_at(&self, (index, within): (usize, f64)) -> Vector3<f64> {
+        self.moves[index].segment.point(within)
     }
 
     /// The point at the arc length `s` [m], limited to the path.
     pub fn point(&self, s: f64) -> Vector3<f64> {
-        let (index, within) = self.locate(s);
-        self.moves[index].segment.point(within)
+        self.point_at(self.locate(s))
     }
 
     /// Unit tangent at the arc length `s` [m]; at a corner that of the segment that starts there.

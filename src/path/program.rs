@@ -4,6 +4,7 @@
 
 use crate::path::Segment;
 use nalgebra::Vector3;
+use std::sync::Arc;
 
 /// A toolpath with all that a program says about it. Lengths in m, in the workpiece frame.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -26,12 +27,12 @@ pub struct Program {
 
 /// A program with the text it was read from.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Listing {
+pub struct SourceProgram {
     /// Language: `gcode`, `apt` or `csv`.
     pub language: &'static str,
     /// As typed.
-    pub text: String,
-    /// As understood.
+    pub text: Arc<str>,
+    /// As read.
     pub program: Program,
 }
 

@@ -70,7 +70,7 @@ impl Report {
         let joints = compliance::by_joint(&self.plan.robot, q, frames, tip, &self.force[k])
             .map(|(moved, _)| moved.dot(&away) / MM);
         let shaping = (-error - self.deflection[k]).dot(&away) / MM;
-        let tool = match self.plan.bending {
+        let tool = match self.setup().bending {
             Some(_) => self.deflection[k].dot(&away) / MM - joints.iter().sum::<f64>(),
             None => 0.0,
         };

@@ -58,7 +58,7 @@ impl Report {
         let time = |samples: Range<usize>| samples.map(|k| k as f64 * trajectory.sample_time).collect();
         let mut series = vec![
             Series::new("time_s", "Time", "s", count, time),
-            scaled("arc_length_mm", "Arc length", "mm", &trajectory.pace.arc_length, MM),
+            scaled("arc_length_mm", "Arc length", "mm", &trajectory.timing.arc_length, MM),
         ];
         series.extend(xyz("desired", "Desired", "mm", &trajectory.position, MM));
         series.extend(joints("q", "Joint", count, |k, i| self.q[k][i]));
@@ -73,7 +73,7 @@ impl Report {
             samples.map(|k| (desired[k][axis] + correction[k][axis]) / MM).collect()
         }));
         series.push(norm("after_contour_error_mm", "Contour error after", &self.after.contour_error));
-        series.push(scaled("feed_mm_s", "Feed", "mm/s", &trajectory.pace.speed, MM));
+        series.push(scaled("feed_mm_s", "Feed", "mm/s", &trajectory.timing.speed, MM));
         let force_alone = &self.deflection_only.contour_error;
         series.push(norm("deflection_contour_error_mm", "Contour error by deflection alone", force_alone));
         let shaping_alone = &self.shaping_only.contour_error;
@@ -97,19 +97,19 @@ impl Report {
         series.push(scaled("axis_error_deg", "Tool axis error before", "deg", before, DEG));
         series.push(scaled("after_axis_error_deg", "Tool axis error after", "deg", after, DEG));
         // As the force has it: a shaped tool arrives later, and between cutting and not it is partly both.
-        let cuts = self.plan.shaper.shaped(&trajectory.pace.engaged, trajectory.sample_time);
+        let cuts = self.plan.shaper().shaped(&trajectory.timing.engaged, trajectory.sample_time);
         series.push(Series::new("cuts", "Cuts", "", count, move |samples| {
             let whole =
                 |share: f64| if (share - share.round()).abs() < 1e-12 { share.round() } else { share };
             samples.map(|k| whole(cuts.at(k))).collect()
         }));
-        let (path, along) = (&self.plan.path, &trajectory.pace.arc_length);
+        let (path, timing) = (&self.plan.path, &trajectory.timing);
         series.push(Series::new("program_line", "Line of the program", "", count, move |samples| {
-            along[samples].iter().map(|&s| path.moves()[path.locate(s).0].line as f64).collect()
+            timing.index[samples].iter().map(|&index| path.moves()[index as usize].line as f64).collect()
         }));
-        if self.spin.is_some() {
+        if self.roll.is_some() {
             series.push(Series::new("spin_deg", "Spin about the tool axis", "deg", count, move |samples| {
-                along[samples].iter().map(|&s| path.spin(s) / DEG).collect()
+                timing.arc_length[samples].iter().map(|&s| path.roll(s) / DEG).collect()
             }));
         }
         series
@@ -117,6 +117,10 @@ impl Report {
 
     /// Hash over names and bits of all columns (XXH3, 128 bit): the same job gives the same one natively and in every browser.
     pub fn fingerprint(&self) -> String {
+        self.fingerprint.get_or_init(|| self.hash()).clone()
+    }
+
+    fn hash(&self) -> String {
         let mut hash = Xxh3::new();
         let mut bytes = [0; 8 * HASHED];
         for series in self.series() {

@@ -3,106 +3,184 @@
 use crate::cutting::along;
 use crate::cutting::material::Model;
 use crate::cutting::surface::Wall;
-use crate::deviation::{Plan, Sources};
+use crate::deviation::Sources;
+use crate::math;
+use crate::plan::Plan;
 use crate::report::{Budget, Report, budget};
 use crate::robot::{compliance, forward};
 use crate::units::{DEG, KILOWATT, MINUTE, MM, N_PER_MM, N_PER_MM2};
 use nalgebra::Vector3;
-use std::collections::BTreeMap;
+use serde::Serialize;
 
-/// Figures by key, the unit in the key.
-pub type Figures = BTreeMap<&'static str, f64>;
+/// The cut in figures, at the feed per tooth of the job (of the full feed, if the chip follows it).
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct CutFigures {
+    /// Tangential cutting coefficient [N/mm^2].
+    pub ktc_n_mm2: f64,
+    /// Radial cutting coefficient [N/mm^2].
+    pub krc_n_mm2: f64,
+    /// Axial cutting coefficient [N/mm^2].
+    pub kac_n_mm2: f64,
+    /// Tangential edge coefficient [N/mm].
+    pub kte_n_mm: f64,
+    /// Radial edge coefficient [N/mm].
+    pub kre_n_mm: f64,
+    /// Axial edge coefficient [N/mm].
+    pub kae_n_mm: f64,
+    /// Diameter of the tool [mm].
+    pub diameter_mm: f64,
+    /// Radius of its corner [mm].
+    pub corner_radius_mm: f64,
+    /// Axial depth of cut [mm].
+    pub axial_depth_mm: f64,
+    /// Feed per tooth [mm].
+    pub feed_per_tooth_mm: f64,
+    /// Mean thickness of chip [mm].
+    pub mean_chip_mm: f64,
+    /// Section of the material in the way of the tool [mm^2].
+    pub section_mm2: f64,
+    /// Removal rate [cm^3/min].
+    pub removal_cm3_min: f64,
+    /// Largest force within a revolution [N].
+    pub peak_force_n: f64,
+    /// Mean torque on the tool [N m].
+    pub torque_nm: f64,
+    /// Teeth that pass in a second [1/s].
+    pub tooth_passing_hz: f64,
+    /// Mean power of the cut [kW].
+    pub power_kw: f64,
+    /// Immersion angle at which a tooth enters on the cylinder [deg]; absent without contact there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub entry_deg: Option<f64>,
+    /// Immersion angle at which it leaves [deg].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exit_deg: Option<f64>,
+    /// Radial depth of cut [mm].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radial_depth_mm: Option<f64>,
+    /// Rated power of the spindle [kW], if it is given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spindle_power_kw: Option<f64>,
+    /// Bending of the tool at its tip [um/N], if it bends.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tool_bending_um_n: Option<f64>,
+    /// Thickness of chip that the coefficients are made for [mm], if they depend on it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub made_at_chip_mm: Option<f64>,
+    /// Spread of the coefficients [%], if the material is of the library.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spread_percent: Option<f64>,
+    /// Specific cutting force of a chip of 1 mm by 1 mm [N/mm^2], of a Kienzle material.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kc11_n_mm2: Option<f64>,
+    /// Exponent of a Kienzle material.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mc: Option<f64>,
+}
+
+/// A wall that the cut leaves: forces across it, and the deviation into the part (negative: material is
+/// left standing) by the mean force and at the instants when the edge makes the wall, both taken as static.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WallFigures {
+    /// Where the part is along y of {T}: 1 is left of the feed, -1 right of it.
+    pub side: f64,
+    /// Mean force into the part [N].
+    pub mean_force_n: f64,
+    /// Force into the part at the instants when the edge makes the wall, mean [N].
+    pub instant_force_n: f64,
+    /// The largest of these [N].
+    pub instant_force_max_n: f64,
+    /// Deviation by the mean force, mean over all samples that cut [mm].
+    pub by_mean_force_mm: f64,
+    /// The largest of these [mm].
+    pub by_mean_force_max_mm: f64,
+    /// Deviation at those instants, mean over all samples that cut and all heights [mm].
+    pub at_instant_mm: f64,
+    /// The largest of these [mm].
+    pub at_instant_max_mm: f64,
+}
 
 impl Report {
     /// Feed per tooth of the job [m]; of the full feed, if the chip follows it.
     pub fn feed_per_tooth(&self) -> f64 {
-        self.plan.chip.at(self.setup.tempo.feed, None)
+        self.setup().chip.at(self.setup().limits.feed, None)
     }
 
     /// Mean power of the cut [W] at that feed per tooth and the job's spindle speed: torque times speed.
     pub fn spindle_power(&self) -> f64 {
-        let turns = self.setup.teeth_per_second / f64::from(self.setup.cut.flutes);
-        self.setup.cut.torque(self.feed_per_tooth()) * turns * crate::math::TAU
+        let turns = self.setup().teeth_per_second / f64::from(self.setup().cut.flutes);
+        self.setup().cut.torque(self.feed_per_tooth()) * turns * math::TAU
     }
 
     /// The cut in figures.
-    pub fn cut_figures(&self) -> Figures {
-        let cut = &self.setup.cut;
+    pub fn cut_figures(&self) -> CutFigures {
+        let setup = self.setup();
+        let cut = &setup.cut;
         let k = &cut.coefficients;
         let c = self.feed_per_tooth();
-        let feed = c * self.setup.teeth_per_second;
-        let mut figures = Figures::from([
-            ("ktc_n_mm2", k.ktc / N_PER_MM2),
-            ("krc_n_mm2", k.krc / N_PER_MM2),
-            ("kac_n_mm2", k.kac / N_PER_MM2),
-            ("kte_n_mm", k.kte / N_PER_MM),
-            ("kre_n_mm", k.kre / N_PER_MM),
-            ("kae_n_mm", k.kae / N_PER_MM),
-            ("diameter_mm", cut.diameter / MM),
-            ("corner_radius_mm", cut.corner_radius / MM),
-            ("axial_depth_mm", cut.axial_depth / MM),
-            ("feed_per_tooth_mm", c / MM),
-            ("mean_chip_mm", cut.mean_chip(c) / MM),
-            ("section_mm2", cut.section() / (MM * MM)),
-            ("removal_cm3_min", cut.section() * feed * MINUTE * 1e6),
-            ("peak_force_n", cut.peak_force(c)),
-            ("torque_nm", cut.torque(c)),
-            ("tooth_passing_hz", self.setup.teeth_per_second),
-            ("power_kw", self.spindle_power() / KILOWATT),
-        ]);
+        let feed = c * setup.teeth_per_second;
         // On the cylinder: exact at the full radius, which a corner does not reach.
         let radius = cut.radius();
-        if let Some((entry, exit)) = cut.engagement.at(radius, radius) {
-            let radial = radius * (crate::math::cos(entry) - crate::math::cos(exit));
-            figures.extend([
-                ("entry_deg", entry / DEG),
-                ("exit_deg", exit / DEG),
-                ("radial_depth_mm", radial / MM),
-            ]);
+        let engaged = cut.engagement.at(radius, radius);
+        let radial = |(entry, exit): (f64, f64)| radius * (math::cos(entry) - math::cos(exit));
+        let kienzle = match &setup.material.model {
+            Model::Kienzle(kienzle) => Some(kienzle),
+            _ => None,
+        };
+        CutFigures {
+            ktc_n_mm2: k.ktc / N_PER_MM2,
+            krc_n_mm2: k.krc / N_PER_MM2,
+            kac_n_mm2: k.kac / N_PER_MM2,
+            kte_n_mm: k.kte / N_PER_MM,
+            kre_n_mm: k.kre / N_PER_MM,
+            kae_n_mm: k.kae / N_PER_MM,
+            diameter_mm: cut.diameter / MM,
+            corner_radius_mm: cut.corner_radius / MM,
+            axial_depth_mm: cut.axial_depth / MM,
+            feed_per_tooth_mm: c / MM,
+            mean_chip_mm: cut.mean_chip(c) / MM,
+            section_mm2: cut.section() / (MM * MM),
+            removal_cm3_min: cut.section() * feed * MINUTE * 1e6,
+            peak_force_n: cut.peak_force(c),
+            torque_nm: cut.torque(c),
+            tooth_passing_hz: setup.teeth_per_second,
+            power_kw: self.spindle_power() / KILOWATT,
+            entry_deg: engaged.map(|(entry, _)| entry / DEG),
+            exit_deg: engaged.map(|(_, exit)| exit / DEG),
+            radial_depth_mm: engaged.map(|engaged| radial(engaged) / MM),
+            spindle_power_kw: setup.spindle_power.map(|power| power / KILOWATT),
+            tool_bending_um_n: setup.bending.map(|bending| bending.displacement / (1e-3 * MM)),
+            made_at_chip_mm: setup.material.chip.map(|chip| chip / MM),
+            spread_percent: setup.material.material.map(|material| material.spread),
+            kc11_n_mm2: kienzle.map(|kienzle| kienzle.kc11 / N_PER_MM2),
+            mc: kienzle.map(|kienzle| kienzle.mc),
         }
-        if let Some(power) = self.setup.spindle_power {
-            figures.insert("spindle_power_kw", power / KILOWATT);
-        }
-        if let Some(bending) = &self.setup.bending {
-            figures.insert("tool_bending_um_n", bending.displacement / (1e-3 * MM));
-        }
-        if let Some(chip) = self.setup.stock.chip {
-            figures.insert("made_at_chip_mm", chip / MM);
-        }
-        if let Some(material) = self.setup.stock.material {
-            figures.insert("spread_percent", material.spread);
-        }
-        if let Model::Kienzle(kienzle) = &self.setup.stock.model {
-            figures.extend([("kc11_n_mm2", kienzle.kc11 / N_PER_MM2), ("mc", kienzle.mc)]);
-        }
-        figures
     }
 
-    /// The walls that the cut leaves, with the deviation into the part (negative: material is left standing) by the mean force and at the instants
-    /// when the edge makes the wall, both taken as static: mean over all samples that cut and all heights, and the largest.
-    pub fn walls(&self) -> Vec<Figures> {
+    /// The walls that the cut leaves.
+    pub fn walls(&self) -> Vec<WallFigures> {
         self.budget_and_walls().1
     }
 
     /// [`Report::budget`] and [`Report::walls`], both from one visit to the arm at each sample.
-    pub(super) fn budget_and_walls(&self) -> (Budget, Vec<Figures>) {
+    pub(super) fn budget_and_walls(&self) -> (Budget, Vec<WallFigures>) {
         let Plan { path, robot, trajectory, .. } = &self.plan;
-        let pace = self.plan.pace(Sources::ALL);
+        let timing = self.plan.timing(Sources::ALL);
         let mut budget = budget::Sum::default();
-        let mut walls: Vec<_> = self.setup.cut.walls().into_iter().map(Standing::new).collect();
+        let mut walls: Vec<_> = self.setup().cut.walls().into_iter().map(Standing::new).collect();
         let shaped = self.shaped(&self.q);
-        along::each(path, &pace, |k, x, axis| {
+        along::each(path, &timing, |k, x, axis| {
             let q = shaped.at(k);
             let frames = forward::frames(robot, &q);
             let tip = frames[5].compose(robot.tool());
             budget.take(k, self.parts(k, &q, &frames, &tip.position));
-            if pace.engaged[k] < 0.5 || walls.is_empty() {
+            if timing.engaged[k] < 0.5 || walls.is_empty() {
                 return;
             }
             let y = axis.cross(&x);
-            let (index, _) = path.locate(pace.arc_length[k]);
-            let c = self.plan.chip.at(pace.speed[k], path.moves()[index].spindle);
-            let mean_of_turn = self.plan.mean_force.at(c);
+            let spindle = path.moves()[timing.index[k] as usize].spindle;
+            let c = self.setup().chip.at(timing.speed[k], spindle);
+            let mean_of_turn = self.setup().mean_force.at(c);
             let base = x * mean_of_turn.x + y * mean_of_turn.y + axis * mean_of_turn.z;
             let by =
                 |force: Vector3<f64>| compliance::deflection(robot, &q, &frames, &tip.position, &force).0;
@@ -115,7 +193,7 @@ impl Report {
             } else {
                 (0.0, by(y))
             };
-            if let Some(bending) = &self.plan.bending {
+            if let Some(bending) = &self.setup().bending {
                 moved += bending.deflection(&-tip.rotation.column(2), &y).0;
             }
             let moved = Vector3::new(moved.dot(&x), moved.dot(&y), moved.dot(&axis));
@@ -161,17 +239,17 @@ impl Standing {
         }
     }
 
-    fn figures(&self) -> Figures {
-        Figures::from([
-            ("side", self.wall.side),
-            ("mean_force_n", self.mean_force.mean()),
-            ("instant_force_n", self.instant_force.mean()),
-            ("instant_force_max_n", self.instant_force.largest),
-            ("by_mean_force_mm", self.by_mean.mean() / MM),
-            ("by_mean_force_max_mm", self.by_mean.largest / MM),
-            ("at_instant_mm", self.at_instant.mean() / MM),
-            ("at_instant_max_mm", self.at_instant.largest / MM),
-        ])
+    fn figures(&self) -> WallFigures {
+        WallFigures {
+            side: self.wall.side,
+            mean_force_n: self.mean_force.mean(),
+            instant_force_n: self.instant_force.mean(),
+            instant_force_max_n: self.instant_force.largest,
+            by_mean_force_mm: self.by_mean.mean() / MM,
+            by_mean_force_max_mm: self.by_mean.largest / MM,
+            at_instant_mm: self.at_instant.mean() / MM,
+            at_instant_max_mm: self.at_instant.largest / MM,
+        }
     }
 }
 

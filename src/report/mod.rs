@@ -6,21 +6,23 @@ pub mod thesis;
 pub mod scene;
 mod budget;
 mod cut;
-mod spin;
+mod roll;
 mod summary;
 
 pub use budget::{Budget, Parts};
-pub use cut::Figures;
-pub use spin::{Effort, SpinGain};
+pub use cut::{CutFigures, WallFigures};
+pub use roll::{RollGain, RollOutcome};
 pub use summary::{Statistics, Summary};
 pub use warning::Warning;
 
-use crate::compensation::{Compensation, compensate};
-use crate::deviation::{Deviation, Plan, Source, Sources, contour};
-use crate::job::Setup;
+use crate::compensation::{Compensation, Question, compensate};
+use crate::deviation::{Deviation, Reference, Source, Sources};
 use crate::motion::shaper::Shaped;
+use crate::plan::Plan;
+use crate::progress::Progress;
 use crate::robot::Joints;
 use crate::robot::inverse::Branch;
+use crate::setup::Setup;
 use crate::units::MM;
 use nalgebra::Vector3;
 use std::sync::{Arc, OnceLock};
@@ -28,16 +30,14 @@ use std::sync::{Arc, OnceLock};
 /// Everything that was computed for a job.
 #[derive(Debug, Clone)]
 pub struct Report {
-    /// The question in SI.
-    pub setup: Setup,
-    /// Arm, path, motion and cut as simulated.
+    /// Arm, path and motion as simulated, with the question in SI.
     pub plan: Plan,
     /// Joint commands for the desired path [rad].
     pub q: Arc<Vec<Joints>>,
     /// The branch that they start on.
     pub branch: Branch,
-    /// What the free spin brings, if it is free.
-    pub spin: Option<SpinGain>,
+    /// What the free roll about the tool axis brings, if it is free.
+    pub roll: Option<RollGain>,
     /// Force on the tool in the base frame, every source acting [N]; whatever is commanded.
     pub force: Arc<Vec<Vector3<f64>>>,
     /// What it moves the tip by when the desired path is commanded [m].
@@ -56,9 +56,16 @@ pub struct Report {
     pub warnings: Vec<Warning>,
     /// See [`Report::alone`]; computed when first asked for.
     pub(crate) alone: [OnceLock<Compensation>; 2],
+    /// See [`Report::fingerprint`]; computed when first asked for.
+    pub(crate) fingerprint: OnceLock<String>,
 }
 
 impl Report {
+    /// The question in SI.
+    pub fn setup(&self) -> &Setup {
+        &self.plan.setup
+    }
+
     /// The number of samples; every column has as many rows.
     pub fn samples(&self) -> usize {
         self.plan.trajectory.len()
@@ -75,21 +82,22 @@ impl Report {
             Source::Deflection => (&self.alone[0], &self.deflection_only),
             Source::Shaping => (&self.alone[1], &self.shaping_only),
         };
-        let Setup { start, goal, .. } = self.setup;
         place.get_or_init(|| {
-            let passage = self.plan.passage(Sources::only(source));
-            compensate(&self.plan, &passage, start, &self.q, known, goal, &mut |_| {})
+            let reference = Reference::along(&self.plan, Sources::only(source));
+            let goal = self.setup().goal;
+            let question = Question { reference: &reference, q: &self.q, before: known, goal };
+            compensate(&self.plan, &question, &mut Progress::none())
         })
     }
 
     /// Joint commands as the shaper passes them on.
     pub fn shaped<'a>(&self, q: &'a [Joints]) -> Shaped<'a, Joints> {
-        self.plan.shaper.shaped(q, self.plan.trajectory.sample_time)
+        self.plan.shaper().shaped(q, self.plan.trajectory.sample_time)
     }
 
     /// Largest contour error with the compensated path commanded, every source acting [m].
     pub fn after_max(&self) -> f64 {
-        contour::mean_and_max(&self.after.contour_error).1
+        self.after.statistics.max
     }
 
     /// The path to command: the desired positions with their correction, base frame [m].
@@ -99,9 +107,8 @@ impl Report {
 
     /// The verdict in words.
     pub fn verdict(&self) -> String {
-        let (_, before) = contour::mean_and_max(&self.before.contour_error);
-        let (_, after) = contour::mean_and_max(&self.after.contour_error);
-        let tolerance = self.setup.goal.tolerance;
+        let (before, after) = (self.before.statistics.max, self.after.statistics.max);
+        let tolerance = self.setup().goal.tolerance;
         let met = |max: f64| if max <= tolerance { "is met" } else { "is not met" };
         let before_text = millimetres(before);
         let tolerance_text = millimetres(tolerance);

@@ -26,7 +26,7 @@ impl Report {
     /// as origin [mm] and x, y, z axes. A sample past the end means the last one.
     pub fn frames(&self, sample: usize) -> Vec<f64> {
         let mut numbers = arm(&self.plan.robot, &self.shaped(&self.q).at(sample.min(self.samples() - 1)));
-        numbers.extend(frame(&self.setup.workpiece));
+        numbers.extend(frame(&self.setup().workpiece));
         numbers
     }
 
@@ -53,7 +53,7 @@ impl Report {
             let error = self.before.contour_error[k];
             let (after, correction) = (self.after.contour_error[k], self.compensation.correction[k]);
             let position = self.plan.trajectory.position[k];
-            rows.extend([k as f64, self.plan.trajectory.pace.engaged[k]]);
+            rows.extend([k as f64, self.plan.trajectory.timing.engaged[k]]);
             for vector in [position, self.before.actual[k] + error, -error, -after, correction] {
                 rows.extend(vector.iter().map(|v| v / MM));
             }

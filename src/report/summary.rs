@@ -1,9 +1,10 @@
 //! The figures of a report that a person reads first, as one small object.
 
 use crate::cutting::material::Material;
-use crate::deviation::{Deviation, contour};
-use crate::path::{Listing, MovePace, Path};
-use crate::report::{Budget, Figures, Report, SpinGain, Warning};
+use crate::deviation::Deviation;
+use crate::deviation::contour::MeanMax;
+use crate::path::{MovePace, Path, SourceProgram};
+use crate::report::{Budget, CutFigures, Report, RollGain, WallFigures, Warning};
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -19,17 +20,18 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Of contour errors [m].
-    pub fn of(errors: &[Vector3<f64>]) -> Self {
-        let (mean, max) = contour::mean_and_max(errors);
-        Self { mean: mean / MM, max: max / MM }
-    }
-
     /// Of angles [rad], in deg.
     pub fn of_angles(angles: &[f64]) -> Self {
         let mean = angles.iter().sum::<f64>() / angles.len().max(1) as f64;
         let max = angles.iter().copied().fold(0.0, f64::max);
         Self { mean: mean / DEG, max: max / DEG }
+    }
+}
+
+impl From<MeanMax> for Statistics {
+    /// Of contour errors.
+    fn from(MeanMax { mean, max }: MeanMax) -> Self {
+        Self { mean: mean / MM, max: max / MM }
     }
 }
 
@@ -62,9 +64,9 @@ pub struct Summary {
     /// Where its numbers come from, and how far to trust them.
     pub material_note: String,
     /// The cut: coefficients, engagement, spindle.
-    pub cut: Figures,
+    pub cut: CutFigures,
     /// The walls that it leaves, by the mean force and at the instant of their making.
-    pub walls: Vec<Figures>,
+    pub walls: Vec<WallFigures>,
     /// Contour error before compensation [mm].
     pub before_mm: Before,
     /// What the contour error before compensation is made of.
@@ -89,10 +91,10 @@ pub struct Summary {
     pub verdict: String,
     /// What was understood of the program, where the path came from one.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub program: Option<Understood>,
+    pub program: Option<ProgramSummary>,
     /// What the free spin brings, if it is free.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub spin: Option<SpinGain>,
+    pub spin: Option<RollGain>,
     /// Name of the robot.
     pub robot: String,
     /// Where the joints' compliance comes from and how far to trust it.
@@ -107,7 +109,7 @@ pub struct Summary {
 
 /// What was understood of a program.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Understood {
+pub struct ProgramSummary {
     /// `gcode`, `apt` or `csv`.
     pub language: &'static str,
     /// Unit of length of the text.
@@ -140,9 +142,9 @@ pub struct IgnoredWord {
     pub lines: Vec<usize>,
 }
 
-impl Understood {
-    fn of(listing: &Listing, path: &Path) -> Self {
-        let program = &listing.program;
+impl ProgramSummary {
+    fn of(source: &SourceProgram, path: &Path) -> Self {
+        let program = &source.program;
         let (mut lowest, mut highest) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let mut feeds: Option<[f64; 2]> = None;
         for step in &program.moves {
@@ -164,7 +166,7 @@ impl Understood {
         }
         let rapid_moves = program.moves.iter().filter(|step| step.pace == MovePace::Rapid).count();
         Self {
-            language: listing.language,
+            language: source.language,
             unit: program.unit,
             lines: program.lines,
             cutting_moves: program.moves.len() - rapid_moves,
@@ -184,12 +186,12 @@ impl Understood {
 impl Report {
     /// Mean milling force in {T} [N], at the feed per tooth of the job (of the full feed, if the chip follows it).
     pub fn mean_force(&self) -> Vector3<f64> {
-        self.plan.mean_force.at(self.plan.chip.at(self.setup.tempo.feed, None))
+        self.setup().mean_force.at(self.feed_per_tooth())
     }
 
     /// The figures a person reads first.
     pub fn summary(&self) -> Summary {
-        let statistics = |deviation: &Deviation| Statistics::of(&deviation.contour_error);
+        let statistics = |deviation: &Deviation| Statistics::from(deviation.statistics);
         let mm = |values: &[f64]| values.iter().map(|v| v / MM).collect();
         let start = self.branch;
         let branch = format!(
@@ -198,7 +200,7 @@ impl Report {
             if start.elbow_positive { "positive" } else { "negative" },
             self.q.first().map_or(0.0, |q| q[3] / DEG)
         );
-        let material = self.setup.stock.material;
+        let material = self.setup().material.material;
         let (budget, walls) = self.budget_and_walls();
         Summary {
             fingerprint: self.fingerprint(),
@@ -221,15 +223,15 @@ impl Report {
             after_axis_deg: Statistics::of_angles(&self.after.axis_error),
             passes: self.compensation.passes,
             converged: self.compensation.converged,
-            tolerance_mm: self.setup.goal.tolerance / MM,
+            tolerance_mm: self.setup().goal.tolerance / MM,
             history_max_mm: mm(&self.compensation.history_max),
             history_mean_mm: mm(&self.compensation.history_mean),
             verdict: self.verdict(),
-            program: self.setup.listing.as_ref().map(|listing| Understood::of(listing, &self.plan.path)),
-            spin: self.spin.clone(),
+            program: self.setup().program.as_ref().map(|source| ProgramSummary::of(source, &self.plan.path)),
+            spin: self.roll.clone(),
             robot: self.plan.robot.name().to_owned(),
             inverse: if self.plan.robot.closed_form().is_ok() { "closed form" } else { "numerically" },
-            stiffness: self.setup.stiffness_note.clone(),
+            stiffness: self.setup().stiffness_note.clone(),
             branch,
             warnings: self.warnings.clone(),
         }

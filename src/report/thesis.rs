@@ -143,7 +143,7 @@ pub fn rows(report: &Report) -> Result<Vec<Row>, Error> {
         reason,
     );
 
-    let deflection = Statistics::of(&report.deflection_only.contour_error);
+    let deflection = Statistics::from(report.deflection_only.statistics);
     let reason = "J C J^T of the thesis's own tables gives 1.5 to 2 times less; eq. 3.34 is off by one joint for modified Denavit-Hartenberg frames, which explains most of it. Also d6 and the circle's radius differ between text and tables.";
     row(
         "Contour error by cutting forces, mean and max, mm",
@@ -154,7 +154,7 @@ pub fn rows(report: &Report) -> Result<Vec<Row>, Error> {
         reason,
     );
 
-    let shaping = Statistics::of(&report.shaping_only.contour_error);
+    let shaping = Statistics::from(report.shaping_only.statistics);
     let agrees = (shaping.mean - 0.1).abs() < 0.005 && (shaping.max - 0.16).abs() < 0.005;
     let reason = "The mean agrees to the digit that is printed. The maximum comes out at 0.18 mm whatever the sample time; the figure's data are lost.";
     row(
@@ -166,7 +166,7 @@ pub fn rows(report: &Report) -> Result<Vec<Row>, Error> {
         reason,
     );
 
-    let after = Statistics::of(&report.after.contour_error);
+    let after = Statistics::from(report.after.statistics);
     let reason = "The correction is filed under the command that causes the error; filed under the time index it stays at 0.02 mm.";
     row(
         "Combined contour error after compensation, max, mm",
@@ -193,7 +193,7 @@ pub fn rows(report: &Report) -> Result<Vec<Row>, Error> {
         reason,
     );
 
-    let chip = report.setup.tempo.feed / report.setup.teeth_per_second / MM;
+    let chip = report.setup().limits.feed / report.setup().teeth_per_second / MM;
     let reason = "The feed of 100 mm/s at 4000 rpm and 4 flutes gives more than the chip that the forces were computed with. We keep 0.1 mm, as printed, and warn.";
     row(
         "Feed per tooth, mm",

@@ -3,14 +3,15 @@
 use crate::compensation::Compensation;
 use crate::cutting::along::ChipLoad;
 use crate::cutting::material::Model;
-use crate::deviation::{Deviation, Plan, Sources};
-use crate::job::Setup;
+use crate::deviation::{Deviation, Sources};
 use crate::math;
 use crate::path::{Move, MovePace, Tool};
+use crate::plan::Plan;
 use crate::report::Report;
 use crate::robot::Joints;
 use crate::robot::equilibrium::equilibrium;
 use crate::robot::inverse::Margin;
+use crate::setup::Setup;
 use crate::units::{DEG, KILOWATT, MM};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -70,9 +71,10 @@ fn range(count: usize, holds: impl Fn(usize) -> bool) -> Option<(usize, usize)> 
     Some((first, last))
 }
 
-/// Everything worth a remark; `singular` is what [`singularities`] says.
-pub(crate) fn warnings(report: &Report, singular: Vec<Warning>) -> Vec<Warning> {
-    let Report { setup, plan, compensation, .. } = report;
+/// Everything worth a remark; a report starts with those of [`singularities`].
+pub(crate) fn warnings(report: &Report) -> Vec<Warning> {
+    let Report { plan, compensation, warnings: singular, .. } = report;
+    let setup = report.setup();
     let mut warnings = Vec::new();
     if setup.stiffness_assumed {
         let message = "nobody has published the joint stiffness of this robot: deflections are an order of magnitude, off by a factor of 2 as a rule and of 8 in single joints; enter your own";
@@ -86,7 +88,7 @@ pub(crate) fn warnings(report: &Report, singular: Vec<Warning>) -> Vec<Warning> 
     }
     springs(report, &mut warnings);
     limits(report, &mut warnings);
-    warnings.extend(singular);
+    warnings.extend_from_slice(singular);
     cut(setup, plan, &mut warnings);
     corners(setup, plan, &report.shaping_only, &mut warnings);
     program(setup, &mut warnings);
@@ -95,8 +97,7 @@ pub(crate) fn warnings(report: &Report, singular: Vec<Warning>) -> Vec<Warning> 
             format!("a compensated path could not be commanded ({error}); the last one that could is kept");
         warnings.push(Warning::new("compensation-stopped", message));
     }
-    let compensates =
-        setup.sources != Sources { deflection: false, shaping: false } && setup.goal.max_passes > 0;
+    let compensates = setup.sources != Sources::NONE && setup.goal.max_passes > 0;
     let after_max = report.after_max();
     if compensates && after_max > setup.goal.tolerance {
         let corners = if setup.shaper.duration() > 0.0 && !plan.trajectory.stops.is_empty() {
@@ -131,11 +132,11 @@ fn springs(report: &Report, warnings: &mut Vec<Warning>) {
 
 /// What the reader of the program found odd, with its line.
 fn program(setup: &Setup, warnings: &mut Vec<Warning>) {
-    for remark in setup.listing.iter().flat_map(|listing| &listing.program.remarks) {
+    for remark in setup.program.iter().flat_map(|source| &source.program.remarks) {
         warnings.push(Warning::new(remark.code, format!("line {}: {}", remark.line, remark.message)));
     }
     let other = |tool: &&Tool| (tool.diameter - setup.cut.diameter).abs() > SAME_TOOL;
-    let mut tools = setup.listing.iter().flat_map(|listing| &listing.program.tools);
+    let mut tools = setup.program.iter().flat_map(|source| &source.program.tools);
     if let Some(tool) = tools.find(other) {
         let message = format!(
             "line {}: the program's tool has a diameter of {:.3} mm, the job's {:.3} mm; the force is that of the job's",
@@ -243,7 +244,7 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
     let trajectory = &plan.trajectory;
     let dt = trajectory.sample_time;
     let cutting = || plan.path.moves().iter().filter(|step| step.pace != MovePace::Rapid);
-    let feed = |step: &Move| if let MovePace::Feed(feed) = step.pace { feed } else { setup.tempo.feed };
+    let feed = |step: &Move| if let MovePace::Feed(feed) = step.pace { feed } else { setup.limits.feed };
     if let ChipLoad::Fixed(c) = setup.chip {
         let from_feed = |step: &Move| {
             let teeth_per_second =
@@ -265,7 +266,7 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
         let message = "the tool does not reach the part: at this axial depth its corner is narrower than the gap the radial depth leaves";
         warnings.push(Warning::new("no-contact", message));
     }
-    if matches!(setup.stock.model, Model::Linear(_)) && setup.rake != 0.0 {
+    if matches!(setup.material.model, Model::Linear(_)) && setup.rake != 0.0 {
         let message =
             "the rake angle is not used: these coefficients hold for the tool they were measured with";
         warnings.push(Warning::new("rake-unused", message));
@@ -276,10 +277,11 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
     }
     // At rest in a corner the heading only turns.
     let sine = |k: usize| {
-        if trajectory.pace.speed[k] == 0.0 && k > 0 && k + 1 < trajectory.moving {
+        if trajectory.timing.speed[k] == 0.0 && k > 0 && k + 1 < trajectory.moving {
             return 0.0;
         }
-        let along: f64 = trajectory.pace.heading[k].dot(trajectory.axis.at(k)) * trajectory.pace.engaged[k];
+        let along: f64 =
+            trajectory.timing.heading[k].dot(trajectory.axis.at(k)) * trajectory.timing.engaged[k];
         along.abs()
     };
     let steep = math::sin(RAMP);
@@ -292,14 +294,14 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
     }
     let across = |step: &Move| feed(step) * feed(step) * step.segment.curvature();
     if let Some(step) = cutting().max_by(|a, b| across(a).total_cmp(&across(b)))
-        && across(step) > setup.tempo.acceleration
+        && across(step) > setup.limits.acceleration
     {
         let message = format!(
             "at {:.1} mm/s an arc of radius {:.2} mm takes {:.0} mm/s² across the path, more than the {:.0} mm/s² along it",
             feed(step) / MM,
             1.0 / step.segment.curvature() / MM,
             across(step) / MM,
-            setup.tempo.acceleration / MM
+            setup.limits.acceleration / MM
         );
         warnings.push(Warning::new("centripetal", message));
     }
@@ -307,7 +309,7 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
 
 /// The cut asks for more than the spindle has.
 fn spindle(report: &Report) -> Option<Warning> {
-    let (power, rated) = (report.spindle_power(), report.setup.spindle_power?);
+    let (power, rated) = (report.spindle_power(), report.setup().spindle_power?);
     let message = format!(
         "the cut takes {:.2} kW on average, more than the spindle's {:.2} kW; coefficients are known to ±30 %",
         power / KILOWATT,
@@ -319,12 +321,12 @@ fn spindle(report: &Report) -> Option<Warning> {
 /// Without the wait, shaping rounds corners: what that costs within half a shaper's way of a stop.
 fn corners(setup: &Setup, plan: &Plan, shaping_only: &Deviation, warnings: &mut Vec<Warning>) {
     let trajectory = &plan.trajectory;
-    if trajectory.stops.is_empty() || setup.tempo.corner_dwell >= setup.shaper.duration() {
+    if trajectory.stops.is_empty() || setup.limits.corner_dwell >= setup.shaper.duration() {
         return;
     }
-    let reach = setup.tempo.feed * setup.shaper.duration();
+    let reach = setup.limits.feed * setup.shaper.duration();
     let at_corner = |k: usize| {
-        trajectory.stops.iter().any(|stop| (stop.s - trajectory.pace.arc_length[k]).abs() <= reach)
+        trajectory.stops.iter().any(|stop| (stop.s - trajectory.timing.arc_length[k]).abs() <= reach)
     };
     let errors: &[Vector3<f64>] = &shaping_only.contour_error;
     if let Some(range) = range(errors.len(), at_corner) {

@@ -82,6 +82,8 @@ const CLOSURE: f64 = 1e-9;
 /// |sin q5| below which only the sum of q4 and q6 is determined.
 const WRIST_SINGULAR: f64 = 1e-10;
 
+const NUMERICAL: &str = "an arm without a closed form";
+
 /// All joint values that put the TCP at `tcp` (base frame); each is checked by the forward model (1e-9 m, 1e-9).
 ///
 /// Each angle is the one of its full turns that is nearest to `near` [rad]; at a wrist singularity q4 is taken from `near`.

@@ -7,7 +7,7 @@ pub(crate) mod peer;
 pub(crate) mod program;
 
 use armill::robot::{Joints, Link, Robot};
-use armill::{Job, Report};
+use armill::{Job, Progress, Report};
 use nalgebra::Vector3;
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -27,12 +27,12 @@ pub(crate) fn job_text(changes: &[(&str, Value)]) -> String {
 
 /// Computes the default job with some values replaced.
 pub(crate) fn run(changes: &[(&str, Value)]) -> Report {
-    armill::run_json(&job_text(changes), |_| {}).unwrap()
+    armill::run_json(&job_text(changes), &mut Progress::none()).unwrap()
 }
 
 /// The error of the default job with some values replaced.
 pub(crate) fn refused(changes: &[(&str, Value)]) -> armill::Error {
-    armill::run_json(&job_text(changes), |_| {}).unwrap_err()
+    armill::run_json(&job_text(changes), &mut Progress::none()).unwrap_err()
 }
 
 /// A reader has refused a text of the job at this line and column, in these words.

@@ -1,9 +1,10 @@
 //! What the tests of exports share: jobs, programs, and the readers for what is written.
 
 use armill::Report;
-use armill::export::{Export, Options, export};
+use armill::export::{Export, Options};
 use armill::path::unit::{FeedUnit, LengthUnit};
 use armill::path::{Program, Segment, apt, csv, gcode};
+use armill::verification::export;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -48,7 +49,7 @@ pub(crate) fn written(report: &Report, id: &str) -> Export {
 
 /// Tips in the workpiece frame [m] that a file sends the tool to.
 pub(crate) fn commanded(report: &Report, export: &Export) -> Vec<Vector3<f64>> {
-    let back = report.setup.workpiece.inverse();
+    let back = report.setup().workpiece.inverse();
     export.course.positions(report).iter().map(|p| back.point(p)).collect()
 }
 

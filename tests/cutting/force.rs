@@ -215,7 +215,7 @@ fn force_falls_while_the_arm_accelerates() {
     }
     assert!(rising > 400, "{rising} samples of acceleration");
     // At rest only the edges rub.
-    let edge = report.plan.mean_force.edge.norm();
+    let edge = report.setup().mean_force.edge.norm();
     assert!((force[0] - edge).abs() < 1e-9 && edge < 0.2 * full);
 }
 

@@ -36,9 +36,9 @@ fn power_torque_and_removal_rate_belong_together() {
     let report = run(&[("cutting.spindle_power_kw", json!(1.5))]);
     let cut = report.summary().cut;
     // Without edge forces the specific energy is k_tc: 1800 N/mm^2 on 5 mm x 10 mm x 0.1 mm x 4 x 4000 / min = 80 cm^3/min is 2.4 kW.
-    assert!((cut["removal_cm3_min"] - 80.0).abs() < 1e-9);
-    assert!((cut["power_kw"] - 2.4).abs() < 1e-9);
-    assert!((cut["torque_nm"] - 2400.0 / (TAU * 4000.0 / 60.0)).abs() < 1e-9);
+    assert!((cut.removal_cm3_min - 80.0).abs() < 1e-9);
+    assert!((cut.power_kw - 2.4).abs() < 1e-9);
+    assert!((cut.torque_nm - 2400.0 / (TAU * 4000.0 / 60.0)).abs() < 1e-9);
     assert!(report.warnings.iter().any(|warning| warning.code == "spindle-power"));
     assert!(
         !run(&[("cutting.spindle_power_kw", json!("unknown"))])

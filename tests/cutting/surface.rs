@@ -13,16 +13,16 @@ fn the_wall_is_left_by_the_instant_that_makes_it() {
     let walls = report.walls();
     assert_eq!(walls.len(), 1, "climb milling leaves the wall on the right");
     let wall = &walls[0];
-    assert_eq!(wall["side"], -1.0);
+    assert_eq!(wall.side, -1.0);
     let mean = report.mean_force();
-    assert!((wall["mean_force_n"] + mean.y).abs() < 1e-9);
+    assert!((wall.mean_force_n + mean.y).abs() < 1e-9);
     // Static, with the pose hardly changing: the deviation by the mean force is the deflection's part across the feed (here x of the base).
     let across = column(&report, "deflection_x_mm");
     let average = across.iter().sum::<f64>() / across.len() as f64;
     // Feed along +y, so y of {T} is -x of the base, and into the part on the right is +x; the resting sample at the end counts for both.
-    assert!((wall["by_mean_force_mm"] - average).abs() < 1e-9 * average.abs().max(1.0), "{wall:?} {average}");
+    assert!((wall.by_mean_force_mm - average).abs() < 1e-9 * average.abs().max(1.0), "{wall:?} {average}");
     // Force when the edge passes 180 deg at the height z: another tooth is at 90 deg plus the lag; brute force over thin slices.
-    let cut = report.setup.cut;
+    let cut = report.setup().cut;
     let lag = 2.0 * cut.helix.tan() / cut.diameter;
     let heights = 24;
     let mut sum = 0.0;
@@ -30,7 +30,7 @@ fn the_wall_is_left_by_the_instant_that_makes_it() {
         let z = 0.010 * (f64::from(k) + 0.5) / f64::from(heights);
         sum -= brute(&cut, PI + lag * z, 1e-4, 20_000).y / f64::from(heights);
     }
-    let ours = wall["instant_force_n"];
+    let ours = wall.instant_force_n;
     assert!((ours - sum).abs() < 1e-3 * sum.abs(), "{ours} against {sum}");
     // Above a corner the wall is looked at from the corner up.
     let bull = Cut { corner_radius: 0.002, ..cut };

@@ -38,7 +38,8 @@ enum Verdict {
 
 fn judge(number: u64, robots: &[Preset]) -> Verdict {
     let Case { job, question, illegal } = random::case(number, robots);
-    let ours = Job::from_json(&job.to_string()).and_then(|job| armill::run(&job));
+    let ours =
+        Job::from_json(&job.to_string()).and_then(|job| armill::run(&job, &mut armill::Progress::none()));
     if let Some(field) = illegal {
         return match ours {
             Err(error) if error.field() == Some(field) => Verdict::Agreed("a value is not legal"),

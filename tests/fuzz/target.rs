@@ -1,7 +1,7 @@
 //! What must hold for any text: nothing panics or hangs, no number is NaN, what is refused has a place and words, what is written is read.
 
 use armill::chart::{self, CATALOG};
-use armill::export::{Export, FORMATS, Options, export};
+use armill::export::{Export, FORMATS, Options};
 use armill::path::program::{MovePace, Program};
 use armill::path::unit::{FeedUnit, LengthUnit};
 use armill::path::{Path, Segment, apt, csv, gcode};
@@ -80,11 +80,10 @@ fn check_csv(text: &str) {
 }
 
 fn check_job(text: &str) {
-    let job = match Job::from_json(text) {
-        Ok(job) => job,
+    let job = match Job::read_json(text) {
+        Ok((job, _)) => job,
         Err(error) => return check_error(&error, text, ""),
     };
-    Job::not_given(text);
     let again =
         Job::from_json(&job.to_json()).unwrap_or_else(|error| panic!("a job reads its own JSON: {error}"));
     assert!(is_same(&json!(again), &json!(job)), "a job survives its own JSON: {again:?}");
@@ -121,8 +120,8 @@ fn check_export(text: &str) {
             "compensation": { "max_passes": 3 },
         });
         let mut job = Job::from_json(&job.to_string()).expect("a job");
-        let Ok(setup) = job.setup() else { continue };
-        let samples = armill::motion::Trajectory::count(&setup.path, &setup.tempo);
+        let Ok(setup) = armill::setup::Setup::of(&job, &mut armill::Progress::none()) else { continue };
+        let samples = armill::motion::Trajectory::count(&setup.path, &setup.limits);
         job.motion.sample_time_s = (job.motion.sample_time_s * samples / 100.0).clamp(1e-5, 1.0);
         run(&job).iter().for_each(check_exports);
         return;
@@ -134,20 +133,23 @@ const FEW: f64 = 400.0;
 
 /// Runs a job of few samples; its report, if it has one, holds numbers only.
 fn run(job: &Job) -> Option<Report> {
-    let program = job.path.text.as_deref().unwrap_or_default();
-    let setup = match job.setup() {
+    let program = job.path.text.as_ref().map_or("", |text| &**text);
+    let setup = match armill::setup::Setup::of(job, &mut armill::Progress::none()) {
         Ok(setup) => setup,
         Err(error) => {
             check_error(&error, "", program);
             return None;
         }
     };
-    let samples = armill::motion::Trajectory::count(&setup.path, &setup.tempo);
+    let samples = armill::motion::Trajectory::count(&setup.path, &setup.limits);
     assert!(samples.is_finite(), "{samples} samples");
     if samples > FEW || job.compensation.max_passes > 20 {
         return None;
     }
-    armill::run(job).inspect(check_numbers).inspect_err(|error| check_error(error, "", program)).ok()
+    armill::run(job, &mut armill::Progress::none())
+        .inspect(check_numbers)
+        .inspect_err(|error| check_error(error, "", program))
+        .ok()
 }
 
 /// A reader gives the same twice, a sound program or an error that stands in the text.
@@ -266,7 +268,7 @@ fn check_charts(report: &Report) {
 
 fn check_exports(report: &Report) {
     for format in FORMATS {
-        match export(report, format.id, &Options::default()) {
+        match armill::verification::export(report, format.id, &Options::default()) {
             Ok(export) => {
                 assert!(!export.text.contains("NaN"), "{}", format.id);
                 check_written(report, format.id, &export);
@@ -291,7 +293,7 @@ fn check_written(report: &Report, id: &str, export: &Export) {
     };
     let program = read.unwrap_or_else(|error| panic!("{id}: {error}\n{text}"));
     check_program(&program);
-    let back = report.setup.workpiece.inverse();
+    let back = report.setup().workpiece.inverse();
     for tip in export.course.positions(report).iter().map(|tip| back.point(tip)) {
         let distance =
             |segment: &Segment| (segment.point(segment.closest(&tip, 0.0, segment.length())) - tip).norm();

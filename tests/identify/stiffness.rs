@@ -17,7 +17,7 @@ pub(crate) fn fanuc() -> Robot {
     let example: Value =
         serde_json::from_str(include_str!("../../web/examples/identify-fanuc-r2000ic.json")).unwrap();
     let changes = ["robot", "tool_frame"].map(|key| (key, example[key].clone()));
-    Job::from_json(&job_text(&changes)).unwrap().robot().unwrap()
+    armill::setup::robot(&Job::from_json(&job_text(&changes)).unwrap()).unwrap()
 }
 
 fn measured() -> Measurements {
@@ -195,7 +195,7 @@ fn verdicts(fit: &Fit) -> [Verdict; 6] {
 #[test]
 fn joints_that_the_loads_do_not_turn_are_named() {
     let mut random = fastrand::Rng::with_seed(3);
-    let robot = Job::default().robot().unwrap();
+    let robot = armill::setup::robot(&Job::default()).unwrap();
     // Tip on axis 6 and no moment: joint 6 is never turned.
     let mut rows = synthetic(&robot, 30, &mut random);
     for row in &mut rows {

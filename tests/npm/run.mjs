@@ -26,10 +26,16 @@ const methods = {
   track: [result.track(100)],
   export: [result.export("krl")],
   columns_csv: [result.columns_csv(0, 3)],
-  promise: [result.promise()],
+  promise: [result.promise(), result.promise("krl")],
   replay: [other.replay("gcode")],
   fingerprint: [result.fingerprint()],
 };
+
+// Made-up loads on twelve poses, and a vibration that dies away: for the types of what is identified.
+const pose = (i) => [10 * i - 60, 20 + ((7 * i) % 50), 30 - ((5 * i) % 40), (15 * i) % 90, 30 + 4 * i, (20 * i) % 180, 100, 50 * ((i % 3) - 1), -80, 0.1 + 0.01 * i, 0.02 * (i % 4), -0.05];
+const poses = Array.from({ length: 12 }, (_, i) => pose(i).join(",")).join("\n");
+const vibration = Array.from({ length: 2000 }, (_, i) => `${i / 1000},${Math.exp(-i / 800) * Math.cos(i / 20)}`).join("\n");
+const identified = [armill.identify_stiffness(armill.default_job(), poses, "table"), armill.identify_response(`time_s,x\n${vibration}`)];
 
 const literal = (value) => {
   if (value instanceof Float64Array) return `new Float64Array([${value.slice(0, 3)}])`;
@@ -41,6 +47,8 @@ const lines = ['import * as armill from "armill";'];
 const write = (type, values) => values.forEach((value) => lines.push(`((_: ${type}) => {})(${literal(value)});`));
 for (const [name, values] of Object.entries(answers)) write(`ReturnType<typeof armill.${name}>`, values);
 for (const [name, values] of Object.entries(methods)) write(`ReturnType<armill.Run["${name}"]>`, values);
+write('ReturnType<armill.Identified["summary"]>', identified.map((each) => each.summary()));
+write('ReturnType<armill.Identified["chart"]>', identified.map((each) => each.chart({ width: 640, height: 300 })));
 writeFileSync("values.ts", `${lines.join("\n")}\n`);
 
 // Whatever a run offers was asked for: what is new has to be added above.

@@ -209,7 +209,7 @@ fn a_page_of_mdbook_holds_calculators() -> Result {
         frame_answers(page, "#default", &run(&[])).await?;
         fits(page, "#default").await?;
         let slot = include_str!("../../xtask/docs/book/src/slot.json");
-        frame_answers(page, "#file", &armill::run_json(slot, |_| {})?).await?;
+        frame_answers(page, "#file", &armill::run_json(slot, &mut armill::Progress::none())?).await?;
         let pocket = json!({"kind": "gcode", "text": include_str!("../../web/examples/pocket.nc")});
         let pocket = run(&[("path", pocket), ("material", json!({"preset": "al-7075-t6"}))]);
         frame_answers(page, "#preset", &pocket).await?;

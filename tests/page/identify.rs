@@ -63,7 +63,7 @@ fn the_measured_example_becomes_the_job_and_undo_takes_it_back() -> Result {
             assert!((compliance[i].as_f64().unwrap() / ours - 1.0).abs() < 1e-5, "{compliance}");
         }
         assert_eq!(taken["robot"]["name"], "FANUC R-2000iC, compliance identified from 43 rows");
-        let report: Report = armill::run_json(&taken.to_string(), |_| {})?;
+        let report: Report = armill::run_json(&taken.to_string(), &mut armill::Progress::none())?;
         let fingerprint = report.fingerprint();
         page.wait_for(
             &format!("document.getElementById('fingerprint').textContent === '{fingerprint}'"),

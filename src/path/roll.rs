@@ -1,15 +1,16 @@
-//! Spin: how far the TCP is turned about the tool axis along the path. Milling does not care about it; the arm's joints do.
+//! Roll: how far the TCP is turned about the tool axis along the path, the degree of freedom that milling
+//! leaves open. The cut does not depend on it; the arm's joints do. A job calls it `spin`.
 
 use std::cmp::Ordering;
 
 /// Angle about the tool axis over the arc length.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Spin {
+pub struct Roll {
     /// Arc length [m], angle [rad] and its slope [rad/m], in the order of the arc length; the angle is constant before and after.
     knots: Vec<[f64; 3]>,
 }
 
-impl Spin {
+impl Roll {
     /// The same angle [rad] all along.
     pub fn fixed(angle: f64) -> Self {
         Self { knots: vec![[0.0, angle, 0.0]] }
@@ -69,21 +70,21 @@ mod tests {
     #[test]
     fn the_curve_meets_its_points_and_overshoots_none() {
         let points = [(0.0, 0.3), (0.1, 0.5), (0.25, 2.0), (0.3, 2.0), (0.5, -1.0), (1.0, -0.9)];
-        let spin = Spin::through(&points);
+        let roll = Roll::through(&points);
         for pair in points.windows(2) {
             let [(from, a), (to, b)] = [pair[0], pair[1]];
-            assert!((spin.at(from) - a).abs() < 1e-15 && (spin.at(to) - b).abs() < 1e-15);
+            assert!((roll.at(from) - a).abs() < 1e-15 && (roll.at(to) - b).abs() < 1e-15);
             for i in 0..=200 {
                 let s = from + (to - from) * f64::from(i) / 200.0;
-                assert!(spin.at(s) >= a.min(b) - 1e-12 && spin.at(s) <= a.max(b) + 1e-12, "at {s}");
+                assert!(roll.at(s) >= a.min(b) - 1e-12 && roll.at(s) <= a.max(b) + 1e-12, "at {s}");
             }
         }
-        assert_eq!((spin.at(-1.0), spin.at(2.0)), (0.3, -0.9));
-        assert_eq!(Spin::fixed(0.7).at(0.4), 0.7);
+        assert_eq!((roll.at(-1.0), roll.at(2.0)), (0.3, -0.9));
+        assert_eq!(Roll::fixed(0.7).at(0.4), 0.7);
         // One slope on both sides of every point.
         for (s, _) in points {
             let h = 1e-7;
-            let (left, right) = ((spin.at(s) - spin.at(s - h)) / h, (spin.at(s + h) - spin.at(s)) / h);
+            let (left, right) = ((roll.at(s) - roll.at(s - h)) / h, (roll.at(s + h) - roll.at(s)) / h);
             assert!((left - right).abs() < 1e-3, "at {s}: {left} and {right}");
         }
     }
@@ -91,10 +92,10 @@ mod tests {
     #[test]
     fn evenly_rising_points_give_a_straight_line_inside() {
         let points: Vec<_> = (0..6).map(|k| (f64::from(k) * 0.1, f64::from(k) * 0.2)).collect();
-        let spin = Spin::through(&points);
+        let roll = Roll::through(&points);
         for i in 100..=400 {
             let s = f64::from(i) * 1e-3;
-            assert!((spin.at(s) - 2.0 * s).abs() < 1e-12, "at {s}");
+            assert!((roll.at(s) - 2.0 * s).abs() < 1e-12, "at {s}");
         }
     }
 }

@@ -9,12 +9,10 @@ use crate::compensation;
 use crate::cutting::along::ChipLoad;
 use crate::error::Error;
 use crate::export::command::{Command, Course, Style};
-use crate::export::replay::{self, Replay};
 use crate::motion::Trajectory;
-use crate::report::{Report, millimetres};
-use crate::units::MM;
+use crate::report::Report;
+use crate::verification::replay::{self, Replay};
 use nalgebra::Vector3;
-use serde::Serialize;
 
 /// A pass that leaves more than this share of the error is no improvement.
 const IMPROVEMENT: f64 = 0.99;
@@ -22,33 +20,15 @@ const IMPROVEMENT: f64 = 0.99;
 /// shorter than this [s] would feed on itself and is smoothed out. Tried on lines, arcs and circles: half of it grows, twice of it hardly corrects.
 const SMOOTHING: f64 = 0.01;
 
-/// What the report's path is worth as a program. Programs tell no times, so what runs them keeps their own; only joint commands keep the run's.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Promise {
-    /// Largest contour error that comes out of the program [mm].
-    pub max_mm: f64,
-    /// Whether that is within the job's tolerance.
-    pub met: bool,
-    /// The same in words.
-    pub sentence: String,
-}
-
-/// What comes out of the path as a G-code program with the usual thinning.
-///
-/// # Errors
-/// See [`rehearse`].
-pub fn promise(report: &Report) -> Result<Promise, Error> {
-    let style = Style { arcs: true, ..Style::default() };
-    let reached = rehearse(report, None, style)?.1.reached.unwrap_or(f64::NAN);
-    let tolerance = report.setup.goal.tolerance;
-    let met = reached <= tolerance;
-    let sentence = format!(
-        "As a G-code program, with its own timing: at most {} mm, {} the tolerance of {} mm.",
-        millimetres(reached),
-        if met { "within" } else { "beyond" },
-        millimetres(tolerance)
-    );
-    Ok(Promise { max_mm: reached / MM, met, sentence })
+/// A program that was tried: where it sends the tool, and what is written for it.
+#[derive(Debug, Clone)]
+pub struct Rehearsal {
+    /// Where the tool is sent at each of the report's samples.
+    pub course: Course,
+    /// The moves as written.
+    pub command: Command,
+    /// Largest contour error that comes out of them, run with their own timing [m].
+    pub reached: f64,
 }
 
 /// The course and what is written for it, with the largest contour error it reaches: the report's own, if that keeps the job's tolerance as a
@@ -56,38 +36,38 @@ pub fn promise(report: &Report) -> Result<Promise, Error> {
 ///
 /// # Errors
 /// See [`Command::new`] and [`replay::run`].
-pub fn rehearse(report: &Report, thinning: Option<f64>, style: Style) -> Result<(Course, Command), Error> {
+pub fn rehearse(report: &Report, thinning: Option<f64>, style: Style) -> Result<Rehearsal, Error> {
     let attempt = |course: Course| {
         let mut command = Command::new(report, &course, thinning, style)?;
         let outcome = replay::run(report, &course, &command.program())?;
         let reached = outcome.largest();
         command.reached = Some(reached);
-        Ok::<_, Error>((course, command, outcome, reached))
+        Ok::<_, Error>((Rehearsal { course, command, reached }, outcome))
     };
     let mut best = attempt(Course::of(report))?;
-    let goal = report.setup.goal;
+    let goal = report.setup().goal;
     let passes = if report.compensation.passes > 0 { goal.max_passes } else { 0 };
     for _ in 0..passes {
-        let (course, _, outcome, least) = &best;
+        let (Rehearsal { course, reached: least, .. }, outcome) = &best;
         if *least <= goal.tolerance {
             break;
         }
         // A pass that bends the path too far to be reached or written is no improvement either.
         let Ok(next) = attempt(corrected(report, course, outcome)) else { break };
-        if next.3 >= least * IMPROVEMENT {
+        if next.0.reached >= least * IMPROVEMENT {
             break;
         }
         best = next;
     }
-    Ok((best.0, best.1))
+    Ok(best.0)
 }
 
 /// The course with what was missing when its program was run.
 fn corrected(report: &Report, course: &Course, outcome: &Replay) -> Course {
-    let Trajectory { sample_time, moving, .. } = outcome.trajectory;
+    let Trajectory { sample_time, moving, .. } = *outcome.trajectory;
     let undone = |missing: Vec<Vector3<f64>>| {
-        let change = report.plan.shaper.undo(&missing, sample_time, moving);
-        let change = match report.plan.chip {
+        let change = report.plan.shaper().undo(&missing, sample_time, moving);
+        let change = match report.setup().chip {
             ChipLoad::Fixed(_) => change,
             ChipLoad::FromFeed { .. } => smoothed(change, SMOOTHING / sample_time),
         };

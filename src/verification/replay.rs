@@ -6,22 +6,26 @@
 //! never stray further from those points than they may be thinned.
 
 use crate::cutting::along;
-use crate::deviation::{Deviation, Passage, Plan, Sources, contour, deviate};
+use crate::deviation::{Deviation, Reference, Sources, simulate};
 use crate::error::Error;
 use crate::export::command::Course;
-use crate::export::{Export, Options, export};
-use crate::motion::joints::joint_trajectory;
-use crate::motion::{Pace, Trajectory};
-use crate::path::{self, Axes, Path, Program, Segment, unit};
+use crate::export::{Export, Options};
+use crate::motion::joints::{Targets, joint_trajectory};
+use crate::motion::{TimingLaw, Trajectory, trajectory};
+use crate::path::unit::{FeedUnit, LengthUnit};
+use crate::path::{self, Axes, Path, Program, Segment};
+use crate::plan::Plan;
+use crate::progress::Progress;
 use crate::report::{Report, Statistics};
+use crate::verification::Programs;
 use nalgebra::Vector3;
-use std::borrow::Cow;
+use std::sync::Arc;
 
 /// The outcome of a program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replay {
     /// The desired motion that its samples stand for.
-    pub trajectory: Trajectory,
+    pub trajectory: Arc<Trajectory>,
     /// The desired path's points where the shaped motion is [m].
     pub target: Vec<Vector3<f64>>,
     /// Its tool axes there.
@@ -35,43 +39,42 @@ pub struct Replay {
 impl Replay {
     /// Largest contour error [m].
     pub fn largest(&self) -> f64 {
-        contour::mean_and_max(&self.deviation.contour_error).1
+        self.deviation.statistics.max
     }
 
     /// Mean and largest contour error [mm].
     pub fn statistics(&self) -> Statistics {
-        Statistics::of(&self.deviation.contour_error)
+        self.deviation.statistics.into()
     }
 }
 
-/// Writes the file of the format `id` (`gcode`, `apt` or `path-csv`), reads it back and runs it.
+/// Reads the file of the format `id` (`gcode`, `apt` or `path-csv`) back and runs it.
 ///
 /// # Errors
-/// [`Error::Invalid`] for a format that has no reader; else see [`export`], the readers and [`joint_trajectory`].
-pub fn replay(report: &Report, id: &str, options: &Options) -> Result<Replay, Error> {
+/// [`Error::Invalid`] for a format that has no reader; else see [`Programs::export`], the readers and
+/// [`run`].
+pub fn read_back(report: &Report, programs: &Programs, id: &str, options: &Options) -> Result<Replay, Error> {
     if !["gcode", "apt", "path-csv"].contains(&id) {
-        return Err(Error::Invalid {
-            field: "format".into(),
-            value: format!("\"{id}\""),
-            expected: "gcode, apt and path-csv can be read back".into(),
-        });
+        let expected = "gcode, apt and path-csv can be read back";
+        return Err(Error::invalid("format", format!("\"{id}\""), expected));
     }
-    let Export { text, course, .. } = export(report, id, options)?;
-    let program = match id {
+    let Export { text, course, .. } = programs.export(report, id, options)?;
+    run(report, &course, &read(id, &text)?)
+}
+
+/// Reads a program that was written in the format `id`.
+fn read(id: &str, text: &str) -> Result<Program, Error> {
+    match id {
         "gcode" => {
             let options = path::gcode::Options { field: id.into(), ..Default::default() };
-            path::gcode::program(&text, &options, |_| {})
+            path::gcode::program(text, &options, |_| {})
         }
-        "apt" => {
-            let options = path::apt::Options { field: id, unit: unit::LengthUnit::Mm };
-            path::apt::program(&text, &options, |_| {})
-        }
+        "apt" => path::apt::program(text, &path::apt::Options { field: id, unit: LengthUnit::Mm }, |_| {}),
         _ => {
-            let (unit, feed_unit) = (unit::LengthUnit::Mm, unit::FeedUnit::MmPerS);
-            path::csv::program(&text, &path::csv::Options { field: id, unit, feed_unit }, |_| {})
+            let (unit, feed_unit) = (LengthUnit::Mm, FeedUnit::MmPerS);
+            path::csv::program(text, &path::csv::Options { field: id, unit, feed_unit }, |_| {})
         }
-    }?;
-    run(report, &course, &program)
+    }
 }
 
 /// Runs a program that sends the tool along `course`.
@@ -80,33 +83,29 @@ pub fn replay(report: &Report, id: &str, options: &Options) -> Result<Replay, Er
 /// [`Error::Missing`] for a program without a move; [`Error::Unreachable`] where it is out of reach.
 pub fn run(report: &Report, course: &Course, program: &Program) -> Result<Replay, Error> {
     let empty = || Error::Missing { field: "program".into(), expected: "a move".into() };
-    let commanded = Path::of_program(program).ok_or_else(empty)?.placed(&report.setup.workpiece);
-    // A program of points says nothing about the spin: the run's own is taken, at the same share of the way.
-    let commanded = commanded.spun_as(&report.plan.path);
-    let own = Trajectory::new(&commanded, &report.setup.tempo);
-    let q = joint_trajectory(
-        &report.plan.robot,
-        &commanded,
-        &own,
-        (&own.position, &own.axis),
-        report.setup.start,
-    )?
-    .q;
+    let commanded = Path::of_program(program).ok_or_else(empty)?.placed(&report.setup().workpiece);
+    // A program of points says nothing about the roll: the run's own is taken, at the same share of the way.
+    let commanded = commanded.rolled_as(&report.plan.path);
+    let own = Trajectory::new(&commanded, &report.setup().limits);
+    let targets = Targets::desired(&commanded, &own);
+    let start = report.setup().start;
+    let q = joint_trajectory(&report.plan.robot, &targets, start, &mut Progress::none())?.q;
     let instants = instants(&course.positions(report), &own).ok_or_else(empty)?;
     let (trajectory, share) = standing_for(report, &own, &instants);
-    let plan = Plan { trajectory, ..report.plan.clone() };
-    let pace = plan.pace(Sources::ALL).into_owned();
-    let share = plan.shaper.apply(&share, own.sample_time);
-    let mut force = along::forces(&plan.path, &pace, &plan.mean_force, &plan.chip);
-    for ((force, share), &s) in force.iter_mut().zip(share).zip(&pace.arc_length) {
+    let plan = Plan { trajectory: trajectory.into(), ..report.plan.clone() };
+    let timing = plan.timing(Sources::ALL).into_owned();
+    let share = plan.shaper().apply(&share, own.sample_time);
+    let mut force = along::forces(&plan.path, &timing, &plan.setup.mean_force, &plan.setup.chip);
+    for ((force, share), &s) in force.iter_mut().zip(share).zip(&timing.arc_length) {
         let axis = plan.path.axis(s);
         let along = axis * axis.dot(force);
         *force = along + (*force - along) * share;
     }
-    let passage = Passage::under(&plan.path, Cow::Borrowed(&pace.arc_length), Sources::ALL, force.into());
-    let deviation = deviate(&plan, &passage, &q);
-    let Passage { target, axis, .. } = passage;
-    Ok(Replay { target: target.into_owned(), axis, deviation, instants, trajectory: plan.trajectory })
+    let reference = Reference::under(&plan.path, timing, Sources::ALL, force);
+    let deviation = simulate(&plan, &reference, &q, &mut Progress::none());
+    let Reference { target, axis, .. } = reference;
+    let target = target.into_owned();
+    Ok(Replay { target, axis, deviation, instants, trajectory: plan.trajectory })
 }
 
 /// For each sample of the program's own motion the instant of the report's, in samples.
@@ -152,7 +151,7 @@ fn instants(told: &[Vector3<f64>], own: &Trajectory) -> Option<Vec<f64>> {
 
 /// For each sample at rest the share of the rest that is over; 0 for samples that move.
 fn rests(own: &Trajectory) -> Vec<f64> {
-    let speed = &own.pace.speed;
+    let speed = &own.timing.speed;
     let mut rests = vec![0.0; speed.len()];
     let mut k = 0;
     while k < speed.len() {
@@ -169,17 +168,17 @@ fn rests(own: &Trajectory) -> Vec<f64> {
 ///
 /// Where the direction jumps from one instant to the next, the force goes over evenly: the mean of the two, not one of their size in between.
 fn standing_for(report: &Report, own: &Trajectory, instants: &[f64]) -> (Trajectory, Vec<f64>) {
-    let original = &report.plan.trajectory;
+    let original = &*report.plan.trajectory;
     let last = original.len() - 1;
     let between = |values: &[f64], t: f64| {
         let i = (t.floor() as usize).min(last);
         let next = (i + 1).min(last);
         values[i] + (values[next] - values[i]) * (t - i as f64)
     };
-    let arc_length: Vec<f64> = instants.iter().map(|&t| between(&original.pace.arc_length, t)).collect();
+    let arc_length: Vec<f64> = instants.iter().map(|&t| between(&original.timing.arc_length, t)).collect();
     let turned = |&t: &f64| {
         let i = (t.floor() as usize).min(last);
-        let (from, to) = (original.pace.heading[i], original.pace.heading[(i + 1).min(last)]);
+        let (from, to) = (original.timing.heading[i], original.timing.heading[(i + 1).min(last)]);
         let heading = from.lerp(&to, t - i as f64);
         let size = from.norm() + (to.norm() - from.norm()) * (t - i as f64);
         (heading, if size > 0.0 { heading.norm() / size } else { 1.0 })
@@ -190,17 +189,16 @@ fn standing_for(report: &Report, own: &Trajectory, instants: &[f64]) -> (Traject
         let (from, to) = (k.saturating_sub(1), (k + 1).min(end));
         (arc_length[to] - arc_length[from]) / ((to - from).max(1) as f64 * own.sample_time)
     });
-    let pace = Pace {
+    let path = &report.plan.path;
+    let timing = TimingLaw {
+        index: trajectory::indices(path, &arc_length),
         speed: speed.collect(),
-        engaged: own.pace.engaged.clone(),
+        engaged: own.timing.engaged.clone(),
         heading,
-        arc_length: arc_length.clone(),
+        arc_length,
     };
-    let trajectory = Trajectory {
-        pace,
-        position: arc_length.iter().map(|&s| report.plan.path.point(s)).collect(),
-        axis: Axes::along(&report.plan.path, &arc_length),
-        ..own.clone()
-    };
-    (trajectory, share)
+    let position = timing.points(path);
+    let axis = Axes::along(path, &timing.arc_length, &timing.index);
+    let Trajectory { sample_time, ref stops, moving, .. } = *own;
+    (Trajectory { sample_time, timing, position, axis, stops: stops.clone(), moving }, share)
 }

@@ -1,15 +1,16 @@
-//! What a free spin brings, compared with the fixed one.
+//! What a free roll about the tool axis brings, compared with the fixed one.
 
-use crate::deviation::{Deviation, Plan, contour};
-use crate::motion::spin::{Freedom, Goal, effort};
+use crate::deviation::Deviation;
+use crate::motion::roll::{RollGoal, RollRange};
+use crate::plan::Plan;
 use crate::report::millimetres;
 use crate::robot::Joints;
 use crate::units::{DEG, MM};
 use serde::Serialize;
 
-/// What a spin asks of the joints, and what the arm makes of it before compensation.
+/// What a roll asks of the joints, and what the arm makes of it before compensation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Effort {
+pub struct RollOutcome {
     /// Way of all joints together [deg].
     pub joint_travel_deg: f64,
     /// Largest speed of a joint [deg/s].
@@ -18,47 +19,45 @@ pub struct Effort {
     pub error_mm: f64,
 }
 
-impl Effort {
+impl RollOutcome {
     /// Of joint commands and what becomes of them.
     pub fn of(plan: &Plan, q: &[Joints], before: &Deviation) -> Self {
         let (travel, speed) = effort(q, plan.trajectory.sample_time);
-        let (_, error) = contour::mean_and_max(&before.contour_error);
-        Self { joint_travel_deg: travel / DEG, joint_speed_deg_s: speed / DEG, error_mm: error / MM }
+        Self {
+            joint_travel_deg: travel / DEG,
+            joint_speed_deg_s: speed / DEG,
+            error_mm: before.statistics.max / MM,
+        }
     }
 }
 
-/// The gain of a free spin.
+/// The gain of a free roll.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct SpinGain {
+pub struct RollGain {
     /// Smallest and largest angle that is used [deg].
     pub used_deg: [f64; 2],
     /// The fixed angle that it is compared with [deg].
     pub fixed_deg: f64,
-    /// With the free spin.
-    pub free: Effort,
+    /// With the free roll.
+    pub free: RollOutcome,
     /// With the fixed one; none if the arm does not reach all of the path with it.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub fixed: Option<Effort>,
+    pub fixed: Option<RollOutcome>,
     /// The same in words.
     pub sentence: String,
 }
 
-impl SpinGain {
-    pub(crate) fn new(
-        plan: &Plan,
-        freedom: &Freedom,
-        fixed_angle: f64,
-        free: Effort,
-        fixed: Option<Effort>,
-    ) -> Self {
-        let angles = plan.trajectory.pace.arc_length.iter().map(|&s| plan.path.spin(s) / DEG);
+impl RollGain {
+    pub(crate) fn new(plan: &Plan, range: &RollRange, free: RollOutcome, fixed: Option<RollOutcome>) -> Self {
+        let fixed_angle = plan.setup.roll;
+        let angles = plan.trajectory.timing.arc_length.iter().map(|&s| plan.path.roll(s) / DEG);
         let (low, high) =
             angles.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), a| (low.min(a), high.max(a)));
-        let goal = match freedom.goal {
-            Goal::SmoothJoints => "smooth joints",
-            Goal::LeastError => "least error",
+        let goal = match range.goal {
+            RollGoal::SmoothJoints => "smooth joints",
+            RollGoal::LeastError => "least error",
         };
-        let mm = |effort: &Effort| millimetres(effort.error_mm * MM);
+        let mm = |effort: &RollOutcome| millimetres(effort.error_mm * MM);
         let gain = match &fixed {
             None => {
                 format!("with {:.1} deg all along the arm does not reach the whole path", fixed_angle / DEG)
@@ -77,4 +76,12 @@ impl SpinGain {
         let sentence = format!("Spin chosen for {goal}, from {low:.1} to {high:.1} deg: {gain}.");
         Self { used_deg: [low, high], fixed_deg: fixed_angle / DEG, free, fixed, sentence }
     }
+}
+
+/// Way of all joints together [rad] and largest speed of a joint [rad/s] over samples `sample_time` [s] apart.
+fn effort(q: &[Joints], sample_time: f64) -> (f64, f64) {
+    let steps = q.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    steps.fold((0.0, 0.0), |(way, fastest), step| {
+        (way + step.sum(), f64::max(fastest, step.amax() / sample_time))
+    })
 }

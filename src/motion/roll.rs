@@ -1,42 +1,43 @@
-//! Free spin: the angle about the tool axis that the cut leaves open, chosen along the path for the joints or for the contour.
+//! Free roll: the angle about the tool axis that the cut leaves open, chosen along the path for the joints or for the contour.
 //!
 //! At stations along the path a grid of angles is sent through the inverse model; dynamic programming (the algorithm of A. Viterbi,
 //! IEEE Trans. Inf. Theory 13(2), 1967, on trellises of joint values) finds the way through the grid with the least cost, and finer grids
-//! around it refine it. Between stations the angle follows a smooth curve, [`Spin::through`].
+//! around it refine it. Between stations the angle follows a smooth curve, [`Roll::through`].
 
 use crate::error::Error;
 use crate::math::{self, PI, Pose};
 use crate::motion::Trajectory;
-use crate::motion::joints::{StartBranch, first_solution, joint_trajectory};
-use crate::path::{Path, Spin};
+use crate::motion::joints::{StartBranch, Targets, first_solution, joint_trajectory};
+use crate::path::{Path, Roll};
+use crate::progress::Progress;
 use crate::robot::inverse::{self, Margin, Solution};
 use crate::robot::{Joints, Robot};
 use crate::units::{DEG, MM};
 
-/// What a free spin is chosen for.
+/// What a free roll is chosen for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Goal {
+pub enum RollGoal {
     /// The joints turn as little and as evenly as can be.
     SmoothJoints,
     /// The cutting force moves the tip as little as can be from the path.
     LeastError,
 }
 
-/// A spin that is free.
+/// A roll that is free.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Freedom {
+pub struct RollRange {
     /// Smallest angle [rad].
     pub low: f64,
     /// Largest angle [rad].
     pub high: f64,
     /// What it is chosen for.
-    pub goal: Goal,
+    pub goal: RollGoal,
 }
 
 /// Squares of the error [m^2] that the cutting force makes at stations (by their index) with joint values.
 pub type Errors<'a> = &'a dyn Fn(&[usize], &[Joints]) -> Vec<f64>;
 
-/// Stations that are enough for a spin.
+/// Stations that are enough for a roll.
 pub const STATIONS: usize = 121;
 /// Step of the first grid [rad].
 const STEP: f64 = 10.0 * DEG;
@@ -44,12 +45,12 @@ const STEP: f64 = 10.0 * DEG;
 const FINER: i32 = 4;
 /// Number of finer grids: the last step is 0.16 deg.
 const PASSES: usize = 3;
-/// From one station to the next the spin changes by at most this [rad].
+/// From one station to the next the roll changes by at most this [rad].
 const WINDOW: f64 = 30.0 * DEG;
 /// A joint that turns further than this from one station to the next has changed its branch [rad].
 const JUMP: f64 = 90.0 * DEG;
-/// Weights of the joints' turning that are worth trying where the error is the goal: a spin in haste bends the path by the shaper.
-pub const CALM: [f64; 4] = [0.03, 0.3, 3.0, 30.0];
+/// Weights of the joints' turning that are worth trying where the error is the goal: a roll in haste bends the path by the shaper.
+pub const SMOOTHNESS: [f64; 4] = [0.03, 0.3, 3.0, 30.0];
 /// Within this of a joint's limit the cost rises [rad].
 const LIMIT_MARGIN: f64 = 5.0 * DEG;
 /// Sine of the elbow and wrist angles below which the cost rises: 5 deg.
@@ -70,9 +71,9 @@ pub struct Search<'a> {
     /// Branch at the start.
     pub start: StartBranch,
     /// Range and goal.
-    pub freedom: Freedom,
+    pub range: RollRange,
     /// Weight of the joints' turning; 1 where that alone is the goal.
-    pub calm: f64,
+    pub smoothness: f64,
     /// What the force does; not asked for smooth joints.
     pub errors: Errors<'a>,
 }
@@ -91,12 +92,12 @@ struct Label {
 }
 
 impl Search<'_> {
-    /// The best spin, never worse than `fixed` [rad] if that is in the range; `None` if no angle leads from one end of the path to the other.
-    pub fn best(&self, fixed: f64) -> Option<Spin> {
-        let Freedom { low, high, .. } = self.freedom;
+    /// The best roll, never worse than `fixed` [rad] if that is in the range; `None` if no angle leads from one end of the path to the other.
+    pub fn best(&self, fixed: f64) -> Option<Roll> {
+        let RollRange { low, high, .. } = self.range;
         let count = self.stations.len();
         if high <= low {
-            return Some(Spin::fixed(low));
+            return Some(Roll::fixed(low));
         }
         let steps = ((high - low) / STEP).ceil();
         let mut grid: Vec<f64> =
@@ -121,22 +122,22 @@ impl Search<'_> {
         }
         let scale = scale.unwrap_or(1.0);
         let free = found.map(|angles| {
-            let points: Vec<_> = self.stations.pace.arc_length.iter().copied().zip(angles).collect();
-            Spin::through(&points)
+            let points: Vec<_> = self.stations.timing.arc_length.iter().copied().zip(angles).collect();
+            Roll::through(&points)
         });
-        let constant = within.then(|| Spin::fixed(fixed));
-        let cost = |spin: &Spin| self.cost_of(spin, scale).unwrap_or(f64::INFINITY);
+        let constant = within.then(|| Roll::fixed(fixed));
+        let cost = |roll: &Roll| self.cost_of(roll, scale).unwrap_or(f64::INFINITY);
         [constant, free].into_iter().flatten().min_by(|a, b| cost(a).total_cmp(&cost(b)))
     }
 
-    /// The cost of a spin; `scale` is the square of the error that counts as one.
+    /// The cost of a roll; `scale` is the square of the error that counts as one.
     ///
     /// # Errors
     /// See [`joint_trajectory`].
-    pub fn cost_of(&self, spin: &Spin, scale: f64) -> Result<f64, Error> {
-        let path = self.path.clone().with_spin(spin.clone());
-        let desired = (self.stations.position.as_slice(), &self.stations.axis);
-        let joints = joint_trajectory(self.robot, &path, self.stations, desired, self.start)?;
+    pub fn cost_of(&self, roll: &Roll, scale: f64) -> Result<f64, Error> {
+        let path = self.path.clone().with_roll(roll.clone());
+        let targets = Targets::desired(&path, self.stations);
+        let joints = joint_trajectory(self.robot, &targets, self.start, &mut Progress::none())?;
         let all: Vec<usize> = (0..joints.q.len()).collect();
         let errors = self.errors_of(&all, &joints.q);
         let own = joints.q.iter().zip(&joints.margin).zip(&errors);
@@ -146,9 +147,9 @@ impl Search<'_> {
     }
 
     fn errors_of(&self, stations: &[usize], q: &[Joints]) -> Vec<f64> {
-        match self.freedom.goal {
-            Goal::SmoothJoints => vec![0.0; q.len()],
-            Goal::LeastError => (self.errors)(stations, q),
+        match self.range.goal {
+            RollGoal::SmoothJoints => vec![0.0; q.len()],
+            RollGoal::LeastError => (self.errors)(stations, q),
         }
     }
 
@@ -177,10 +178,10 @@ impl Search<'_> {
     /// Cost of a turn of the joints from one station to the next: all of them together come to the mean square of the turning, in
     /// half turns over the whole path.
     fn turning(&self, turn: &Joints) -> f64 {
-        self.calm * turn.norm_squared() * (self.stations.len() - 1) as f64 / (PI * PI)
+        self.smoothness * turn.norm_squared() * (self.stations.len() - 1) as f64 / (PI * PI)
     }
 
-    /// The TCP at a station with a spin.
+    /// The TCP at a station with a roll.
     fn tcp(&self, station: usize, angle: f64) -> Pose {
         let rotation = self.path.orientation(self.stations.axis.at(station), angle);
         Pose { rotation, position: self.stations.position[station] }
@@ -270,29 +271,21 @@ impl Search<'_> {
     }
 }
 
-/// Way of all joints together [rad] and largest speed of a joint [rad/s] over samples `sample_time` [s] apart.
-pub fn effort(q: &[Joints], sample_time: f64) -> (f64, f64) {
-    let steps = q.windows(2).map(|pair| (pair[1] - pair[0]).abs());
-    steps.fold((0.0, 0.0), |(way, fastest), step| {
-        (way + step.sum(), f64::max(fastest, step.amax() / sample_time))
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::trajectory::Tempo;
+    use crate::motion::trajectory::MotionLimits;
     use crate::path::Segment;
     use crate::robot::library;
     use nalgebra::Vector3;
 
-    /// A line under an RX-90 with its tool at an angle, so that the spin moves all joints.
-    fn case() -> (Robot, Path, Tempo) {
+    /// A line under an RX-90 with its tool at an angle, so that the roll moves all joints.
+    fn case() -> (Robot, Path, MotionLimits) {
         let preset = library::robot("staubli-rx90").unwrap();
         let robot = Robot::new("", preset.links(), preset.limits(), preset.joint_compliance);
         let tool = Pose::from_xyz_rpy(Vector3::new(0.0, 0.0, 0.1), [0.0, 50.0 * DEG, 0.0]);
         let line = Segment::Line { from: Vector3::new(0.5, -0.2, 0.1), to: Vector3::new(0.6, 0.3, 0.1) };
-        let tempo = Tempo {
+        let limits = MotionLimits {
             feed: 0.1,
             rapid: 0.2,
             acceleration: 0.2,
@@ -301,28 +294,28 @@ mod tests {
             corner_dwell: 0.0,
             settle: 0.0,
         };
-        (robot.unwrap().with_tool(tool), Path::new(vec![line]).unwrap(), tempo)
+        (robot.unwrap().with_tool(tool), Path::new(vec![line]).unwrap(), limits)
     }
 
     const START: StartBranch = StartBranch { front: true, elbow_positive: true, wrist_near: true };
 
     #[test]
     fn the_way_through_the_grid_is_the_best_of_all_ways() {
-        let (robot, path, tempo) = case();
-        let stations = Trajectory::stations(&path, &tempo, 6);
+        let (robot, path, limits) = case();
+        let stations = Trajectory::stations(&path, &limits, 6);
         // Any error that favours other angles here than there.
         let errors = |at: &[usize], q: &[Joints]| {
             at.iter().zip(q).map(|(&k, q)| (q[3] - 0.3 * k as f64).powi(2)).collect()
         };
-        for goal in [Goal::SmoothJoints, Goal::LeastError] {
-            let freedom = Freedom { low: -40.0 * DEG, high: 40.0 * DEG, goal };
+        for goal in [RollGoal::SmoothJoints, RollGoal::LeastError] {
+            let range = RollRange { low: -40.0 * DEG, high: 40.0 * DEG, goal };
             let search = Search {
                 robot: &robot,
                 path: &path,
                 stations: &stations,
                 start: START,
-                freedom,
-                calm: 1.0,
+                range,
+                smoothness: 1.0,
                 errors: &errors,
             };
             let grid: Vec<f64> = [-40.0, -20.0, 0.0, 20.0, 40.0].map(|a| a * DEG).into();
@@ -333,18 +326,18 @@ mod tests {
             assert!(search.through(&turned(29.0), &mut scale).is_some());
             assert!(search.through(&turned(31.0), &mut scale).is_none());
             let scale = scale.unwrap();
-            let spin = |angles: &[f64]| {
+            let roll = |angles: &[f64]| {
                 let points: Vec<_> =
-                    stations.pace.arc_length.iter().copied().zip(angles.iter().copied()).collect();
-                Spin::through(&points)
+                    stations.timing.arc_length.iter().copied().zip(angles.iter().copied()).collect();
+                Roll::through(&points)
             };
-            let ours = search.cost_of(&spin(&found), scale).unwrap();
+            let ours = search.cost_of(&roll(&found), scale).unwrap();
             // All 5^6 ways, each by the joint trajectory itself.
             let mut least = f64::INFINITY;
             for way in 0..5_usize.pow(6) {
                 let angles: Vec<f64> = (0..6).map(|k| grid[way / 5_usize.pow(k) % 5]).collect();
                 if angles.windows(2).all(|pair| (pair[1] - pair[0]).abs() <= WINDOW) {
-                    least = least.min(search.cost_of(&spin(&angles), scale).unwrap_or(f64::INFINITY));
+                    least = least.min(search.cost_of(&roll(&angles), scale).unwrap_or(f64::INFINITY));
                 }
             }
             assert!((ours - least).abs() < 1e-9 * least, "{goal:?}: {ours} against {least}");
@@ -358,32 +351,32 @@ mod tests {
 
     #[test]
     fn the_angle_that_makes_no_error_is_found() {
-        let (robot, path, tempo) = case();
-        let (stations, start) = (&Trajectory::stations(&path, &tempo, 6), START);
+        let (robot, path, limits) = case();
+        let (stations, start) = (&Trajectory::stations(&path, &limits, 6), START);
         for angle in [-33.3 * DEG, 28.4 * DEG] {
-            let held = path.clone().with_spin(Spin::fixed(angle));
-            let desired = (stations.position.as_slice(), &stations.axis);
-            let wanted = joint_trajectory(&robot, &held, stations, desired, START).unwrap().q;
+            let held = path.clone().with_roll(Roll::fixed(angle));
+            let targets = Targets::desired(&held, stations);
+            let wanted = joint_trajectory(&robot, &targets, START, &mut Progress::none()).unwrap().q;
             let errors = |at: &[usize], q: &[Joints]| {
                 at.iter().zip(q).map(|(&k, q)| (q - wanted[k]).norm_squared()).collect()
             };
-            let freedom = Freedom { low: -40.0 * DEG, high: 40.0 * DEG, goal: Goal::LeastError };
+            let range = RollRange { low: -40.0 * DEG, high: 40.0 * DEG, goal: RollGoal::LeastError };
             let (robot, path, errors) = (&robot, &path, &errors);
             let found =
-                Search { robot, path, stations, start, freedom, calm: 1e-9, errors }.best(0.0).unwrap();
+                Search { robot, path, stations, start, range, smoothness: 1e-9, errors }.best(0.0).unwrap();
             // The error counts by its fourth power, which is flat there.
-            assert!(stations.pace.arc_length.iter().all(|&s| (found.at(s) - angle).abs() < 0.7 * DEG));
+            assert!(stations.timing.arc_length.iter().all(|&s| (found.at(s) - angle).abs() < 0.7 * DEG));
         }
     }
 
     #[test]
     fn cost_of_a_pose_and_of_a_turn() {
-        let (robot, path, tempo) = case();
-        let stations = Trajectory::stations(&path, &tempo, 5);
+        let (robot, path, limits) = case();
+        let stations = Trajectory::stations(&path, &limits, 5);
         let none = |at: &[usize], _: &[Joints]| vec![0.0; at.len()];
-        let freedom = Freedom { low: 0.0, high: 0.0, goal: Goal::SmoothJoints };
+        let range = RollRange { low: 0.0, high: 0.0, goal: RollGoal::SmoothJoints };
         let (path, stations, start) = (&path, &stations, START);
-        let search = |robot| Search { robot, path, stations, start, freedom, calm: 2.0, errors: &none };
+        let search = |robot| Search { robot, path, stations, start, range, smoothness: 2.0, errors: &none };
         let ours = search(&robot);
         let close =
             |ours: f64, expected: f64| assert!((ours - expected).abs() < 1e-9, "{ours} for {expected}");
@@ -391,8 +384,8 @@ mod tests {
         let scale = |of: f64| {
             let errors = |at: &[usize], _: &[Joints]| (0..at.len()).map(|k| of * (k % 2) as f64).collect();
             let mut scale = None;
-            let freedom = Freedom { goal: Goal::LeastError, ..freedom };
-            let search = Search { freedom, errors: &errors, ..search(&robot) };
+            let range = RollRange { goal: RollGoal::LeastError, ..range };
+            let search = Search { range, errors: &errors, ..search(&robot) };
             let cells = search.cells(&[vec![0.0]], &mut scale).into_iter().flatten().flatten();
             for (k, (pose, cost)) in cells.enumerate() {
                 close(cost, search.own(&pose.margin, of * (k % 2) as f64 / scale.unwrap()));
@@ -413,29 +406,29 @@ mod tests {
         }
         // In half turns over the whole path: the same turn in each of four steps is four of it.
         close(4.0 * ours.turning(&Joints::new(0.0, PI, 0.0, 0.0, 0.5 * PI, 0.0)), 2.0 * 1.25 * 16.0);
-        // A spin that keeps joint 1 out of its range at every station costs that much.
+        // A roll that keeps joint 1 out of its range at every station costs that much.
         let mut limits = *robot.limits().unwrap();
         limits[0] = (3.0, 3.1);
         let narrow = Robot::new("", *robot.links(), Some(limits), [0.0; 6]).unwrap().with_tool(*robot.tool());
-        assert!(search(&narrow).cost_of(&Spin::fixed(0.0), 1.0).unwrap() > BEYOND);
+        assert!(search(&narrow).cost_of(&Roll::fixed(0.0), 1.0).unwrap() > BEYOND);
     }
 
     #[test]
     fn the_fixed_angle_is_only_left_for_something_better() {
-        let (robot, path, tempo) = case();
-        let stations = Trajectory::stations(&path, &tempo, 41);
+        let (robot, path, limits) = case();
+        let stations = Trajectory::stations(&path, &limits, 41);
         let none = |at: &[usize], _: &[Joints]| vec![0.0; at.len()];
         let search = |low: f64, high: f64| Search {
             robot: &robot,
             path: &path,
             stations: &stations,
             start: START,
-            freedom: Freedom { low: low * DEG, high: high * DEG, goal: Goal::SmoothJoints },
-            calm: 1.0,
+            range: RollRange { low: low * DEG, high: high * DEG, goal: RollGoal::SmoothJoints },
+            smoothness: 1.0,
             errors: &none,
         };
-        let cost = |spin: &Spin| search(0.0, 0.0).cost_of(spin, 1.0).unwrap();
-        let fixed = cost(&Spin::fixed(10.0 * DEG));
+        let cost = |roll: &Roll| search(0.0, 0.0).cost_of(roll, 1.0).unwrap();
+        let fixed = cost(&Roll::fixed(10.0 * DEG));
         // A wider range is never worse.
         let mut last = fixed;
         for width in [1.0, 5.0, 30.0, 90.0] {
@@ -445,6 +438,6 @@ mod tests {
             last = free;
         }
         assert!(last < 0.9 * fixed, "{last} of {fixed}");
-        assert_eq!(search(7.0, 7.0).best(0.0), Some(Spin::fixed(7.0 * DEG)));
+        assert_eq!(search(7.0, 7.0).best(0.0), Some(Roll::fixed(7.0 * DEG)));
     }
 }

@@ -1,0 +1,88 @@
+//! A place for the workpiece in front of the robot, where the whole path is within reach.
+
+use crate::error::Error;
+use crate::job::Job;
+use crate::math::Pose;
+use crate::motion::joints::{StartBranch, first_solution, next_solution};
+use crate::progress::Progress;
+use crate::robot::inverse::Solution;
+use crate::robot::{Joints, Robot, forward};
+use crate::setup::Setup;
+use crate::units::{DEG, MM};
+use nalgebra::{Matrix3, Vector3};
+
+/// Poses along the path that are tried.
+const POSES: usize = 60;
+/// Where the path's middle is put, as shares of the reach: ahead of axis 2, above it.
+const AHEAD: [f64; 6] = [0.6, 0.7, 0.5, 0.8, 0.4, 0.9];
+const ABOVE: [f64; 5] = [-0.2, 0.0, -0.4, 0.2, -0.6];
+/// Room to a joint's limit that counts as much as the best distance from a singularity [rad].
+const ROOM: f64 = 45.0 * DEG;
+
+/// The position of the workpiece frame [mm] that brings the path in front of the robot: of 30 places in its plane of symmetry, the one
+/// with the most room to joint limits and singularities. Orientations stay.
+///
+/// # Errors
+/// What is wrong with the job, or that none of the places holds the path.
+pub fn in_front(job: &Job) -> Result<[f64; 3], Error> {
+    let setup = Setup::of(job, &mut Progress::none())?;
+    let (path, robot) = (&setup.path, &setup.robot);
+    let along = |k: usize| path.length() * k as f64 / (POSES - 1) as f64;
+    let pose = |s: f64| (path.point(s), path.orientation(&path.axis(s), path.roll(s)));
+    let poses: Vec<(Vector3<f64>, Matrix3<f64>)> = (0..POSES).map(|k| pose(along(k))).collect();
+    let (mut low, mut high) = (poses[0].0, poses[0].0);
+    for (point, _) in &poses {
+        (low, high) = (low.inf(point), high.sup(point));
+    }
+    let shoulder = forward::frames(robot, &Joints::zeros())[0].position.z;
+    let (first, reach) = (robot.links()[1].a.abs(), robot.reach().1);
+    let mut best: Option<(f64, Vector3<f64>)> = None;
+    for (above, ahead) in ABOVE.into_iter().flat_map(|above| AHEAD.map(|ahead| (above, ahead))) {
+        let place = Vector3::new(first + ahead * reach, 0.0, shoulder + above * reach);
+        let shift = place - (low + high) * 0.5;
+        if let Some(room) = room(robot, &poses, &shift, setup.start)
+            && best.is_none_or(|(most, _)| room > most)
+        {
+            best = Some((room, shift));
+        }
+    }
+    let Some((_, shift)) = best else {
+        let size = (high - low) / MM;
+        return Err(Error::invalid(
+            "workpiece_frame.xyz_mm",
+            "nowhere in front of this robot",
+            format!(
+                "a path of {:.0} x {:.0} x {:.0} mm with this tool finds no place within its reach and joint limits; take a larger robot, another start branch or a turned workpiece",
+                size.x, size.y, size.z
+            ),
+        ));
+    };
+    let moved = setup.base.direction(&shift) / MM;
+    let [x, y, z] = job.workpiece_frame.xyz_mm;
+    Ok([(x + moved.x).round(), (y + moved.y).round(), (z + moved.z).round()])
+}
+
+/// The least room along the path: to singularities, and to joint limits where they are known; `None` if a pose has no solution in the ranges.
+fn room(
+    robot: &Robot,
+    poses: &[(Vector3<f64>, Matrix3<f64>)],
+    shift: &Vector3<f64>,
+    start: StartBranch,
+) -> Option<f64> {
+    let mut last: Option<Solution> = None;
+    let mut least = f64::INFINITY;
+    for (point, rotation) in poses {
+        let tcp = Pose { rotation: *rotation, position: point + shift };
+        let solution = match &last {
+            None => first_solution(robot, &tcp, start),
+            Some(last) => next_solution(robot, &tcp, last),
+        };
+        let solution = solution.ok()?;
+        least = least.min(solution.margin.elbow).min(solution.margin.wrist);
+        for (q, (low, high)) in solution.q.iter().zip(robot.limits().into_iter().flatten()) {
+            least = least.min((q - low).min(high - q) / ROOM);
+        }
+        last = Some(solution);
+    }
+    (least > 0.0).then_some(least)
+}

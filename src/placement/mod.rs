@@ -1,0 +1,8 @@
+//! Where to put the part: a map of the errors that places would give, and a first place in front of the
+//! robot.
+
+mod in_front;
+mod map;
+
+pub use in_front::in_front;
+pub use map::{Place, PlacementMap, PlacementStatus, STATIONS};

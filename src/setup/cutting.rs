@@ -1,0 +1,205 @@
+//! From the job's tool, material and cutting to the cut in SI.
+
+use crate::cutting::along::ChipLoad;
+use crate::cutting::material::{self, Material, Model};
+use crate::cutting::{Bending, Coefficients, Cut, Engagement, Kienzle};
+use crate::error::Error;
+use crate::job::{self, Choice, Engaged, Job, Line, ToolBending};
+use crate::units::{DEG, GPA, MM, RPM};
+use std::f64::consts::PI;
+
+/// What is cut, and how its coefficients were made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ResolvedMaterial {
+    /// The material of the library, if it is one.
+    pub material: Option<&'static Material>,
+    /// Its numbers.
+    pub model: Model,
+    /// The thickness of chip that the coefficients are made for [m], where they depend on it.
+    pub chip: Option<f64>,
+}
+
+/// Young's modulus of carbide [GPa]: 550 to 650 by grade; high-speed steel has 210.
+const CARBIDE: f64 = 600.0;
+/// Chips thinner than this are below the range of any table [m].
+const THINNEST: f64 = 0.001 * MM;
+
+/// What sets the chip.
+pub(super) fn chip_load(job: &Job) -> ChipLoad {
+    let (flutes, spindle) = (f64::from(job.tool.flutes), job.cutting.spindle_rpm * RPM);
+    match job.cutting.feed_per_tooth_mm {
+        Choice::Value(c, _) => ChipLoad::Fixed(c * MM),
+        Choice::Word => ChipLoad::FromFeed { flutes, spindle },
+    }
+}
+
+/// The cut, and what it is made in.
+pub(super) fn cut(job: &Job) -> Result<(Cut, ResolvedMaterial), Error> {
+    let tool = &job.tool;
+    let corner_radius = match tool.corner_radius_mm {
+        None => 0.0,
+        Some(Choice::Word) => tool.diameter_mm / 2.0,
+        Some(Choice::Value(radius, _)) => radius,
+    };
+    at_most("tool.corner_radius_mm", corner_radius, tool.diameter_mm / 2.0)?;
+    let cut = Cut {
+        diameter: tool.diameter_mm * MM,
+        flutes: tool.flutes,
+        helix: tool.helix_deg * DEG,
+        corner_radius: corner_radius * MM,
+        runout: tool.runout_mm.unwrap_or(0.0) * MM,
+        coefficients: Coefficients::default(),
+        axial_depth: job.cutting.axial_depth_mm * MM,
+        engagement: engagement(job)?,
+    };
+    let (material, model) = material_model(&job.material)?;
+    let chip = model.needs_chip().then(|| chip_thickness(job, &cut)).transpose()?;
+    let rake = tool.rake_deg.unwrap_or(0.0) * DEG;
+    let h0 = chip.unwrap_or(0.0);
+    let coefficients = match &model {
+        Model::Linear(coefficients) => *coefficients,
+        Model::Kienzle(kienzle) => kienzle.linear(h0, rake),
+        Model::Orthogonal(orthogonal) => {
+            let speed = PI * cut.diameter * job.cutting.spindle_rpm * RPM;
+            orthogonal.linear(h0, speed, rake, cut.helix)
+        }
+    };
+    Ok((Cut { coefficients, ..cut }, ResolvedMaterial { material, model, chip }))
+}
+
+/// Where the teeth are in the part.
+fn engagement(job: &Job) -> Result<Engagement, Error> {
+    let cutting = &job.cutting;
+    let Some(engaged) = cutting.engagement else {
+        return match cutting.radial_depth_mm {
+            Some(_) => {
+                Err(Error::missing("cutting.engagement", "climb or conventional, with a radial depth"))
+            }
+            None => angles(cutting),
+        };
+    };
+    let depth = || {
+        let depth = cutting.radial_depth_mm.ok_or_else(|| {
+            Error::missing("cutting.radial_depth_mm", "how far the tool reaches into the part")
+        })?;
+        at_most("cutting.radial_depth_mm", depth, job.tool.diameter_mm)?;
+        Ok(depth * MM)
+    };
+    match engaged {
+        Engaged::Angles => angles(cutting),
+        Engaged::Climb => depth().map(Engagement::Climb),
+        Engaged::Conventional => depth().map(Engagement::Conventional),
+        Engaged::Slot => Ok(Engagement::Slot),
+    }
+}
+
+/// Engagement by entry and exit.
+fn angles(cutting: &job::Cutting) -> Result<Engagement, Error> {
+    let (entry, exit) = (cutting.entry_deg, cutting.exit_deg);
+    if entry >= exit {
+        let expected = format!("a tooth leaves after it enters: more than entry_deg = {entry}");
+        return Err(Error::invalid("cutting.exit_deg", exit, expected));
+    }
+    Ok(Engagement::Angles { entry: entry * DEG, exit: exit * DEG })
+}
+
+/// The material's model, and the material of the library that it is, if it is one.
+fn material_model(given: &job::Material) -> Result<(Option<&'static Material>, Model), Error> {
+    let numbers =
+        [given.ktc_n_mm2, given.krc_n_mm2, given.kac_n_mm2, given.kte_n_mm, given.kre_n_mm, given.kae_n_mm];
+    let kienzle = [given.kc11_n_mm2, given.mc];
+    let (linear_given, kienzle_given) =
+        (numbers.iter().any(Option::is_some), kienzle.iter().any(Option::is_some));
+    let one_of =
+        |field| Err(Error::invalid(field, "given together with other coefficients", "give one of the two"));
+    let (material, model) = match &given.preset {
+        Some(_) if linear_given || kienzle_given => return one_of("material.preset"),
+        Some(id) => match material::library().iter().find(|material| material.id == id) {
+            Some(preset) => (Some(preset), preset.model),
+            None => {
+                let known = material::library().iter().map(|material| material.id);
+                let known = known.collect::<Vec<_>>().join(", ");
+                return Err(Error::invalid(
+                    "material.preset",
+                    format!("\"{id}\""),
+                    format!("the library has {known}"),
+                ));
+            }
+        },
+        None if linear_given && kienzle_given => return one_of("material.kc11_n_mm2"),
+        None if kienzle_given => {
+            let [kc11, mc] = kienzle;
+            let kc11 = kc11.ok_or_else(|| Error::missing("material.kc11_n_mm2", "to go with mc"))?;
+            let mc = mc.ok_or_else(|| Error::missing("material.mc", "to go with kc11_n_mm2"))?;
+            (None, Model::Kienzle(Kienzle::of_table(kc11, mc)))
+        }
+        None => {
+            for (value, key) in numbers.iter().zip(["ktc_n_mm2", "krc_n_mm2", "kac_n_mm2"]) {
+                value.ok_or_else(|| {
+                    let other = "name a preset, or give ktc, krc and kac, or kc11_n_mm2 and mc";
+                    Error::missing(format!("material.{key}"), other)
+                })?;
+            }
+            let numbers = numbers.map(|value| value.unwrap_or(0.0));
+            (None, Model::Linear(Coefficients::of_table(numbers)))
+        }
+    };
+    let ratios = given.radial_ratio.or(given.axial_ratio).is_some() || given.line.is_some();
+    match model {
+        Model::Kienzle(kienzle) => {
+            let radial = given.radial_ratio.unwrap_or(kienzle.radial);
+            let axial = given.axial_ratio.unwrap_or(kienzle.axial);
+            let secant = given.line == Some(Line::Secant);
+            Ok((material, Model::Kienzle(Kienzle { radial, axial, secant, ..kienzle })))
+        }
+        _ if ratios => Err(Error::invalid(
+            "material.radial_ratio",
+            "given",
+            "radial_ratio, axial_ratio and line belong to kc1.1 and mc",
+        )),
+        _ => Ok((material, model)),
+    }
+}
+
+/// The thickness of chip that coefficients are made for [m].
+fn chip_thickness(job: &Job, cut: &Cut) -> Result<f64, Error> {
+    if let Some(Choice::Value(given, _)) = job.material.chip_thickness_mm {
+        return Ok(given * MM);
+    }
+    let feed = chip_load(job).at(job.motion.feed_mm_s * MM, None);
+    // In the air the edge's first micrometre stands for it.
+    let mean = Cut { axial_depth: cut.axial_depth.max(THINNEST), ..*cut }.mean_chip(feed);
+    if mean >= THINNEST {
+        return Ok(mean);
+    }
+    let expected = format!(
+        "the mean chip of {:.6} mm is thinner than the table's range: give the thickness from {} mm on",
+        mean / MM,
+        THINNEST / MM
+    );
+    Err(Error::missing("material.chip_thickness_mm", expected))
+}
+
+/// How the tool bends, if it does.
+pub(super) fn bending(tool: &job::Tool) -> Result<Option<Bending>, Error> {
+    match (tool.bending, tool.stickout_mm) {
+        (None, Some(_)) => Err(Error::missing("tool.bending", "cantilever, with a stickout")),
+        (None | Some(ToolBending::Rigid), _) => Ok(None),
+        (Some(ToolBending::Cantilever), None) => {
+            Err(Error::missing("tool.stickout_mm", "the length out of the holder"))
+        }
+        (Some(ToolBending::Cantilever), Some(length)) => {
+            let fluted = tool.flute_length_mm.unwrap_or(length);
+            let shank = tool.shank_diameter_mm.unwrap_or(tool.diameter_mm);
+            let modulus = tool.modulus_gpa.unwrap_or(CARBIDE) * GPA;
+            Ok(Some(Bending::of(modulus, length * MM, fluted * MM, tool.diameter_mm * MM, shank * MM)))
+        }
+    }
+}
+
+fn at_most(field: &str, value: f64, max: f64) -> Result<(), Error> {
+    if value <= max {
+        return Ok(());
+    }
+    Err(Error::OutOfRange { field: field.into(), value, min: 0.0, max, unit: "mm" })
+}

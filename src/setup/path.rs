@@ -1,0 +1,137 @@
+//! The job's path: a shape, or a program in one of the languages that Armill reads.
+
+use crate::error::Error;
+use crate::job::{self, FeedUnit, Job, PathKind, Unit, fields};
+use crate::path::unit::{self, LengthUnit};
+use crate::path::{Path, Program, SourceProgram, apt, csv, gcode, shape};
+use crate::progress::Progress;
+use crate::units::{DEG, MM};
+use nalgebra::Vector3;
+
+/// JSON path of the text of a program.
+const TEXT: &str = "path.text";
+/// Lines read between two reports of progress.
+const STRIDE: usize = 2048;
+
+/// The desired path in the workpiece frame, with the program it was read from, if it was.
+pub(super) fn desired(job: &Job, progress: &mut Progress) -> Result<(Path, Option<SourceProgram>), Error> {
+    fields::check_path_keys(job)?;
+    let given = &job.path;
+    let language = match given.kind {
+        PathKind::Csv => "csv",
+        PathKind::Gcode => "gcode",
+        PathKind::Apt => "apt",
+        _ => return shape(given).map(|path| (path, None)),
+    };
+    let text = given.text.as_ref().ok_or_else(|| need("text"))?;
+    let program = program(given, text, progress)?;
+    let path = Path::of_program(&program).ok_or_else(|| {
+        Error::invalid(TEXT, "a text without a move", "two positions or more that are not all the same")
+    })?;
+    Ok((path, Some(SourceProgram { language, text: (**text).clone(), program })))
+}
+
+/// The moves of the text, in the workpiece frame.
+fn program(given: &job::Path, text: &str, progress: &mut Progress) -> Result<Program, Error> {
+    let lines = text.lines().count() as f64;
+    let mut next = STRIDE;
+    let on_line = |line: usize| {
+        if line >= next {
+            next = line + STRIDE;
+            progress.at(line as f64 / lines);
+        }
+    };
+    let unit = match given.unit.unwrap_or_default() {
+        Unit::Mm => LengthUnit::Mm,
+        Unit::Inch => LengthUnit::Inch,
+    };
+    match given.kind {
+        PathKind::Apt => apt::program(text, &apt::Options { field: TEXT, unit }, on_line),
+        PathKind::Gcode => {
+            let lengths = given.tool_length_offsets_mm.iter().flatten();
+            let mut work_offsets = [None; 9];
+            let given_offsets = given.work_offsets_mm.as_deref().unwrap_or_default();
+            if given_offsets.len() > work_offsets.len() {
+                let value = format!("{} offsets", given_offsets.len());
+                return Err(Error::invalid(
+                    "path.work_offsets_mm",
+                    value,
+                    "G54 to G59, G59.1, G59.2, G59.3: nine at most",
+                ));
+            }
+            for (place, offset) in work_offsets.iter_mut().zip(given_offsets) {
+                *place = Some(Vector3::from(*offset) * MM);
+            }
+            let options = gcode::Options {
+                field: TEXT.into(),
+                work_offsets,
+                tool_length_offsets: lengths.map(|&(number, length)| (number, length * MM)).collect(),
+                block_delete: given.block_delete.unwrap_or(true),
+                ..gcode::Options::default()
+            };
+            gcode::program(text, &options, on_line)
+        }
+        _ => {
+            let feed_unit = match given.feed_unit.unwrap_or_default() {
+                FeedUnit::MmPerS => unit::FeedUnit::MmPerS,
+                FeedUnit::MmPerMin => unit::FeedUnit::MmPerMin,
+                FeedUnit::InchPerMin => unit::FeedUnit::InchPerMin,
+            };
+            csv::program(text, &csv::Options { field: TEXT, unit, feed_unit }, on_line)
+        }
+    }
+}
+/// A path drawn from a shape.
+fn shape(given: &job::Path) -> Result<Path, Error> {
+    let vector =
+        |value: Option<[f64; 3]>, key: &str| value.ok_or_else(|| need(key)).map(|v| Vector3::from(v) * MM);
+    let length = |value: Option<f64>, key: &str| value.ok_or_else(|| need(key)).map(|v| v * MM);
+    let normal = Vector3::from(given.normal.unwrap_or([0.0, 0.0, 1.0]));
+    if normal.norm() < 1e-9 {
+        return Err(Error::invalid("path.normal", "(0, 0, 0)", "a direction; its length does not matter"));
+    }
+    let segments = match given.kind {
+        PathKind::Circle => {
+            let center = vector(given.center_mm, "center_mm")?;
+            vec![shape::circle(center, length(given.radius_mm, "radius_mm")?, normal)]
+        }
+        PathKind::Arc => {
+            let center = vector(given.center_mm, "center_mm")?;
+            let sweep = given.sweep_deg.ok_or_else(|| need("sweep_deg"))? * DEG;
+            let start = given.start_deg.unwrap_or(0.0) * DEG;
+            vec![shape::arc(center, length(given.radius_mm, "radius_mm")?, normal, start, sweep)]
+        }
+        PathKind::Line => {
+            shape::polyline(&[vector(given.from_mm, "from_mm")?, vector(given.to_mm, "to_mm")?])
+        }
+        PathKind::Rectangle => {
+            let (width, height) =
+                (length(given.width_mm, "width_mm")?, length(given.height_mm, "height_mm")?);
+            let radius = given.corner_radius_mm.unwrap_or(0.0) * MM;
+            let largest = width.min(height) / 2.0;
+            if radius > largest {
+                let (value, max) = (radius / MM, largest / MM);
+                let field = "path.corner_radius_mm".into();
+                return Err(Error::OutOfRange { field, value, min: 0.0, max, unit: "mm" });
+            }
+            shape::rectangle(vector(given.center_mm, "center_mm")?, width, height, radius)
+        }
+        _ => {
+            let points = given.points_mm.as_ref().ok_or_else(|| need("points_mm"))?;
+            let points: Vec<_> = points.iter().map(|point| Vector3::from(*point) * MM).collect();
+            shape::polyline(&points)
+        }
+    };
+    Path::new(segments).ok_or_else(|| {
+        let (field, expected) = match given.kind {
+            PathKind::Polyline => ("path.points_mm", "two points or more that are not all the same"),
+            PathKind::Line => ("path.to_mm", "another point than from_mm"),
+            _ => ("path.sweep_deg", "a sweep that is not zero"),
+        };
+        Error::invalid(field, "a path without length", expected)
+    })
+}
+
+fn need(key: &str) -> Error {
+    Error::missing(format!("path.{key}"), "this kind of path needs it")
+}

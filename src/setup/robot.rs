@@ -1,0 +1,95 @@
+//! The job's robot: a preset of the library, a table of links, or ortho-parallel parameters.
+
+use crate::error::Error;
+use crate::job::{self, Job, Joint3};
+use crate::robot::{Elbow, Link, Opw, Robot, library};
+use crate::units::{DEG, MM};
+
+/// An arm without its tool.
+pub(super) struct Arm {
+    /// The arm.
+    pub(super) robot: Robot,
+    /// Where its compliance comes from and how far to trust it.
+    pub(super) stiffness_note: String,
+    /// Whether that is only an order of magnitude.
+    pub(super) stiffness_assumed: bool,
+}
+
+/// A job's arm with its tool, whatever it is to do.
+///
+/// # Errors
+/// What is wrong with the robot.
+pub fn robot(job: &Job) -> Result<Robot, Error> {
+    Ok(arm(&job.robot)?.robot.with_tool(super::frame(&job.tool_frame)))
+}
+
+/// The arm that the section `robot` describes.
+pub(super) fn arm(given: &job::Robot) -> Result<Arm, Error> {
+    let forms = [given.preset.is_some(), given.modified_dh.is_some(), given.opw.is_some()];
+    if forms.into_iter().filter(|form| *form).count() > 1 {
+        let field = if forms[0] { "robot.preset" } else { "robot.opw" };
+        return Err(Error::invalid(
+            field,
+            "given together with another form",
+            "give one of preset, modified_dh and opw",
+        ));
+    }
+    let mut library_note = None;
+    let mut elbow = Elbow::Serial;
+    let (name, links, limits, compliance) = if let Some(id) = &given.preset {
+        let preset = library::robot(id)?;
+        elbow = preset.elbow;
+        library_note = Some((preset.stiffness_note.clone(), preset.stiffness_assumed));
+        (preset.name(), preset.links(), preset.limits(), Some(preset.joint_compliance))
+    } else if let Some(rows) = given.modified_dh {
+        let links = rows.map(|row| Link {
+            alpha: row.alpha_deg * DEG,
+            a: row.a_mm * MM,
+            d: row.d_mm * MM,
+            theta_offset: row.theta_offset_deg * DEG,
+            sign: row.joint_sign,
+        });
+        (String::new(), links, None, None)
+    } else if let Some(opw) = &given.opw {
+        (String::new(), ortho_parallel(opw)?.links(), None, None)
+    } else {
+        return Err(Error::missing("robot.preset", "name a preset, or give modified_dh or opw"));
+    };
+    let limits =
+        given.joint_limits_deg.map(|ranges| ranges.map(|[low, high]| (low * DEG, high * DEG))).or(limits);
+    let compliance = given.joint_compliance_rad_per_nm.or(compliance).ok_or_else(|| {
+        Error::missing("robot.joint_compliance_rad_per_nm", "six compliances, 0 for a rigid joint")
+    })?;
+    let (stiffness_note, stiffness_assumed) = match (given.joint_compliance_rad_per_nm, library_note) {
+        (None, Some(note)) => note,
+        _ => ("Joint stiffness: as given in the job.".into(), false),
+    };
+    let robot = Robot::new(given.name.clone().unwrap_or(name), links, limits, compliance)?;
+    let elbow = match given.joint_3 {
+        Some(Joint3::Serial) => Elbow::Serial,
+        Some(Joint3::Pendant) => Elbow::Pendant,
+        Some(Joint3::Parallelogram) => Elbow::Parallelogram,
+        None => elbow,
+    };
+    Ok(Arm { robot: robot.with_elbow(elbow)?, stiffness_note, stiffness_assumed })
+}
+
+/// The parameters, checked for what a table of links could not name.
+fn ortho_parallel(given: &job::Opw) -> Result<Opw, Error> {
+    let job::Opw { a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm, joint_sign, joint_offset_deg } = *given;
+    if let Some(i) = joint_sign.iter().position(|sign| sign.abs() != 1.0) {
+        let field = format!("robot.opw.joint_sign[{i}]");
+        return Err(Error::invalid(field, joint_sign[i], "a joint turns one way or the other: 1 or -1"));
+    }
+    for (key, length) in [("c2_mm", c2_mm), ("c3_mm", c3_mm)] {
+        if length < 0.001 {
+            return Err(Error::invalid(
+                format!("robot.opw.{key}"),
+                length,
+                "upper arm and forearm need a length",
+            ));
+        }
+    }
+    let lengths_mm = [a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm];
+    Ok(Opw { lengths_mm, joint_sign, joint_offset_deg })
+}

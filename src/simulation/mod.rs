@@ -1,0 +1,163 @@
+//! The pipeline, end to end: from a job to its report.
+
+mod roll;
+
+pub use crate::progress::{Progress, Stage};
+
+use crate::compensation::{Compensation, Question, compensate};
+use crate::deviation::{Deviation, ErrorsBySource, Reference, Source, Sources, simulate, simulate_by_source};
+use crate::error::Error;
+use crate::job::Job;
+use crate::plan::Plan;
+use crate::report::{Report, Warning, warning};
+use crate::robot::Joints;
+use crate::setup::{Goal, Setup};
+use std::sync::Arc;
+
+/// Computes a job.
+///
+/// # Errors
+/// What is wrong with the job, or where its path is out of reach.
+pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
+    let steps = Steps::of(job);
+    let setup = Setup::of(job, &mut steps.reading(progress))?;
+    let mut plan = Plan::new(Arc::new(setup));
+    plan.path = roll::chosen(&plan, &mut steps.part(progress, "spin about the tool axis", 0.0, 0.0));
+    let joints = plan.joints(&mut steps.part(progress, "joint commands", 0.0, 1.0))?;
+    plan.robot = plan.robot.touched_off_at(&joints.q[0]);
+    let singular = warning::singularities(&plan, &joints.q, &joints.margin);
+    let (q, branch) = (joints.q, joints.start);
+    // In a browser a long run has little memory, so what is no longer needed goes at once.
+    drop(joints.margin);
+    let reference = Reference::along(&plan, Sources::ALL);
+    let mut model = steps.part(progress, "deflection and shaping", 1.0, 2.0);
+    let before = simulate_by_source(&plan, &reference, &q, &mut model);
+    let (compensation, after, deflection_only) =
+        correct(&plan, reference.clone(), &q, &before, &steps, progress);
+    let force = reference.force.clone();
+    drop(reference);
+    let roll = roll::gain(&plan, &q, &before.total);
+    let ErrorsBySource { total: before, shaping: shaping_only, deflection } = before;
+    let mut report = Report {
+        plan,
+        q,
+        branch,
+        roll,
+        force,
+        deflection,
+        deflection_only,
+        shaping_only,
+        before,
+        compensation,
+        after,
+        warnings: singular,
+        alone: Default::default(),
+        fingerprint: Default::default(),
+    };
+    report.warnings = warning::warnings(&report);
+    Ok(report)
+}
+
+/// The compensation, its outcome under every source, and the desired path under forces alone.
+///
+/// Deflection alone comes last, unless the passes start from it.
+fn correct(
+    plan: &Plan,
+    reference: Reference,
+    q: &Arc<Vec<Joints>>,
+    before: &ErrorsBySource,
+    steps: &Steps,
+    progress: &mut Progress,
+) -> (Compensation, Arc<Deviation>, Arc<Deviation>) {
+    let sought = plan.sought();
+    let early = (sought == Sources::only(Source::Deflection))
+        .then(|| deflection_alone(plan, q, &mut steps.part(progress, "deflection", 2.0, 3.0)));
+    let without_force = (sought == Sources::only(Source::Shaping)).then(|| reference.without_force());
+    let (sought_along, known) = match (&early, &without_force) {
+        (Some((on_time, errors)), _) => (on_time, errors),
+        (None, Some(without_force)) => (without_force, &before.shaping),
+        (None, None) => (&reference, &before.total),
+    };
+    let question = Question { reference: sought_along, q, before: known, goal: goal(plan) };
+    let compensation = compensate(plan, &question, &mut steps.passes(progress, early.is_some()));
+    let mut last = steps.part(progress, "all that acts", steps.last(), steps.last() + 1.0);
+    let after = match sought {
+        Sources::ALL => compensation.result.clone(),
+        _ => Arc::new(simulate(plan, &reference, &compensation.q, &mut last.part("", 0.0, 0.5))),
+    };
+    drop((reference, without_force));
+    let deflection_only = match early {
+        Some((_, errors)) => errors,
+        None => deflection_alone(plan, q, &mut last.part("deflection", 0.5, 1.0)).1,
+    };
+    (compensation, after, deflection_only)
+}
+
+/// The desired path under cutting forces alone: their reference, and the outcome.
+fn deflection_alone<'a>(
+    plan: &'a Plan,
+    q: &[Joints],
+    progress: &mut Progress,
+) -> (Reference<'a>, Arc<Deviation>) {
+    let on_time = Reference::along(plan, Sources::only(Source::Deflection));
+    let errors = Arc::new(simulate(plan, &on_time, q, progress));
+    (on_time, errors)
+}
+
+/// The job's goal; no pass, if nothing is to be compensated.
+fn goal(plan: &Plan) -> Goal {
+    match plan.setup.sources {
+        Sources::NONE => Goal { max_passes: 0, ..plan.setup.goal },
+        _ => plan.setup.goal,
+    }
+}
+
+/// The parts of a run by the time they take: reading, if there is a program to read, the inverse model,
+/// all sources together, deflection alone; a pass is as much as inverse and forward model.
+struct Steps {
+    reading: f64,
+    passes: f64,
+}
+
+impl Steps {
+    fn of(job: &Job) -> Self {
+        let reading = if job.path.text.is_some() { 1.0 } else { 0.0 };
+        Self { reading, passes: f64::from(job.compensation.max_passes) }
+    }
+
+    /// Where deflection alone begins, if it comes last, counted from the end of reading.
+    fn last(&self) -> f64 {
+        2.0 + 2.0 * self.passes
+    }
+
+    fn reading<'b>(&self, progress: &'b mut Progress) -> Progress<'b> {
+        self.part(progress, "reading the program", -self.reading, 0.0)
+    }
+
+    /// The passes; deflection alone is done before them, or not.
+    fn passes<'b>(&self, progress: &'b mut Progress, after_deflection: bool) -> Progress<'b> {
+        let from = if after_deflection { 3.0 } else { 2.0 };
+        self.part(progress, "compensation", from, from + 2.0 * self.passes)
+    }
+
+    /// The part between two steps, counted from the end of reading.
+    fn part<'b>(&self, progress: &'b mut Progress, name: &'static str, from: f64, to: f64) -> Progress<'b> {
+        let share = |step: f64| (self.reading + step) / (self.reading + self.last() + 1.0);
+        progress.part(name, share(from), share(to))
+    }
+}
+
+/// Reads a job from JSON text and computes it; the report remarks the keys that the text leaves to
+/// their default.
+///
+/// # Errors
+/// See [`Job::from_json`] and [`run`].
+pub fn run_json(text: &str, progress: &mut Progress) -> Result<Report, Error> {
+    let (job, not_given) = Job::read_json(text)?;
+    let mut report = run(&job, progress)?;
+    if !not_given.is_empty() {
+        let message = format!("not given, so the default job's value holds: {}", not_given.join(", "));
+        report.warnings.push(Warning::new("default-used", message));
+    }
+    Ok(report)
+}

@@ -1,0 +1,90 @@
+//! The programs of a report: each is rehearsed once, for its accuracy, its header and its file.
+
+use crate::error::Error;
+use crate::export::command::Style;
+use crate::export::{self, Export, Format, Options};
+use crate::report::{Report, millimetres};
+use crate::units::MM;
+use crate::verification::rehearsal::{Rehearsal, rehearse};
+use serde::Serialize;
+use std::sync::OnceLock;
+
+/// Rehearsals of one report's path with the usual thinning; formats that say a path in the same style
+/// share one.
+#[derive(Debug, Default)]
+pub struct Programs {
+    rehearsed: [OnceLock<Result<Rehearsal, Error>>; Style::COUNT],
+}
+
+/// What the report's path is worth as a program. Programs hold no times, so a controller times them
+/// itself; only joint commands keep the run's timing.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ProgramAccuracy {
+    /// Largest contour error that comes out of the program [mm].
+    pub max_mm: f64,
+    /// Whether that is within the job's tolerance.
+    pub met: bool,
+    /// The same in words.
+    pub sentence: String,
+}
+
+/// The file of the format `id`.
+///
+/// # Errors
+/// See [`Programs::export`].
+pub fn export(report: &Report, id: &str, options: &Options) -> Result<Export, Error> {
+    Programs::default().export(report, id, options)
+}
+
+impl Programs {
+    /// The file of the format `id`.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a format that is not in [`export::FORMATS`] or cannot say the path; else see
+    /// [`rehearse`].
+    pub fn export(&self, report: &Report, id: &str, options: &Options) -> Result<Export, Error> {
+        let format = export::format(id)?;
+        let Some(style) = Style::of(format, report) else { return Ok(export::table(report, format)) };
+        let own;
+        let Rehearsal { course, command, .. } = match options.thinning {
+            None => self.rehearsal(report, style)?,
+            thinning => {
+                own = rehearse(report, thinning, style)?;
+                &own
+            }
+        };
+        export::program(report, format, course, command)
+    }
+
+    /// What the path is worth as a program of the format `id` with the usual thinning.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a format that is no program; else see [`rehearse`].
+    pub fn accuracy(&self, report: &Report, id: &str) -> Result<ProgramAccuracy, Error> {
+        let format = export::format(id)?;
+        let style = Style::of(format, report)
+            .ok_or_else(|| Error::invalid("format", format!("\"{id}\""), "a program, not a table"))?;
+        let reached = self.rehearsal(report, style)?.reached;
+        let tolerance = report.setup().goal.tolerance;
+        let met = reached <= tolerance;
+        let sentence = format!(
+            "As {} {} program, with its own timing: at most {} mm, {} the tolerance of {} mm.",
+            article(format),
+            format.name,
+            millimetres(reached),
+            if met { "within" } else { "beyond" },
+            millimetres(tolerance)
+        );
+        Ok(ProgramAccuracy { max_mm: reached / MM, met, sentence })
+    }
+
+    fn rehearsal(&self, report: &Report, style: Style) -> Result<&Rehearsal, Error> {
+        let rehearsed = self.rehearsed[style.index()].get_or_init(|| rehearse(report, None, style));
+        rehearsed.as_ref().map_err(Clone::clone)
+    }
+}
+
+/// The indefinite article before a format's name.
+fn article(format: &Format) -> &'static str {
+    if format.name.starts_with('A') { "an" } else { "a" }
+}

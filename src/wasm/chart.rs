@@ -1,0 +1,76 @@
+//! Charts of a run: what there is, drawings, and the values drawn.
+
+use crate::chart;
+use crate::column::Column;
+use crate::wasm::error::thrown;
+use crate::wasm::{Run, object, options};
+use js_sys::Float64Array;
+use serde::Serialize;
+use wasm_bindgen::JsValue;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+#[wasm_bindgen(typescript_custom_section)]
+const TYPES: &'static str = r#"
+export interface ChartEntry { name: string; title: string; view: string; figure: string; kind: "time" | "curve" | "space"; }
+export interface ChartColumn { key: string; label: string; unit: string; values: Float64Array; }
+export interface Axis { label: string; unit: string; min: number; max: number; log: boolean; full: [number, number]; }
+export interface Chart {
+  name: string; title: string; description: string; svg: string; width: number; height: number;
+  plot: { left: number; top: number; width: number; height: number }; x: Axis; y: Axis;
+  series: { key: string; label: string; class: string }[];
+  camera?: [[number, number, number], [number, number, number]];
+}
+"#;
+
+/// A column whose values cross as one array.
+#[derive(Serialize)]
+struct ChartColumn {
+    key: String,
+    label: String,
+    unit: &'static str,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    values: Float64Array,
+}
+
+/// Columns as objects with a `Float64Array` each.
+pub(super) fn columns(columns: Vec<Column>) -> Result<JsValue, JsValue> {
+    let columns = columns.into_iter().map(|Column { key, label, unit, values }| ChartColumn {
+        key,
+        label,
+        unit,
+        values: Float64Array::from(values.as_slice()),
+    });
+    object(&columns.collect::<Vec<_>>())
+}
+
+#[wasm_bindgen]
+impl Run {
+    /// Every chart that has something to show.
+    #[wasm_bindgen(unchecked_return_type = "ChartEntry[]")]
+    pub fn charts(&self) -> Result<JsValue, JsValue> {
+        object(&chart::charts_of(&self.report))
+    }
+
+    /// One chart, drawn in the size asked for.
+    #[wasm_bindgen(unchecked_return_type = "Chart")]
+    pub fn chart(
+        &self,
+        name: &str,
+        #[wasm_bindgen(unchecked_param_type = "ChartOptions")] options: JsValue,
+    ) -> Result<JsValue, JsValue> {
+        let options = options::chart(options)?;
+        object(&chart::chart(&self.report, name, &options).map_err(|error| thrown(&error))?)
+    }
+
+    /// The values that a chart shows, every sample of them: what stands along its first axis (in space:
+    /// the time), then each series.
+    #[wasm_bindgen(unchecked_return_type = "ChartColumn[]")]
+    pub fn chart_data(
+        &self,
+        name: &str,
+        #[wasm_bindgen(unchecked_param_type = "ChartUnits")] units: JsValue,
+    ) -> Result<JsValue, JsValue> {
+        let units = options::units(units)?;
+        columns(chart::data(&self.report, name, units).map_err(|error| thrown(&error))?)
+    }
+}

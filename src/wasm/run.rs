@@ -1,0 +1,124 @@
+//! A run: a job computed, its figures and columns.
+
+use crate::error::Error;
+use crate::report::Report;
+use crate::simulation::{Progress, Stage};
+use crate::verification::Programs;
+use crate::wasm::error::thrown;
+use crate::wasm::object;
+use js_sys::{Float64Array, Function};
+use serde::Serialize;
+use wasm_bindgen::JsValue;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+#[wasm_bindgen(typescript_custom_section)]
+const TYPES: &'static str = r#"
+export interface Statistics { mean: number; max: number; }
+export interface Warning { code: string; message: string; from_sample?: number; to_sample?: number; from_s?: number; to_s?: number; }
+export interface Parts { joints: number[]; tool: number; shaping: number; total: number; }
+export interface Budget { sample: number; time_s: number; worst_mm: Parts; mean_mm: Parts; sentence: string; }
+export interface Understood {
+  language: "gcode" | "apt" | "csv"; unit: string; lines: number; cutting_moves: number; rapid_moves: number; multi_axis: boolean;
+  lowest_mm: [number, number, number]; highest_mm: [number, number, number]; feeds_mm_s?: [number, number];
+  ignored: { word: string; lines: number[] }[];
+}
+export interface Effort { joint_travel_deg: number; joint_speed_deg_s: number; error_mm: number; }
+export interface SpinGain { used_deg: [number, number]; fixed_deg: number; free: Effort; fixed?: Effort; sentence: string; }
+export interface CutFigures {
+  ktc_n_mm2: number; krc_n_mm2: number; kac_n_mm2: number; kte_n_mm: number; kre_n_mm: number; kae_n_mm: number;
+  diameter_mm: number; corner_radius_mm: number; axial_depth_mm: number; feed_per_tooth_mm: number; mean_chip_mm: number;
+  section_mm2: number; removal_cm3_min: number; peak_force_n: number; torque_nm: number; tooth_passing_hz: number; power_kw: number;
+  entry_deg?: number; exit_deg?: number; radial_depth_mm?: number; spindle_power_kw?: number; tool_bending_um_n?: number;
+  made_at_chip_mm?: number; spread_percent?: number; kc11_n_mm2?: number; mc?: number;
+}
+export interface WallFigures {
+  side: number; mean_force_n: number; instant_force_n: number; instant_force_max_n: number;
+  by_mean_force_mm: number; by_mean_force_max_mm: number; at_instant_mm: number; at_instant_max_mm: number;
+}
+export interface Summary {
+  fingerprint: string; samples: number; duration_s: number; path_length_mm: number; mean_force_n: [number, number, number];
+  material: string; material_note: string; cut: CutFigures; walls: WallFigures[];
+  before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics }; after_mm: Statistics; budget: Budget;
+  before_axis_deg: Statistics; after_axis_deg: Statistics; program?: Understood; spin?: SpinGain;
+  passes: number; converged: boolean; tolerance_mm: number; history_max_mm: number[]; history_mean_mm: number[];
+  verdict: string; robot: string; inverse: "closed form" | "numerically"; stiffness: string; branch: string; warnings: Warning[];
+}
+"#;
+
+/// Computes a job; `on_progress(fraction, stage)` is called at intervals. Throws what is wrong.
+#[wasm_bindgen]
+pub fn run(
+    json: &str,
+    #[wasm_bindgen(unchecked_optional_param_type = "(fraction: number, stage: string) => void")]
+    on_progress: Option<Function>,
+) -> Result<Run, JsValue> {
+    let mut listener = |stage: Stage| {
+        if let Some(callback) = &on_progress {
+            // An error that the listener throws does not stop the run.
+            let _ = callback.call2(&JsValue::NULL, &stage.fraction.into(), &stage.name.into());
+        }
+    };
+    let report = crate::run_json(json, &mut Progress::new(&mut listener));
+    report.map(|report| Run { report, programs: Programs::default() }).map_err(|error| thrown(&error))
+}
+
+/// A computed job.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Run {
+    pub(super) report: Report,
+    /// Its path as programs, each tried once.
+    pub(super) programs: Programs,
+}
+
+/// What a column is.
+#[derive(Serialize)]
+struct Head {
+    key: String,
+    label: String,
+    unit: &'static str,
+}
+
+#[wasm_bindgen]
+impl Run {
+    /// The figures a person reads first.
+    #[wasm_bindgen(unchecked_return_type = "Summary")]
+    pub fn summary(&self) -> Result<JsValue, JsValue> {
+        object(&self.report.summary())
+    }
+
+    /// Key, label and unit of every column.
+    #[wasm_bindgen(unchecked_return_type = "{ key: string; label: string; unit: string }[]")]
+    pub fn columns(&self) -> Result<JsValue, JsValue> {
+        let series = self.report.series().into_iter();
+        let heads = series.map(|series| Head { key: series.key, label: series.label, unit: series.unit });
+        object(&heads.collect::<Vec<_>>())
+    }
+
+    /// One column, one value a sample.
+    pub fn column(&self, key: &str) -> Result<Float64Array, JsValue> {
+        let series = self.report.series().into_iter().find(|series| series.key == key);
+        let series = series.ok_or_else(|| {
+            thrown(&Error::invalid("column", format!("\"{key}\""), "columns() lists the keys"))
+        })?;
+        Ok(Float64Array::from(series.column().values.as_slice()))
+    }
+
+    /// Where the arm stands at a sample: base, six joints, TCP and workpiece in the base frame, each as
+    /// origin [mm] and x, y, z axes (12 numbers).
+    pub fn frames(&self, sample: usize) -> Float64Array {
+        Float64Array::from(self.report.frames(sample).as_slice())
+    }
+
+    /// The paths for a picture in space, in at most about `most` rows of 17 numbers: sample, whether it
+    /// cuts, then x, y, z [mm] of the desired point, the closest point of the desired path, the ways
+    /// from there to the actual tip before and after compensation, and the correction to command.
+    pub fn track(&self, most: usize) -> Float64Array {
+        Float64Array::from(self.report.track(most).as_slice())
+    }
+
+    /// Hash over the bits of all columns.
+    pub fn fingerprint(&self) -> String {
+        self.report.fingerprint()
+    }
+}
