@@ -1,5 +1,5 @@
-//! The times in Chromium, in the cores that the site ships and in one made of the benchmark's own stages. `cargo xtask bench` starts the
-//! server and the driver and tells where they are; the result is a JSON file.
+//! The times in Chromium, in the core that the site ships and in one with the benchmark's own stages. `cargo xtask bench` starts the
+//! server and the driver and says where they are; the result is a JSON file.
 #![allow(clippy::print_stdout, reason = "a command-line tool speaks on its standard output")]
 
 use std::error::Error;
@@ -59,8 +59,7 @@ async fn all(client: &Client, sizes: &[usize]) -> Outcome<Value> {
         println!("Chromium: {samples} samples");
         result["jobs"][samples.to_string()] = json!({
             "stages": ask(client, &[json!("stages"), json!(samples)]).await?,
-            "small": ask(client, &[json!("whole"), json!("small"), json!(job(samples))]).await?,
-            "full": ask(client, &[json!("whole"), json!("full"), json!(job(samples))]).await?,
+            "whole": ask(client, &[json!("whole"), json!(job(samples))]).await?,
         });
     }
     println!("Chromium: a number dragged");
@@ -82,7 +81,7 @@ async fn first_results(client: &Client, site: &str) -> Outcome<Vec<Value>> {
     for visit in 0..=WARM_VISITS {
         client.goto(&format!("{site}index.html?visit={visit}")).await?;
         times.push(client.execute_async(script, Vec::new()).await?);
-        // The compiled code goes into the browser's cache, and the full core comes, after that.
+        // The compiled code goes into the browser's cache after that.
         tokio::time::sleep(PAUSE).await;
     }
     Ok(times)

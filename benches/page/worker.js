@@ -25,7 +25,7 @@ function timed(call) {
   return times;
 }
 
-/** A core of the site or of the benchmark, started. */
+/** The core of the site or of the benchmark, started. */
 async function started(folder) {
   const core = await import(`${folder}/armill.js`);
   const { memory } = await core.default();
@@ -44,9 +44,9 @@ const answers = {
     const bench = new core.PoseBench();
     return Object.fromEntries(core.PoseBench.names().map((name, index) => [name, timed(() => bench.work(index))]));
   },
-  /** A whole job as the page asks for it, in the core `name` of the site: first time, later times [ms], size of the memory after the first. */
-  async whole(name, job) {
-    const { core, memory } = await started(`../pkg/${name}`);
+  /** A whole job as the page asks for it, in the core of the site: first time, later times [ms], size of the memory after the first. */
+  async whole(job) {
+    const { core, memory } = await started("../pkg");
     let samples;
     const run = () => {
       const run = core.run(job, () => {});

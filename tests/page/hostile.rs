@@ -172,8 +172,8 @@ fn markup_in_names_and_comments_is_text() -> Result {
         page.wait_for("document.querySelector('#path-kind').value === 'gcode'", 20.0).await?;
         current(page).await?;
         harmless().await?;
-        let first = "return fetch('pkg/form.json').then((form) => form.json()).then(({ presets }) => presets.robots[0])";
-        let joints = page.js(first).await?;
+        let first = "({ load }) => load().then(({ presets }) => presets.robots[0])";
+        let joints = page.with_module("core", first).await?;
         let job = json!({ "robot": { "name": MARKUP, "modified_dh": joints["modified_dh"], "joint_compliance_rad_per_nm": joints["joint_compliance_rad_per_nm"] } });
         drop_file(page, &format!("{MARKUP}.json"), &format!("[{}]", json!(job.to_string()))).await?;
         page.wait_for("document.querySelector('#path-kind').value === 'circle'", 20.0).await?;

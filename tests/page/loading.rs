@@ -1,109 +1,160 @@
-//! What the page loads, and when: the small core at first, the full one after the first result.
+//! What the page loads, and when: the core once, for one run of the job that it opens with.
+
+use armill::{Job, Report};
+use serde_json::{Value, json};
 
 use crate::browser::{DESKTOP, Page, Result, visit};
 use crate::common::run;
-use crate::{current, shows, text};
-use serde_json::json;
+use crate::{current, shows, stale, text};
 
 const LINE: &str = "G21 G90 G1 X600 Y0 Z100 F1200\nX640";
 
-/// Waits until the charts of the first view are drawn: by the full core.
+/// Before the page's own scripts: counts what every Worker is asked, by kind, and the modules that it is sent.
+const COUNT_QUESTIONS: &str = "\
+    window.asked = {}; window.supplied = [];
+    window.Worker = class extends Worker {
+      postMessage(message, ...rest) {
+        if (message.module) supplied.push(message.module);
+        else asked[message.kind] = (asked[message.kind] ?? 0) + 1;
+        super.postMessage(message, ...rest);
+      }
+    };";
+
+/// Waits until the charts of the first view are drawn.
 async fn charts(page: &Page) -> Result {
     page.wait_for("document.querySelectorAll('#panel-overview figure .series').length >= 3", 20.0).await
 }
 
-/// How many times each core was fetched, small and full.
-async fn fetched(page: &Page) -> Result<[u64; 2]> {
-    let counts = page
-        .js("const names = performance.getEntriesByType('resource').map(({ name }) => name).filter((name) => name.endsWith('.wasm')); \
-             return ['small', 'full'].map((core) => names.filter((name) => name.endsWith(`/pkg/${core}/armill_bg.wasm`)).length)")
-        .await?;
-    Ok(serde_json::from_value(counts)?)
+/// The WebAssembly files that were fetched, by name.
+async fn fetched(page: &Page) -> Result<Value> {
+    page.js("return performance.getEntriesByType('resource').map(({ name }) => new URL(name).pathname) \
+         .filter((name) => name.endsWith('.wasm'))")
+        .await
 }
 
-async fn choose_program(page: &Page) -> Result {
+/// How often the Workers were asked to compute a job.
+async fn runs(page: &Page) -> Result<Value> {
+    page.js("return asked.run").await
+}
+
+async fn choose_program(page: &Page) -> Result<Report> {
     page.choose("#path-kind", "gcode").await?;
     page.js(&format!(
         "const area = document.getElementById('path-text'); area.value = {}; area.dispatchEvent(new Event('input', {{ bubbles: true }}))",
         json!(LINE)
     ))
     .await?;
-    Ok(())
+    Ok(run(&[("path", json!({ "kind": "gcode", "text": LINE }))]))
 }
 
 #[test]
-fn the_first_result_takes_the_small_core_and_the_full_one_follows_once() -> Result {
+fn a_visit_fetches_the_core_once_and_computes_one_run() -> Result {
     visit("/", DESKTOP, async |page| {
+        page.devtools("Page.addScriptToEvaluateOnNewDocument", json!({ "source": COUNT_QUESTIONS })).await?;
+        page.reload().await?;
+        let core = json!(["/pkg/armill_bg.wasm"]);
         shows(page, &run(&[])).await?;
         charts(page).await?;
-        assert_eq!(fetched(page).await?, [1, 1]);
-        let waited = page
-            .js("const of = (core) => performance.getEntriesByType('resource').find(({ name }) => name.endsWith(`/pkg/${core}/armill_bg.wasm`)); \
-                 return of('full').startTime - of('small').responseEnd")
-            .await?;
-        assert!(waited.as_f64() > Some(0.0), "the full core is fetched {waited} ms after the small one");
-        choose_program(page).await?;
-        let program = run(&[("path", json!({ "kind": "gcode", "text": LINE }))]);
+        assert_eq!(runs(page).await?, 1);
+        assert_eq!(fetched(page).await?, core);
+
+        // Charts, a file, an identification and the thesis's figures come from the same core; none of them computes the job again.
+        page.click("#tab-joints").await?;
+        page.wait_for("document.querySelector('#panel-joints svg .series')", 20.0).await?;
+        page.click("#download-columns").await?;
+        let file = page.downloaded("armill-columns.csv").await?;
+        let native = armill::export::export(&run(&[]), "columns-csv", &Default::default())?;
+        assert!(file == native.text, "the columns differ from the native ones");
+        page.click("#tab-identify").await?;
+        page.js("document.querySelector('#identify-loads-example').click()").await?;
+        page.wait_for("document.querySelector('#chart-stiffness svg.plot')", 30.0).await?;
+        page.click("#tab-thesis").await?;
+        page.wait_for("document.querySelectorAll('#thesis tbody tr').length >= 10", 30.0).await?;
+        assert_eq!(runs(page).await?, 1);
+
+        // A program is another run.
+        let program = choose_program(page).await?;
         shows(page, &program).await?;
-        assert_eq!(fetched(page).await?, [1, 1]);
-        // From then on the full one answers, in both Workers.
+        page.choose("#export-format", "gcode").await?;
+        page.click("#download-program").await?;
+        page.downloaded("armill-gcode.nc").await?;
         page.click("#reset").await?;
         shows(page, &run(&[])).await?;
-        page.click("#download-columns").await?;
-        page.downloaded("armill-columns.csv").await?;
         page.click("#undo").await?;
         shows(page, &program).await?;
-        assert_eq!(fetched(page).await?, [1, 1]);
+        assert_eq!(fetched(page).await?, core);
+        // Every Worker got the module that was compiled once.
+        assert_eq!(page.js("return supplied.length >= 2 && new Set(supplied).size === 1").await?, true);
         Ok(())
     })
 }
 
 #[test]
-fn a_file_of_the_shown_result_comes_from_the_full_core_with_the_same_bits() -> Result {
+fn the_form_is_built_from_what_the_core_says_of_itself() -> Result {
     visit("/", DESKTOP, async |page| {
-        current(page).await?;
-        page.click("#download-columns").await?;
-        let file = page.downloaded("armill-columns.csv").await?;
-        let native = armill::export::export(&run(&[]), "columns-csv", &Default::default())?;
-        assert!(file == native.text, "the columns differ from the native ones");
-        assert_eq!(fetched(page).await?, [1, 1]);
-        // The charts go on from the same run.
-        page.click("#tab-joints").await?;
-        page.wait_for("document.querySelector('#panel-joints svg .series')", 20.0).await
+        let hello = page.with_module("core", "({ load }) => load()").await?;
+        assert_eq!(hello["version"], env!("CARGO_PKG_VERSION"));
+        assert_eq!(hello["job"], serde_json::to_value(Job::default())?);
+        assert_eq!(hello["fields"], serde_json::to_value(armill::job::fields::fields())?);
+        assert_eq!(hello["presets"], serde_json::to_value(armill::job::presets::presets())?);
+        let formats = hello["formats"].as_array().ok_or("no formats")?;
+        assert!(formats.iter().any(|format| format["id"] == "gcode" && format["extension"] == "nc"));
+        Ok(())
     })
 }
 
 #[test]
-fn a_full_core_that_does_not_come_is_told_and_can_be_tried_again() -> Result {
+fn a_core_that_does_not_come_is_reported_and_can_be_tried_again() -> Result {
     visit("/", DESKTOP, async |page| {
         page.devtools("Network.enable", json!({})).await?;
         page.devtools("Network.setCacheDisabled", json!({ "cacheDisabled": true })).await?;
-        page.devtools("Network.setBlockedURLs", json!({ "urls": ["*/pkg/full/*"] })).await?;
-        page.expect_error("pkg/full/armill_bg.wasm");
+        page.devtools("Network.setBlockedURLs", json!({ "urls": ["*/armill_bg.wasm"] })).await?;
+        page.expect_error("pkg/armill_bg.wasm");
         page.reload().await?;
-        // The small core alone gives the first result; the charts say what they lack.
-        shows(page, &run(&[])).await?;
-        let lack = "reads programs and writes files could not be loaded";
-        let says = format!(
-            "document.querySelector('#chart-before-after figcaption').textContent.includes('{lack}')"
-        );
-        page.wait_for(&says, 20.0).await?;
-        choose_program(page).await?;
-        page.wait_for("document.querySelector('#alert button')", 20.0).await?;
+        stale(page).await?;
         let alert = text(page, "alert").await?;
-        assert!(alert.contains(lack), "{alert}");
-        shows_still(page).await?;
+        assert!(alert.starts_with("The core could not be loaded: "), "{alert}");
+        // Once more in vain, then with success.
+        page.click("#alert button").await?;
+        page.wait_for("document.querySelector('#alert button')", 20.0).await?;
         page.devtools("Network.setBlockedURLs", json!({ "urls": [] })).await?;
         page.click("#alert button").await?;
-        shows(page, &run(&[("path", json!({ "kind": "gcode", "text": LINE }))])).await?;
-        charts(page).await
+        shows(page, &run(&[])).await?;
+        assert_eq!(text(page, "alert").await?, "");
+        charts(page).await?;
+        let program = choose_program(page).await?;
+        shows(page, &program).await
     })
 }
 
-/// The last good result stays.
-async fn shows_still(page: &Page) -> Result {
-    crate::stale(page).await?;
-    let verdict = text(page, "verdict").await?;
-    assert!(verdict.contains(run(&[]).verdict().split(';').next().unwrap_or_default()), "{verdict}");
-    Ok(())
+/// Before the page's own scripts: while `astray` is true, a Worker's script is not where the page thinks.
+const LEAD_ASTRAY: &str = "\
+    window.astray = false;
+    window.Worker = class extends Worker {
+      constructor(url, options) { super(astray ? new URL('missing.js', url) : url, options); }
+    };";
+
+#[test]
+fn a_worker_that_does_not_start_is_reported_and_the_last_result_stays() -> Result {
+    visit("/", DESKTOP, async |page| {
+        page.devtools("Page.addScriptToEvaluateOnNewDocument", json!({ "source": LEAD_ASTRAY })).await?;
+        page.reload().await?;
+        shows(page, &run(&[])).await?;
+        page.expect_error("missing.js");
+        page.expect_error("internal error");
+        page.expect_error("asked for");
+        // The spare Worker computes the lost result again; the one to take its place does not come.
+        page.js("astray = true").await?;
+        page.with_module("core", "({ trap }) => trap()").await?;
+        page.wait_for("document.querySelector('#alert').textContent.includes('started again')", 20.0).await?;
+        shows(page, &run(&[])).await?;
+        page.type_into("#motion-feed_mm_s", "80").await?;
+        stale(page).await?;
+        assert!(text(page, "alert").await?.starts_with("The core could not be loaded: "));
+        assert_eq!(text(page, "verdict").await?, run(&[]).verdict());
+        assert_eq!(text(page, "status").await?, "Showing the last valid result.");
+        page.js("astray = false").await?;
+        page.click("#alert button").await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(80))])).await
+    })
 }

@@ -2,18 +2,21 @@
 
 const PROGRESS_MS = 40;
 const ROWS = 20_000; // of a file written at a time
-const FULL = new Set(["export", "replay", "promise", "thesis", "identify", "extent", "survey"]); // questions that only the full core answers
 
-let armill; // the core in use: the small or the full one, behind the same interface
-let isFull = false;
+let armill; // the core
 let run = null;
-let shown; // the job of the run, as JSON text
-let upgrading; // promise of the full core, from when it is first needed
 const identified = {}; // what was identified last, `stiffness` and `response`
 let surveyed; // { json, survey } of the map of places
-const arrival = {}; // takes the core that is waited for
 
 const answers = {
+  /** What a form is built from. */
+  hello: () => ({
+    version: armill.version(),
+    job: JSON.parse(armill.default_job()),
+    fields: armill.fields(),
+    presets: armill.presets(),
+    formats: armill.formats(),
+  }),
   check: (json) => void armill.check(json),
   arm: (json) => armill.arm(json),
   place: (json) => armill.place_in_front(json),
@@ -26,7 +29,7 @@ const answers = {
       postMessage({ progress: { fraction, stage } });
     });
     release();
-    [run, shown] = [fresh, json];
+    run = fresh;
     return { summary: run.summary(), charts: run.charts() };
   },
   column: (key) => run.column(key),
@@ -37,11 +40,7 @@ const answers = {
   export: (format) => (format === "columns-csv" ? columnsFile() : run.export(format)),
   replay: (format) => run.replay(format),
   promise: () => run.promise(),
-  /** Makes ready for the next job: with the first result shown, there is time to load the full core. */
-  async prepare() {
-    release();
-    await upgrade();
-  },
+  release,
   thesis: () => armill.thesis_recomputed(),
   identify(kind, ...args) {
     const fresh = armill[`identify_${kind}`](...args);
@@ -64,6 +63,7 @@ function columnsFile() {
   return new Blob(parts);
 }
 
+/** Frees the memory of the run. */
 function release() {
   run?.free();
   run = null;
@@ -79,30 +79,6 @@ function surveyOf(json) {
   return surveyed.survey;
 }
 
-async function answer(kind, args) {
-  if (FULL.has(kind)) await upgrade();
-  try {
-    return answers[kind](...args);
-  } catch (error) {
-    if (error.code !== "needs-full") throw error;
-  }
-  await upgrade();
-  return answers[kind](...args);
-}
-
-/** Goes on with the full core, once; the run is computed again in it and has the same bits. */
-async function upgrade() {
-  if (isFull) return;
-  if (!upgrading) {
-    upgrading = arriving().finally(() => (upgrading = undefined));
-    postMessage({ need: "full" });
-  }
-  await upgrading;
-}
-
-/** The next core that the page sends, started. */
-const arriving = () => new Promise((resolve, reject) => Object.assign(arrival, { resolve, reject }));
-
 /** What is handed over instead of copied: a column, or those of a chart. */
 const buffers = (value) => [value].flat().flatMap((each) => (each instanceof Float64Array ? each : each?.values)?.buffer ?? []);
 
@@ -112,30 +88,21 @@ function plain(error) {
   return { code, message: message ?? String(error), field, line, column, fatal: error instanceof WebAssembly.RuntimeError };
 }
 
-/** Answers the page's questions. `glue` has the JavaScript side of each core that there is, `small` and `full`. */
-export function serve(glue) {
-  const first = arriving();
-  first.catch(() => {}); // told to whoever asks first
-
-  async function start({ core, module, error }) {
-    if (error) throw error;
-    const next = await glue[core]();
-    await next.default({ module_or_path: module });
-    const again = run && next.run(shown);
-    release();
-    [armill, run, isFull] = [next, again, core === "full"];
-  }
-
-  addEventListener("message", async ({ data }) => {
-    if (data.core) return start(data).then(arrival.resolve, arrival.reject);
-    const { id, kind, args } = data;
+/** Answers the page's questions with a core, the module that wasm-bindgen made; the page sends the compiled WebAssembly first. */
+export function serve(core) {
+  armill = core;
+  let start;
+  const started = new Promise((resolve) => (start = resolve)).then((module) => armill.default({ module_or_path: module }));
+  started.catch(() => {}); // every question reports it
+  addEventListener("message", async ({ data: { module, id, kind, args } }) => {
+    if (module) return start(module);
     try {
-      await first;
+      await started;
     } catch (error) {
       return postMessage({ id, error: { ...plain(error), code: "load", fatal: true } });
     }
     try {
-      const value = await answer(kind, args);
+      const value = answers[kind](...args);
       postMessage({ id, value }, buffers(value));
     } catch (error) {
       postMessage({ id, error: plain(error) });

@@ -82,8 +82,7 @@ async function draw() {
     try {
       await figure.draw();
       if (mine !== turn) return;
-    } catch ({ code, message }) {
-      if (code === "load") shown.forEach((lacking) => lacking.say(message));
+    } catch {
       return; // a newer result, or a recovery, draws again
     }
   }

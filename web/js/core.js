@@ -3,30 +3,31 @@
 // Two Workers take turns: one holds the result that the page shows and draws its charts, the other computes the
 // next one. A run that is invalid, cancelled or trapped therefore never takes the shown result away.
 
-import { FIRST_CORE, compileCore, readText, startWorker } from "./files.js";
+import { compileCore, startWorker } from "./files.js";
 
 const SUPERSEDE_MS = [400, 1500]; // a run older than this is cut off when a newer job arrives; a younger one may finish
 const LARGE = 100_000; // samples: a Worker that has held more is not used again, for its memory never shrinks
-const REST = "The part of the calculator that draws charts, reads programs and writes files";
 const CANCELLED = { code: "cancelled", message: "Cancelled." };
 
 let events; // { onstart, onprogress, onresult, onerror, oncancel, ontrap }, given to start()
 let shown = null; // Worker with the shown result
 let spare = null; // Worker to compute in
 let since = null; // when the run in progress began
-let listing; // promise of what a form is built from
-let foreseen; // { json, result, since } of a run that nobody has asked for yet
+let compiled; // promise of the core's module: every Worker starts from the same one
+let hello; // promise of what a form is built from
+let foreseen; // { json, result, since } of a speculative run
 let lasted = 0; // how long the shown result took [ms]
 let next = null; // the job to compute next: only the latest counts
 let good = null; // the job of the shown result
 let lost = false; // the shown result was lost to a trap and is being computed again
-let core = FIRST_CORE; // the one that a new Worker starts with: the full one once a Worker has needed it
-const modules = {}; // the compiled cores, promises: every Worker starts from the same ones
 
 /** Begins to load the core, and resolves with what a form is built from: version, default job, fields, presets, formats. */
 export function load() {
-  spare ??= spawn();
-  return (listing ??= readText("pkg/form.json").then(JSON.parse));
+  hello ??= (spare ??= spawn()).ask("hello").catch((error) => {
+    hello = undefined; // it may be asked for again
+    throw error;
+  });
+  return hello;
 }
 
 /** The same for the page, which hears what happens from now on. */
@@ -35,13 +36,10 @@ export function start(handlers) {
   return load();
 }
 
-/** Resolves when the first Worker has its core, or never will. */
-export const supplied = () => spare.supplied;
-
 /** Begins to compute a job before the page is ready to ask for it. */
 export function foresee(json) {
   const result = spare.ask("run", json);
-  result.catch(() => {}); // told to who asks
+  result.catch(() => {}); // reported when the run is asked for
   foreseen = { json, result, since: performance.now() };
 }
 
@@ -53,7 +51,7 @@ export function run(json) {
   else if (performance.now() - since > patience()) cutOff(CANCELLED);
 }
 
-/** Twice as long as the last run took, within bounds: whoever pushes a number on and on sees results all the same. */
+/** Twice as long as the last run took, within bounds, so that dragging a number still shows results. */
 const patience = () => Math.min(SUPERSEDE_MS[1], Math.max(SUPERSEDE_MS[0], 2 * lasted));
 
 /** Stops the run in progress, at once. */
@@ -126,7 +124,7 @@ async function compute() {
       good = json;
       lasted = performance.now() - since;
       events.onresult(result, lasted);
-      spare.ask("prepare").catch(() => {}); // who needs the full core is told that it is missing
+      spare.ask("release").catch(() => {}); // it may be stopped before
     } catch (error) {
       if (error.fatal) retire(worker);
       if (error.fatal) events.ontrap(error);
@@ -165,21 +163,10 @@ function recover(error) {
   if (since === null) compute();
 }
 
-/** A long run that another core must go on with: in a Worker of its own, or both cores' memory would be held at once. */
-function again(worker, name) {
-  core = name;
-  retire(worker);
-  if (since !== null) return; // a newer job's result is on its way
-  spare?.stop(CANCELLED);
-  spare = null;
-  next = good;
-  compute();
-}
-
 function cutOff(reason) {
   const worker = spare;
   spare = spawn();
-  worker.stop(reason);
+  worker?.stop(reason);
 }
 
 function retire(worker) {
@@ -188,11 +175,13 @@ function retire(worker) {
   if (worker === spare) spare = spawn();
 }
 
-/** A core, loaded and compiled once; a failure may be mended by trying again. */
-function moduleOf(name) {
-  modules[name] ??= compileCore(name);
-  modules[name].catch(() => delete modules[name]);
-  return modules[name];
+/** The core's module, loaded and compiled once; after a failure the next Worker tries again. */
+function moduleOfCore() {
+  compiled ??= compileCore().catch((error) => {
+    compiled = undefined;
+    throw error;
+  });
+  return compiled;
 }
 
 /** A Worker that answers `ask(kind, ...args)` with a promise. */
@@ -207,11 +196,12 @@ function spawn(onprogress = (progress) => events?.onprogress(progress)) {
     for (const { reject } of waiting.values()) reject(reason);
     waiting.clear();
   };
-  const fail = ({ message }) => stop({ code: "load", message: message || "The core could not be loaded.", fatal: true });
-  const lack = ({ message }) => worker.postMessage({ core: "full", error: { code: "load", message: `${REST} could not be loaded (${message}).` } });
-  worker.addEventListener("message", ({ data: { id, value, error, progress, need } }) => {
+  const fail = ({ message }) => {
+    if (own === spare) spare = null; // the next question starts another one
+    stop({ code: "load", message: message || "the browser does not say why", fatal: true });
+  };
+  worker.addEventListener("message", ({ data: { id, value, error, progress } }) => {
     if (progress) return onprogress(progress);
-    if (need) return (own.large ? moduleOf(need).then(() => again(own, need)) : give(need)).catch(lack);
     const question = waiting.get(id);
     waiting.delete(id);
     if (error) question?.reject(error);
@@ -221,11 +211,9 @@ function spawn(onprogress = (progress) => events?.onprogress(progress)) {
     event.preventDefault();
     fail(event);
   });
-  const give = (name) => moduleOf(name).then((module) => worker.postMessage({ core: (core = name), module }));
   const own = {
     stop,
     large: false, // whether it holds a long run
-    supplied: give(core).catch(fail),
     ask: (kind, ...args) =>
       new Promise((resolve, reject) => {
         if (ended) return reject(ended);
@@ -233,5 +221,6 @@ function spawn(onprogress = (progress) => events?.onprogress(progress)) {
         worker.postMessage({ id: count, kind, args });
       }),
   };
+  moduleOfCore().then((module) => worker.postMessage({ module }), fail);
   return own;
 }

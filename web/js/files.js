@@ -11,17 +11,16 @@ export async function readText(path) {
   return answer.text();
 }
 
-/** The core that a Worker starts with: it has all that the first result needs. */
-export const FIRST_CORE = "small";
-
 /** Whether embed.html is beside the page. */
 export const EMBEDDABLE = true;
 
-/** A compiled core, `small` or `full`. */
-export async function compileCore(name) {
-  const load = () => fetch(urlOf(`pkg/${name}/armill_bg.wasm`));
+/** The core, fetched and compiled. */
+export async function compileCore() {
+  const answer = await fetch(urlOf("pkg/armill_bg.wasm"));
+  if (!answer.ok) throw new Error(`the server answers ${answer.status}`);
   // Hosts that do not know the file's type get it compiled after loading instead of meanwhile.
-  return WebAssembly.compileStreaming(load()).catch(async () => WebAssembly.compile(await (await load()).arrayBuffer()));
+  const typed = answer.headers.get("Content-Type") === "application/wasm";
+  return typed ? WebAssembly.compileStreaming(answer) : WebAssembly.compile(await answer.arrayBuffer());
 }
 
 /** A new Worker of the core. */

@@ -152,8 +152,7 @@ const events = {
     if (form.showError(error)) return stale();
     state("stale");
     const where = error.line ? ` (line ${error.line}, column ${error.column})` : "";
-    if (error.code === "load") alertOn(error.message, "Try again", () => edited());
-    else if (error.code === "unreachable" || error.field === "path") alertOn(error.message, "Place the path in front of this robot", placeInFront);
+    if (error.code === "unreachable" || error.field === "path") alertOn(error.message, "Place the path in front of this robot", placeInFront);
     else alertOn(`${error.message}${where}`);
     say(lastValid().trim() || "No result yet.");
   },
@@ -236,11 +235,21 @@ function idle() {
   results.classList.remove("slow");
 }
 
+/** The core could not be loaded, at first or for another Worker: a network that comes back mends that. */
 function cannotStart(error) {
   state("stale");
-  byId("verdict").textContent = "The calculator could not start.";
-  alertOn(`The core could not be loaded: ${error.message ?? error}. Armill needs a browser with WebAssembly and module workers.`);
-  say("");
+  if (!shown) byId("verdict").textContent = "The calculator could not start.";
+  const why = `The core could not be loaded: ${error.message ?? error}. Armill needs a browser with WebAssembly and module workers.`;
+  if (error.code === "load") alertOn(why, "Try again", tryAgain);
+  else alertOn(why);
+  say(lastValid().trim());
+}
+
+function tryAgain() {
+  if (form) return edited();
+  alertOff();
+  state("starting");
+  open().catch(cannotStart);
 }
 
 /** On a phone the inputs fold away; elsewhere they always show. */
@@ -334,8 +343,8 @@ function wireResultTools() {
   onSetting((key) => key !== "theme" && showFigures());
 }
 
-try {
-  wire();
+/** Builds the form and opens the job. */
+async function open() {
   const hello = await core.start(events);
   standard = hello.job;
   job = new Job(standard, hello.fields, hello.presets);
@@ -351,6 +360,11 @@ try {
   session = new Session({ job, form, standard, core, changed: edited, warn: alertOn });
   await session.open();
   byId("download-job").disabled = false;
+}
+
+try {
+  wire();
+  await open();
 } catch (error) {
   cannotStart(error);
 }

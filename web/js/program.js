@@ -12,7 +12,7 @@ const ENDINGS = { apt: ["apt", "aptsource", "cls", "cl", "ncl"], csv: ["csv", "t
 const MOST_IGNORED = 40; // words listed
 
 /** The language of a program by what stands in it; where that does not tell, by the ending of its name. */
-export function languageOf(name, text) {
+function languageOf(name, text) {
   const head = text.slice(0, 20_000);
   if (/^\s*(GOTO|FROM|FEDRAT|PARTNO|UNITS|MULTAX|SPINDL)\b/im.test(head)) return "apt";
   if (/^\s*%|^[^A-FH-LO-Z\n]*[GM]\s*\d/im.test(head.replace(/\([^)]*\)|;.*$/gm, ""))) return "gcode";
@@ -114,7 +114,7 @@ export function setLines(column, time) {
 export const lineAt = (time) => lines?.[Math.min(lines.length - 1, Math.max(0, Math.round(time / sampleTime)))] || undefined;
 
 /** The time [s] at which a line starts to run, or undefined. */
-export function timeOf(line) {
+function timeOf(line) {
   const sample = lines?.indexOf(line) ?? -1;
   return sample < 0 ? undefined : sample * sampleTime;
 }

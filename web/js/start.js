@@ -12,10 +12,9 @@ const PATIENCE_MS = 100; // on a slow line the page does not wait for the core
 
 /** Has the job computed while the form is built. A link's is checked first, so it waits for the page. */
 async function begin() {
-  const hello = await core.load();
-  if (!holdsJob(location.hash)) core.foresee(textOf((await kept())?.job ?? hello.job));
-  await core.supplied();
+  const [hello, state] = await Promise.all([core.load(), kept()]);
+  if (!holdsJob(location.hash)) core.foresee(textOf(state?.job ?? hello.job));
 }
 
-/** Settled when the Worker has all that it needs for the first result: from then on the page is not in its way. */
+/** Settled when the Worker computes the first result: from then on the page is not in its way. */
 export const begun = Promise.race([begin().catch(() => {}), new Promise((resolve) => setTimeout(resolve, PATIENCE_MS))]);

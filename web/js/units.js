@@ -15,13 +15,11 @@ export const forceUnit = () => force().name;
 /** Millimetres in the chosen unit, as a number. */
 export const inLength = (mm) => mm / length().size;
 
-/** Newtons in the chosen unit, as a number. */
-export const inForce = (newton) => newton / force().size;
-
 /** Millimetres to three digits (or `digits`), but no finer than any machine knows. */
 export const lengthText = (mm, digits) => (digits ? formatNumber(inLength(mm), digits) : formatLength(inLength(mm), length().decimals));
 
 /** Millimetres to a fixed place, so that a column of them lines up. */
 export const errorText = (mm) => formatError(inLength(mm), length().decimals);
 
-export const forceText = (newton) => formatNumber(inForce(newton));
+/** Newtons in the chosen unit, to three digits. */
+export const forceText = (newton) => formatNumber(newton / force().size);

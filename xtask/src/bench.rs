@@ -10,10 +10,11 @@ use std::{env, fs};
 use anyhow::{Context, Result, ensure};
 use serde_json::Value;
 
+use crate::browser;
 use crate::browser::Driver;
 use crate::server::Server;
+use crate::site::{self, core, folder::mirror};
 use crate::workspace::{self, cargo, output, run};
-use crate::{browser, site};
 use results::{Native, Results};
 
 /// Times everything for the default job with about so many samples each, `sizes` separated by commas, and prints one table; it also stands in
@@ -58,9 +59,9 @@ const BROWSER: [&str; 7] =
 /// The site with the benchmark's page in it.
 fn page(folder: &Path) -> Result<std::path::PathBuf> {
     let site = folder.join("site");
-    site::mirror(&site::build()?, &site, &["bench"])?;
-    site::mirror(&workspace::root()?.join("benches/page"), &site.join("bench"), &["pkg"])?;
-    site::bench_core(&site.join("bench/pkg"))?;
+    mirror(&site::build()?, &site, &["bench"])?;
+    mirror(&workspace::root()?.join("benches/page"), &site.join("bench"), &[site::PKG])?;
+    core::make(&workspace::root()?, core::BENCH, &site.join("bench").join(site::PKG))?;
     Ok(site)
 }
 

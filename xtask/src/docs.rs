@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 
-use crate::site;
+use crate::site::{self, folder::mirror};
 use crate::workspace::{self, cargo, run};
 
 /// Makes `target/docs` with `calculator/` (the site), `rustdoc/` and `book/`, and returns that folder. Their pages name each other by
@@ -14,10 +14,10 @@ use crate::workspace::{self, cargo, run};
 /// If something does not compile, or a file cannot be read or written.
 pub(crate) fn build() -> Result<PathBuf> {
     let docs = workspace::root()?.join("target/docs");
-    site::mirror(&site::build()?, &docs.join("calculator"), &[])?;
+    mirror(&site::build()?, &docs.join("calculator"), &[])?;
     let flags = ["doc", "--locked", "--no-deps", "--package", "armill", "--lib", "--target-dir", "target"];
     run(&mut cargo(&flags)?)?;
-    site::mirror(&workspace::root()?.join("target/doc"), &docs.join("rustdoc"), &[])?;
+    mirror(&workspace::root()?.join("target/doc"), &docs.join("rustdoc"), &[])?;
     run(cargo(&["run", "--locked", "--quiet", "--package", "armill-docs", "--"])?.arg(docs.join("book")))?;
     println!("The documentation is in target/docs");
     Ok(docs)

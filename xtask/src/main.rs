@@ -2,9 +2,6 @@
 #![allow(clippy::print_stdout, reason = "a command-line tool speaks on its standard output")]
 
 mod workspace;
-mod modules;
-mod page;
-mod standalone;
 mod site;
 mod docs;
 mod npm;
@@ -33,7 +30,7 @@ usage: cargo xtask <command>
   bench [samples]  time stages and whole jobs, natively and in Chromium, and kinematics beside other crates: some ten minutes for
                    the sizes 20000,200000,1000000, a minute for one
   audit            check licences and sources of all dependencies, and known faults in them
-  reproduce        build the cores in two folders and compare them, byte by byte
+  reproduce        build the core in two folders and compare the two, byte by byte
   fuzz [target [seconds]]  search for texts that break a reader, the job or an export: each for a minute
 ";
 

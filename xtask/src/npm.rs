@@ -6,7 +6,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 
-use crate::site::{self, update};
+use crate::site::{self, folder::update};
 use crate::workspace::{self, output, program, run};
 
 /// What Debian calls Node and its package manager.
@@ -24,7 +24,7 @@ pub(crate) fn package() -> Result<PathBuf> {
     let root = workspace::root()?;
     let folder = root.join("target/npm");
     fs::create_dir_all(&folder)?;
-    let core = site.join("pkg/full");
+    let core = site.join(site::PKG);
     let files = [
         (&core, "armill.js"),
         (&core, "armill.d.ts"),

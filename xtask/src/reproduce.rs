@@ -1,38 +1,41 @@
-//! The same sources give the same cores, wherever they lie and whoever builds them.
+//! The same sources give the same core, wherever they lie and on whatever machine.
 
 use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
 use sha2::{Digest, Sha256};
 
-use crate::site;
+use crate::site::{core, folder::update};
 use crate::workspace::{self, root};
 
-/// Builds the cores from copies of the sources in two folders with names of different length, each with a target folder of its own, and
-/// compares them with each other and with what this machine must not leave in them. Prints their hashes.
+/// Builds the core from copies of the sources in two folders with names of different length, each with a target folder of its own, and
+/// compares the two with each other and with what this machine must not leave in them. Prints the hash.
 ///
 /// # Errors
 /// If a byte differs, or a path of this machine is found.
 pub(crate) fn reproduce() -> Result<()> {
-    workspace::add_wasm_target()?;
     let place = root()?.join("target/reproduce");
     let folders = ["a", "another/folder"].map(|name| place.join(name));
-    // Both copies first: somebody may go on working meanwhile.
+    // Both copies first: the sources may change meanwhile.
     folders.iter().try_for_each(|folder| copy_sources(folder))?;
-    let builds = folders.iter().map(|folder| site::cores(folder, &folder.join("target/cores")));
-    let builds = builds.collect::<Result<Vec<_>>>()?;
-    let [first, second] = builds.as_slice() else { bail!("two builds are compared") };
-    for ((name, one), (_, other)) in first.iter().zip(second) {
-        ensure!(one == other, "the {name} core depends on the folder it is built in");
-        for path in [Some(root()?), workspace::cargo_home(), std::env::home_dir()].into_iter().flatten() {
-            ensure!(!names(one, &path), "the {name} core names {}", path.display());
-        }
-        let hash: String = Sha256::digest(one).iter().map(|byte| format!("{byte:02x}")).collect();
-        println!("The {name} core has the same {} bytes from both folders, SHA-256 {hash}", one.len());
+    let [one, other] = folders.each_ref().map(|folder| built(folder));
+    let (one, other) = (one?, other?);
+    ensure!(one == other, "the core depends on the folder it is built in");
+    for path in [Some(root()?), workspace::cargo_home(), std::env::home_dir()].into_iter().flatten() {
+        ensure!(!names(&one, &path), "the core names {}", path.display());
     }
+    let hash: String = Sha256::digest(&one).iter().map(|byte| format!("{byte:02x}")).collect();
+    println!("The core has the same {} bytes from both folders, SHA-256 {hash}", one.len());
     println!("With {}", workspace::output("rustc", &["--version"]).context("rustc does not say what it is")?);
     Ok(())
+}
+
+/// The core, built from the sources in a folder.
+fn built(folder: &Path) -> Result<Vec<u8>> {
+    let made = folder.join("target/core");
+    core::make(folder, core::PACKAGE, &made)?;
+    fs::read(made.join(core::MODULE)).with_context(|| format!("cannot read {}", made.display()))
 }
 
 /// Copies the sources as they are now, committed or not.
@@ -42,7 +45,7 @@ fn copy_sources(folder: &Path) -> Result<()> {
         let (from, to) = (root()?.join(file), folder.join(file));
         if from.is_file() {
             fs::create_dir_all(to.parent().unwrap_or(folder))?;
-            site::update(&fs::read(&from)?, &to).with_context(|| format!("cannot copy {file}"))?;
+            update(&fs::read(&from)?, &to).with_context(|| format!("cannot copy {file}"))?;
         }
     }
     Ok(())

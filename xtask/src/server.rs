@@ -13,26 +13,30 @@ use base64::prelude::BASE64_STANDARD;
 use sha2::{Digest, Sha256};
 use tiny_http::{Header, Method, Request, Response};
 
+use crate::site::POLICY;
+
 /// The port that `serve` tries first, and how many after it.
 const PORTS: std::ops::Range<u16> = 8080..8180;
 
 /// Enough for a browser, which opens up to six connections.
 const THREADS: usize = 6;
 
-/// Sent with every answer of the site. The policy is the page's own, repeated because a worker only obeys its own answer's.
-const STRICT: &[&str] = &[
+/// A line in the head of an answer: its name and what it says.
+type Line = (&'static str, &'static str);
+
+/// Sent with every answer of the site.
+const STRICT: &[Line] = &[
     CACHE,
-    "X-Content-Type-Options: nosniff",
-    "Referrer-Policy: no-referrer",
-    "Content-Security-Policy: default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; \
-     connect-src 'self'; style-src 'self'; img-src 'self' data: blob:; base-uri 'none'; form-action 'none'",
+    ("X-Content-Type-Options", "nosniff"),
+    ("Referrer-Policy", "no-referrer"),
+    ("Content-Security-Policy", POLICY),
 ];
 
 /// What a host of documentation sends: the pages of rustdoc and mdBook have scripts in them.
-const PLAIN: &[&str] = &[CACHE];
+const PLAIN: &[Line] = &[CACHE];
 
 /// A browser keeps what it got, with the code that it made of it, and asks each time whether that still holds.
-const CACHE: &str = "Cache-Control: no-cache";
+const CACHE: Line = ("Cache-Control", "no-cache");
 
 /// A running server; it lives as long as the process.
 pub(crate) struct Server {
@@ -71,7 +75,7 @@ impl Server {
         Server::start(docs, TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?, PLAIN)
     }
 
-    fn start(site: &Path, listener: TcpListener, headers: &'static [&'static str]) -> Result<Server> {
+    fn start(site: &Path, listener: TcpListener, headers: &'static [Line]) -> Result<Server> {
         let url = format!("http://{}/", listener.local_addr()?);
         let listener = tiny_http::Server::from_listener(listener, None).map_err(|error| anyhow!(error))?;
         let (listener, site) = (Arc::new(listener), Arc::<Path>::from(site));
@@ -98,7 +102,7 @@ fn first_free(ports: std::ops::Range<u16>) -> Result<TcpListener> {
     Err(anyhow!("the ports {} to {} are all taken", ports.start, ports.end - 1))
 }
 
-fn answer(site: &Path, request: Request, headers: &[&str]) {
+fn answer(site: &Path, request: Request, headers: &[Line]) {
     let mut response = match request.method() {
         Method::Get | Method::Head => match find(site, request.url()) {
             Found::File(path) => match fs::read(&path) {
@@ -110,8 +114,8 @@ fn answer(site: &Path, request: Request, headers: &[&str]) {
         },
         _ => with(reply(405, TEXT, b"Only GET and HEAD\n".to_vec()), "Allow: GET, HEAD"),
     };
-    for header in headers {
-        response = with(response, header);
+    for (name, value) in headers {
+        response = with(response, &format!("{name}: {value}"));
     }
     // Nothing to do about a browser that has left.
     let _ = request.respond(response);
@@ -256,7 +260,7 @@ mod tests {
         let (head, body) = ask(&server, "GET", "/?x=/../y");
         assert!(head.starts_with("HTTP/1.1 200"), "{head}");
         assert!(head.contains("Content-Type: text/html; charset=utf-8"), "{head}");
-        assert!(STRICT.iter().all(|header| head.contains(header)), "{head}");
+        assert!(STRICT.iter().all(|(name, value)| head.contains(&format!("{name}: {value}"))), "{head}");
         assert_eq!(body, b"<p>page");
 
         let (head, body) = ask(&server, "GET", "/pkg/armill_bg.wasm");
@@ -280,7 +284,7 @@ mod tests {
         let lines = format!("If-None-Match: {tag}\r\n");
         let (head, body) = ask_with(&server, "GET", "/a%20b.js", &lines);
         assert!(head.starts_with("HTTP/1.1 304") && body.is_empty(), "{head}");
-        assert!(STRICT.iter().all(|header| head.contains(header)), "{head}");
+        assert!(STRICT.iter().all(|(name, value)| head.contains(&format!("{name}: {value}"))), "{head}");
         fs::write(parent.path().join("site/a b.js"), "2").unwrap();
         let (head, body) = ask_with(&server, "GET", "/a%20b.js", &lines);
         assert!(head.starts_with("HTTP/1.1 200") && body == b"2", "{head}");

@@ -106,11 +106,6 @@ export class Figure {
     return { own: drawn[0], other: drawn[1] };
   }
 
-  /** Says below it why it is not drawn. */
-  say(message) {
-    this.#caption.textContent = message;
-  }
-
   /** Forgets the values: those of another result, in other units, or not looked at. */
   forget() {
     this.#data = this.#fetching = null;

@@ -110,7 +110,7 @@ impl Results {
     }
 
     fn samples(&self, size: usize) -> u64 {
-        self.chromium["jobs"][size.to_string()]["full"]["samples"].as_u64().unwrap_or_default()
+        self.chromium["jobs"][size.to_string()]["whole"]["samples"].as_u64().unwrap_or_default()
     }
 
     /// All of it for other programs, in ns and bytes.
@@ -138,18 +138,10 @@ impl Results {
             let browser = self.chromium(size, &format!("/stages/{stage}"));
             line(f, stage, native(stage), browser, 1e6, samples as f64)?;
         }
-        let whole = native("whole job");
-        for (name, core) in [("whole job, small core", "small"), ("whole job, full core", "full")] {
-            line(f, name, whole, self.chromium(size, &format!("/{core}/times")), 1e6, samples as f64)?;
-        }
-        let first =
-            |core: &str| self.chromium["jobs"][size.to_string()][core]["first"].as_f64().unwrap_or(f64::NAN);
-        writeln!(
-            f,
-            "\nThe first run in a fresh Worker: {:.0} ms in the small core, {:.0} ms in the full one.\n",
-            first("small"),
-            first("full")
-        )
+        let name = "whole job";
+        line(f, name, native(name), self.chromium(size, "/whole/times"), 1e6, samples as f64)?;
+        let first = self.chromium["jobs"][size.to_string()]["whole"]["first"].as_f64();
+        writeln!(f, "\nThe first run in a fresh Worker: {:.0} ms.\n", first.unwrap_or(f64::NAN))
     }
 
     fn first_result(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -195,21 +187,15 @@ impl Results {
     }
 
     fn memory(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        writeln!(f, "| memory at the peak, MB | native | small core | full core |")?;
-        writeln!(f, "| --- | ---: | ---: | ---: |")?;
+        writeln!(f, "| memory at the peak, MB | native | Chromium |")?;
+        writeln!(f, "| --- | ---: | ---: |")?;
         for (i, &size) in self.sizes.iter().enumerate() {
             let mega = |bytes: Option<u64>| {
                 bytes.map_or("-".to_owned(), |bytes| format!("{:.0}", bytes as f64 / 1e6))
             };
-            let core = |core: &str| mega(self.chromium["jobs"][size.to_string()][core]["bytes"].as_u64());
+            let chromium = mega(self.chromium["jobs"][size.to_string()]["whole"]["bytes"].as_u64());
             let native = mega(self.memory.get(i).map(|(_, bytes)| *bytes));
-            writeln!(
-                f,
-                "| {} samples | {native} | {} | {} |",
-                self.samples(size),
-                core("small"),
-                core("full")
-            )?;
+            writeln!(f, "| {} samples | {native} | {chromium} |", self.samples(size))?;
         }
         Ok(())
     }
@@ -227,13 +213,13 @@ impl Display for Results {
         }
         if let [small, .., large] = self.sizes[..] {
             let whole = |size: usize| self.native.of(&format!("samples {size}"), "whole job");
-            let full = |size: usize| self.chromium(size, "/full/times");
+            let chromium = |size: usize| self.chromium(size, "/whole/times");
             let times = self.samples(large) as f64 / self.samples(small).max(1) as f64;
             writeln!(
                 f,
                 "{times:.1} times the samples take {} times as long natively, {} times in Chromium.\n",
                 ratio(whole(large), whole(small)),
-                ratio(full(large), full(small))
+                ratio(chromium(large), chromium(small))
             )?;
         }
         self.poses(f)?;

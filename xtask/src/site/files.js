@@ -9,9 +9,6 @@ export async function readText(path) {
   return text;
 }
 
-/** The core that a Worker starts with, here the only one. */
-export const FIRST_CORE = "full";
-
 /** Whether embed.html is beside the page. */
 export const EMBEDDABLE = false;
 

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail, ensure};
 
-use crate::modules::Script;
-use crate::site::{entries, mirror, update};
+use super::folder::{entries, mirror, update};
+use super::modules::Script;
 
 /// The scripts that pages and the Worker start with. `main.js` shares the modules of `start.js`, which runs first.
 const START: &str = "js/start.js";
@@ -20,11 +20,11 @@ const ALONE: [&str; 2] = ["js/armill-calculator.js", "css/noscript.css"];
 /// How a page names a stylesheet.
 const STYLESHEET: &str = "<link rel=\"stylesheet\" href=\"";
 
-/// Makes `folder` anew: the page in `web` with its scripts and styles joined. `pkg` has the cores' modules.
+/// Fills an empty `folder` with the page in `web`, its scripts and styles joined. `pkg` has the core's module.
 ///
 /// # Errors
 /// If a file cannot be read or written, or a script uses syntax that cannot be joined.
-pub(crate) fn join(web: &Path, pkg: &Path, folder: &Path) -> Result<()> {
+pub(super) fn join(web: &Path, pkg: &Path, folder: &Path) -> Result<()> {
     if folder.exists() {
         fs::remove_dir_all(folder).with_context(|| format!("cannot remove {}", folder.display()))?;
     }
@@ -68,7 +68,7 @@ pub(crate) fn join(web: &Path, pkg: &Path, folder: &Path) -> Result<()> {
 ///
 /// # Errors
 /// If it cannot be read.
-pub(crate) fn text_of(web: &Path, pkg: &Path, path: &Path) -> Result<String> {
+pub(super) fn text_of(web: &Path, pkg: &Path, path: &Path) -> Result<String> {
     let file = path.strip_prefix("pkg").map_or_else(|_| web.join(path), |inner| pkg.join(inner));
     fs::read_to_string(&file).with_context(|| format!("cannot read {}", file.display()))
 }

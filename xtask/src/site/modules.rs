@@ -11,20 +11,43 @@
 //!                                             }
 //! ```
 //!
-//! That is all of the language's module syntax that the page uses; anything else is refused. A script may share modules with an earlier
-//! one: it imports `module_form` from there, so that both have the same.
+//! A script may share modules with an earlier one: it imports `module_form` from there, so that both have the same.
+//!
+//! # The dialect
+//!
+//! Of the syntax of modules it takes these statements, each from the first column of a line on:
+//!
+//! ```js
+//! import { a, b as c } from "./one.js";           // over several lines too, up to the semicolon
+//! import * as two from "../pkg/two.js";
+//! import three, { d } from "./three.js";          // what three.js exports as `default`
+//! export const e = 1;                             // one name a declaration
+//! export function f() {}
+//! export async function g() {}
+//! export class H {}
+//! export { local, other as i, main as default };  // over several lines too
+//! ```
+//!
+//! Addresses stand in double quotes, start with `./` or `../` and stay in the site. These are refused, as errors of the build: `export
+//! default …`, `export let` and `var` (importers get a copy, which would not follow), generators and patterns (`export function*`, `export
+//! const { a } = …`), exports from another module (`export … from`), an import for its side effects alone (`import "./a.js"`), single
+//! quotes, modules that need each other in a circle.
+//!
+//! These are not noticed, so mind them: only the first name of `export const a = 1, b = 2` is exported; an import or export that is
+//! indented, or follows another statement on its line, stays as it is and fails in the browser; a line that starts with `import ` or
+//! `export ` counts as a statement even in a comment or a template; `import()` and `import.meta.url` start from the joined script.
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 
 /// Modules in one script, in the order in which they run.
-pub(crate) struct Script {
+pub(super) struct Script {
     /// The last of them, which also gives the script its place.
     entry: PathBuf,
     modules: Vec<PathBuf>,
     /// A block for each.
-    pub(crate) text: String,
+    pub(super) text: String,
 }
 
 impl Script {
@@ -32,7 +55,7 @@ impl Script {
     ///
     /// # Errors
     /// If a module cannot be read, uses syntax that this does not know, or needs itself.
-    pub(crate) fn new(
+    pub(super) fn new(
         entry: &Path,
         earlier: Option<&Script>,
         read: &dyn Fn(&Path) -> Result<String>,
@@ -50,7 +73,7 @@ impl Script {
     }
 
     /// The script as a module, whose modules others can import.
-    pub(crate) fn shared(&self) -> String {
+    pub(super) fn shared(&self) -> String {
         format!("{}export {{ {} }};\n", self.text, names(&self.modules))
     }
 }
