@@ -39,7 +39,7 @@ const answers = {
   data: (name, units) => run.chart_data(name, units),
   export: (format) => (format === "columns-csv" ? columnsFile() : run.export(format)),
   replay: (format) => run.replay(format),
-  promise: () => run.promise(),
+  promise: (format) => run.promise(format),
   release,
   thesis: () => armill.thesis_recomputed(),
   identify(kind, ...args) {

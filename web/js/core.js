@@ -96,8 +96,8 @@ export const exported = (format) => askShown("export", format);
 /** Mean and largest contour error [mm] of the shown result's program, read back and run. */
 export const replayed = (format) => askShown("replay", format);
 
-/** What comes out of the shown result's path as a G-code program: `{ max_mm, met, sentence }`. */
-export const promised = () => askShown("promise");
+/** The accuracy of the shown result's path as a program, of G-code unless another format is given: `{ max_mm, met, sentence }`. */
+export const promised = (format) => askShown("promise", format);
 
 /** Smallest and largest x, y, z [mm] of places for the part that are worth a look. */
 export const extent = (json) => (spare ??= spawn()).ask("extent", json);

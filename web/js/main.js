@@ -29,6 +29,7 @@ const TYPING_MS = 150; // results follow this long after the last key
 const PUSHED = 4000; // samples of a run that follows a number while it is pushed
 const COARSE_S = 0.005; // but no further apart than this
 const PATIENCE_MS = 150; // a run that takes longer shows its progress
+const READ_BACK = ["gcode", "apt", "path-csv"]; // programs that Armill reads itself
 const SILENCE_MS = 30_000; // of a run that has begun and was not heard of for so long the page says so: nobody tells it that a Worker was taken away
 
 await begun;
@@ -281,12 +282,12 @@ async function save(format, name) {
   }
 }
 
-/** Reads the program just taken away back, runs it, and says what comes out: its points and timing are not the samples'. */
+/** Says what the downloaded program is worth: read back and run where Armill reads its language, else as it was rehearsed. */
 async function tryProgram(id) {
   if (id === "joints-csv") return;
-  const readable = ["gcode", "apt"].includes(id) ? id : "path-csv"; // robot programs have the same points
   try {
-    const { max } = await core.replayed(readable);
+    if (!READ_BACK.includes(id)) return say((await core.promised(id)).sentence);
+    const { max } = await core.replayed(id);
     const { tolerance_mm } = shown.summary;
     const met = max <= tolerance_mm ? "within" : "beyond";
     say(`Read back and run, the program errs by at most ${formatLength(max)} mm: ${met} the tolerance of ${formatLength(tolerance_mm)} mm`);
