@@ -6,7 +6,7 @@
 mod block;
 
 use crate::error::Error;
-use crate::job::{DhRow, Job, Opw};
+use crate::job::{DhRow, Job, Opw, Path};
 use crate::robot::library::Preset;
 use block::Block;
 use serde::{Deserialize, Serialize, Serializer};
@@ -150,9 +150,27 @@ fn table() -> &'static [Field] {
     TABLE.get_or_init(|| block::blocks(TEXT).iter().filter_map(Block::field).collect())
 }
 
+/// The job without its program's text, which may be megabytes long; that there is one stays.
+fn outline(job: &Job) -> Job {
+    let path = &job.path;
+    Job {
+        robot: job.robot.clone(),
+        path: Path {
+            text: path.text.as_ref().map(|_| String::new()),
+            points_mm: path.points_mm.clone(),
+            tool_length_offsets_mm: path.tool_length_offsets_mm.clone(),
+            work_offsets_mm: path.work_offsets_mm.clone(),
+            ..*path
+        },
+        material: job.material.clone(),
+        compensation: job.compensation.clone(),
+        ..*job
+    }
+}
+
 /// Checks every number of the job against the table.
 pub(crate) fn check_ranges(job: &Job) -> Result<(), Error> {
-    let Ok(values) = serde_json::to_value(job) else { return Ok(()) };
+    let Ok(values) = serde_json::to_value(outline(job)) else { return Ok(()) };
     for field in table() {
         let Some((min, max)) = field.min.zip(field.max) else { continue };
         let value = field.path.split('.').try_fold(&values, |value, key| value.get(key));
@@ -188,7 +206,7 @@ fn check(field: String, value: &Value, min: f64, max: f64, unit: &'static str) -
 
 /// Refuses keys of the path that its kind does not use: a forgotten key would be lost in silence.
 pub(crate) fn check_path_keys(job: &Job) -> Result<(), Error> {
-    let Ok(given) = serde_json::to_value(&job.path) else { return Ok(()) };
+    let Ok(given) = serde_json::to_value(outline(job).path) else { return Ok(()) };
     let kind = job.path.kind.word();
     for field in table() {
         let Some((key, when)) = field.path.strip_prefix("path.").zip(field.when.as_ref()) else { continue };
@@ -202,4 +220,20 @@ pub(crate) fn check_path_keys(job: &Job) -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_outline_is_the_job_without_its_program() {
+        let mut job = Job::default();
+        assert_eq!(outline(&job), job);
+        job.path.text = Some("G21 G90".into());
+        let mut outline = outline(&job);
+        assert_eq!(outline.path.text.as_deref(), Some(""));
+        outline.path.text.clone_from(&job.path.text);
+        assert_eq!(outline, job);
+    }
 }
