@@ -17,7 +17,7 @@ fn path_of(kind: &str) -> Value {
             && when.is.contains(&kind)
         {
             let own = field.defaults.as_ref().and_then(|defaults| defaults.get(kind));
-            path[key] = own.unwrap_or(&field.default).clone();
+            path[key] = json!(own.unwrap_or(&field.default));
         }
     }
     path
@@ -41,14 +41,15 @@ fn every_default_in_the_table_is_the_default_job_s() {
     for field in fields() {
         let value = field.path.split('.').try_fold(&job, |value, key| value.get(key));
         let Some(value) = value else { continue };
-        let same = match (value, &field.default) {
+        let default = json!(field.default);
+        let same = match (value, &default) {
             (Value::Number(a), Value::Number(b)) => a.as_f64() == b.as_f64(),
             (Value::Array(a), Value::Array(b)) if field.kind == Kind::Vector => {
                 a.iter().map(Value::as_f64).eq(b.iter().map(Value::as_f64))
             }
             (a, b) => a == b,
         };
-        assert!(same, "{}: the job has {value}, the table {}", field.path, field.default);
+        assert!(same, "{}: the job has {value}, the table {default}", field.path);
         compared += 1;
     }
     assert!(compared > 30, "{compared} fields compared");

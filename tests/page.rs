@@ -503,7 +503,11 @@ fn programs_come_in_and_go_out() -> Result {
         }
         // The figure after a download is that file's: robot programs wait and move at rapid speed.
         let accuracy = armill::verification::Programs::default().accuracy(&report, "krl")?;
-        page.wait_for(&format!("document.querySelector('#status').textContent === {:?}", accuracy.sentence)).await?;
+        page.wait_for(
+            &format!("document.querySelector('#status').textContent === {:?}", accuracy.sentence),
+            30.0,
+        )
+        .await?;
         // A mistake is placed, and what was typed stays.
         page.type_into("#path-text", "G21 G90\nG0 X600 Y0 Z100\nG41 D1 X610").await?;
         stale(page).await?;

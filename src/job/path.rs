@@ -120,10 +120,17 @@ impl<T: Into<Arc<str>>> From<T> for ProgramText {
 }
 
 impl Deref for ProgramText {
-    type Target = Arc<str>;
+    type Target = str;
 
-    fn deref(&self) -> &Arc<str> {
+    fn deref(&self) -> &str {
         &self.0
+    }
+}
+
+impl ProgramText {
+    /// The text itself, shared.
+    pub fn shared(&self) -> Arc<str> {
+        self.0.clone()
     }
 }
 

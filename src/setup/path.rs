@@ -28,7 +28,7 @@ pub(super) fn desired(job: &Job, progress: &mut Progress) -> Result<(Path, Optio
     let path = Path::of_program(&program).ok_or_else(|| {
         Error::invalid(TEXT, "a text without a move", "two positions or more that are not all the same")
     })?;
-    Ok((path, Some(SourceProgram { language, text: (**text).clone(), program })))
+    Ok((path, Some(SourceProgram { language, text: text.shared(), program })))
 }
 
 /// The moves of the text, in the workpiece frame.

@@ -133,7 +133,7 @@ const FEW: f64 = 400.0;
 
 /// Runs a job of few samples; its report, if it has one, holds numbers only.
 fn run(job: &Job) -> Option<Report> {
-    let program = job.path.text.as_ref().map_or("", |text| &**text);
+    let program = job.path.text.as_deref().unwrap_or_default();
     let setup = match armill::setup::Setup::of(job, &mut armill::Progress::none()) {
         Ok(setup) => setup,
         Err(error) => {
