@@ -2,21 +2,22 @@
 
 use crate::error::Error;
 use crate::math::Pose;
-use crate::motion::shaper;
+use crate::motion::shaper::{self, Impulse};
 use crate::report::{Report, Statistics};
 use crate::robot::{Joints, Robot, forward, inverse, library};
 use crate::units::{DEG, MM};
+use nalgebra::Vector3;
 use serde::Serialize;
 
 /// One figure of the thesis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Row {
+pub struct ThesisRow {
     /// What it is.
     pub quantity: &'static str,
     /// Where the thesis prints it.
     pub source: &'static str,
     /// As printed.
-    pub printed: String,
+    pub printed: &'static str,
     /// As its equations give it.
     pub ours: String,
     /// Whether the two agree to the digits printed.
@@ -49,161 +50,194 @@ pub fn rx90(d6: f64) -> Result<Robot, Error> {
 ///
 /// # Errors
 /// None for the default job; the inverse model's, if its robot were changed.
-pub fn rows(report: &Report) -> Result<Vec<Row>, Error> {
-    let mut rows = Vec::new();
-    let mut row = |quantity, source, printed: &str, ours: String, agrees, reason| {
-        rows.push(Row { quantity, source, printed: printed.into(), ours, agrees, reason });
-    };
+pub fn rows(report: &Report) -> Result<Vec<ThesisRow>, Error> {
+    Ok(vec![
+        tip_at_zero()?,
+        pose()?,
+        solutions()?,
+        mean_force(report),
+        impulses(),
+        points()?,
+        radius(),
+        errors_by_force(report),
+        errors_by_shaper(report),
+        error_after(report),
+        turn_of_joint_1(report),
+        feed_per_tooth(report),
+    ])
+}
 
+/// The joint values of eq. 3.22 [rad].
+fn pose_of_eq_3_22() -> Joints {
+    Joints::from([70.0, 20.0, 60.0, 0.0, 50.0, 100.0]) * DEG
+}
+
+fn tip_at_zero() -> Result<ThesisRow, Error> {
     let zero = forward::forward(&rx90(85.0 * MM)?, &Joints::zeros());
-    let at_zero = (zero.position / MM - nalgebra::Vector3::new(0.0, 0.0, 1605.0)).norm() < 0.05;
-    row("Tip at zero joint angles, mm", "eq. 3.6", "(0, 0, 1605)", point(&zero, 0), at_zero, "");
+    Ok(ThesisRow {
+        quantity: "Tip at zero joint angles, mm",
+        source: "eq. 3.6",
+        printed: "(0, 0, 1605)",
+        ours: point(&zero, 0),
+        agrees: (zero.position / MM - Vector3::new(0.0, 0.0, 1605.0)).norm() < 0.05,
+        reason: "",
+    })
+}
 
-    let q = Joints::from([70.0, 20.0, 60.0, 0.0, 50.0, 100.0]) * DEG;
-    let wrist = forward::forward(&rx90(0.0)?, &q);
-    let printed = nalgebra::Vector3::new(271.6, 746.1, 955.7);
-    let reason = "Position and approach agree with d6 = 0, the wrist point; the printed n and s columns have the opposite sign of what eq. 3.5 gives.";
-    row(
-        "Position for q = (70, 20, 60, 0, 50, 100) deg, mm",
-        "eq. 3.22",
-        "(271.6, 746.1, 955.7)",
-        point(&wrist, 1),
-        (wrist.position / MM - printed).norm() < 0.1,
-        reason,
-    );
+fn pose() -> Result<ThesisRow, Error> {
+    let wrist = forward::forward(&rx90(0.0)?, &pose_of_eq_3_22());
+    Ok(ThesisRow {
+        quantity: "Position for q = (70, 20, 60, 0, 50, 100) deg, mm",
+        source: "eq. 3.22",
+        printed: "(271.6, 746.1, 955.7)",
+        ours: point(&wrist, 1),
+        agrees: (wrist.position / MM - Vector3::new(271.6, 746.1, 955.7)).norm() < 0.1,
+        reason: "Position and approach agree with d6 = 0, the wrist point; the printed n and s columns \
+                 have the opposite sign of what eq. 3.5 gives.",
+    })
+}
 
-    let solutions =
-        inverse::inverse(&rx90(85.0 * MM)?, &forward::forward(&rx90(85.0 * MM)?, &q), &Joints::zeros())?;
-    let reason = "Two wrists, two elbows and two shoulders: the conclusions count 6, Table 3.3 shows 2, and heads the column of theta6 with theta5.";
-    row(
-        "Solutions of the inverse model for that pose",
-        "chapter 6",
-        "6",
-        solutions.iter().count().to_string(),
-        false,
-        reason,
-    );
+fn solutions() -> Result<ThesisRow, Error> {
+    let robot = rx90(85.0 * MM)?;
+    let tcp = forward::forward(&robot, &pose_of_eq_3_22());
+    let solutions = inverse::inverse(&robot, &tcp, &Joints::zeros())?;
+    Ok(ThesisRow {
+        quantity: "Solutions of the inverse model for that pose",
+        source: "chapter 6",
+        printed: "6",
+        ours: solutions.iter().count().to_string(),
+        agrees: false,
+        reason: "Two wrists, two elbows and two shoulders: the conclusions count 6, Table 3.3 shows 2, and \
+                 heads the column of theta6 with theta5.",
+    })
+}
 
+fn mean_force(report: &Report) -> ThesisRow {
     let force = report.mean_force();
-    let printed = nalgebra::Vector3::new(302.9372, 1071.9, 509.3078);
-    let reason = "Closed form; the printed digits carry the error of the thesis's step in angle.";
-    let ours = format!("({:.3}, {:.3}, {:.3})", force.x, force.y, force.z);
-    row(
-        "Mean cutting force, N",
-        "eq. 4.7",
-        "(302.9372, 1071.9, 509.3078)",
-        ours,
-        (force - printed).norm() < 1e-4 * force.norm(),
-        reason,
-    );
+    ThesisRow {
+        quantity: "Mean cutting force, N",
+        source: "eq. 4.7",
+        printed: "(302.9372, 1071.9, 509.3078)",
+        ours: format!("({:.3}, {:.3}, {:.3})", force.x, force.y, force.z),
+        agrees: (force - Vector3::new(302.9372, 1071.9, 509.3078)).norm() < 1e-4 * force.norm(),
+        reason: "Closed form; the printed digits carry the error of the thesis's step in angle.",
+    }
+}
 
+fn impulses() -> ThesisRow {
     let shaped = shaper::kind("zvd").map(|kind| (kind.impulses)(18.0, 0.1)).unwrap_or_default();
     let text: Vec<_> = shaped.iter().map(|i| format!("{:.4} at {:.4}", i.amplitude, i.time)).collect();
     let printed = [(0.3344, 0.0), (0.4877, 0.1754), (0.1778, 0.3508)];
-    let agrees = shaped.len() == 3
-        && shaped
-            .iter()
-            .zip(printed)
-            .all(|(i, (a, t))| (i.amplitude - a).abs() < 1e-4 && (i.time - t).abs() < 1e-4);
-    let reason =
-        "The text says 18 Hz, the numbers are those of 18 rad/s (2.9 Hz); at 18 Hz the shaper lasts 0.056 s.";
-    row(
-        "ZVD impulses and their times in s",
-        "eq. 4.15",
-        "0.3344 at 0, 0.4877 at 0.1754, 0.1778 at 0.3508",
-        text.join(", "),
-        agrees,
-        reason,
-    );
-
-    let mut worst = 0.0_f64;
-    let mut radii = (f64::INFINITY, 0.0_f64);
-    for ([q1, q2, q3, q5], printed) in TABLE_5_1 {
-        let tip = forward::forward(&rx90(0.0)?, &Joints::from([q1, q2, q3, 0.0, q5, 0.0])).position / MM;
-        let printed = nalgebra::Vector3::from(printed);
-        worst = worst.max((tip - printed).norm());
-        radii = (radii.0.min(printed.norm()), radii.1.max(printed.norm()));
+    let same =
+        |(i, (a, t)): (&Impulse, (f64, f64))| (i.amplitude - a).abs() < 1e-4 && (i.time - t).abs() < 1e-4;
+    ThesisRow {
+        quantity: "ZVD impulses and their times in s",
+        source: "eq. 4.15",
+        printed: "0.3344 at 0, 0.4877 at 0.1754, 0.1778 at 0.3508",
+        ours: text.join(", "),
+        agrees: shaped.len() == 3 && shaped.iter().zip(printed).all(same),
+        reason: "The text says 18 Hz, the numbers are those of 18 rad/s (2.9 Hz); at 18 Hz the shaper lasts \
+                 0.056 s.",
     }
-    let reason = "With d6 = 0: the wrist point stands for the tip there.";
-    row(
-        "Points from the joint angles, largest difference in mm",
-        "Table 5.1",
-        "0",
-        format!("{worst:.3}"),
-        worst < 0.06,
-        reason,
-    );
-    let reason = "The points of Table 5.1 lie on a circle of 500 mm about the base, not on the 300 mm that the text states.";
-    row(
-        "Radius of the circle, mm",
-        "section 5.2",
-        "300",
-        format!("{:.1} to {:.1}", radii.0, radii.1),
-        false,
-        reason,
-    );
+}
 
-    let deflection = Statistics::from(report.deflection_only.statistics);
-    let reason = "J C J^T of the thesis's own tables gives 1.5 to 2 times less; eq. 3.34 is off by one joint for modified Denavit-Hartenberg frames, which explains most of it. Also d6 and the circle's radius differ between text and tables.";
-    row(
-        "Contour error by cutting forces, mean and max, mm",
-        "Fig. 5.8",
-        "1.6 and 2.5",
-        mean_max(deflection),
-        false,
-        reason,
-    );
+fn points() -> Result<ThesisRow, Error> {
+    let robot = rx90(0.0)?;
+    let differences = TABLE_5_1.map(|([q1, q2, q3, q5], printed)| {
+        let tip = forward::forward(&robot, &Joints::from([q1, q2, q3, 0.0, q5, 0.0])).position / MM;
+        (tip - Vector3::from(printed)).norm()
+    });
+    let worst = differences.into_iter().fold(0.0, f64::max);
+    Ok(ThesisRow {
+        quantity: "Points from the joint angles, largest difference in mm",
+        source: "Table 5.1",
+        printed: "0",
+        ours: format!("{worst:.3}"),
+        agrees: worst < 0.06,
+        reason: "With d6 = 0: the wrist point stands for the tip there.",
+    })
+}
 
+fn radius() -> ThesisRow {
+    let radii = TABLE_5_1.map(|(_, printed)| Vector3::from(printed).norm());
+    let smallest = radii.into_iter().fold(f64::INFINITY, f64::min);
+    let largest = radii.into_iter().fold(0.0, f64::max);
+    ThesisRow {
+        quantity: "Radius of the circle, mm",
+        source: "section 5.2",
+        printed: "300",
+        ours: format!("{smallest:.1} to {largest:.1}"),
+        agrees: false,
+        reason: "The points of Table 5.1 lie on a circle of 500 mm about the base, not on the 300 mm that \
+                 the text states.",
+    }
+}
+
+fn errors_by_force(report: &Report) -> ThesisRow {
+    ThesisRow {
+        quantity: "Contour error by cutting forces, mean and max, mm",
+        source: "Fig. 5.8",
+        printed: "1.6 and 2.5",
+        ours: mean_max(report.deflection_only.statistics.into()),
+        agrees: false,
+        reason: "J C J^T of the thesis's own tables gives 1.5 to 2 times less; eq. 3.34 is off by one joint \
+                 for modified Denavit-Hartenberg frames, which explains most of it. Also d6 and the circle's \
+                 radius differ between text and tables.",
+    }
+}
+
+fn errors_by_shaper(report: &Report) -> ThesisRow {
     let shaping = Statistics::from(report.shaping_only.statistics);
-    let agrees = (shaping.mean - 0.1).abs() < 0.005 && (shaping.max - 0.16).abs() < 0.005;
-    let reason = "The mean agrees to the digit that is printed. The maximum comes out at 0.18 mm whatever the sample time; the figure's data are lost.";
-    row(
-        "Contour error by the ZVD shaper, mean and max, mm",
-        "Fig. 5.9",
-        "0.1 and 0.16",
-        mean_max(shaping),
-        agrees,
-        reason,
-    );
+    ThesisRow {
+        quantity: "Contour error by the ZVD shaper, mean and max, mm",
+        source: "Fig. 5.9",
+        printed: "0.1 and 0.16",
+        ours: mean_max(shaping),
+        agrees: (shaping.mean - 0.1).abs() < 0.005 && (shaping.max - 0.16).abs() < 0.005,
+        reason: "The mean agrees to the digit that is printed. The maximum comes out at 0.18 mm whatever the \
+                 sample time; the figure's data are lost.",
+    }
+}
 
+fn error_after(report: &Report) -> ThesisRow {
     let after = Statistics::from(report.after.statistics);
-    let reason = "The correction is filed under the command that causes the error; filed under the time index it stays at 0.02 mm.";
-    row(
-        "Combined contour error after compensation, max, mm",
-        "Fig. 5.18",
-        "below 0.02",
-        format!("{:.4}", after.max),
-        after.max < 0.02,
-        reason,
-    );
+    ThesisRow {
+        quantity: "Combined contour error after compensation, max, mm",
+        source: "Fig. 5.18",
+        printed: "below 0.02",
+        ours: format!("{:.4}", after.max),
+        agrees: after.max < 0.02,
+        reason: "The correction is filed under the command that causes the error; filed under the time index \
+                 it stays at 0.02 mm.",
+    }
+}
 
-    let turn = report
-        .q
-        .iter()
-        .map(|q| q[0])
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), q| (low.min(q), high.max(q)));
-    let reason = "The circle runs all around the base: joint 1 turns once, beyond any RX-90's range of about +-160 deg. We compute it and warn.";
-    let turned = (turn.1 - turn.0) / DEG;
-    row(
-        "Turn of joint 1 along the circle, deg",
-        "Fig. 5.4",
-        "within the robot's range",
-        format!("{turned:.0}"),
-        turned < 320.0,
-        reason,
-    );
+fn turn_of_joint_1(report: &Report) -> ThesisRow {
+    let joint_1 = || report.q.iter().map(|q| q[0]);
+    let (low, high) = (joint_1().fold(f64::INFINITY, f64::min), joint_1().fold(f64::NEG_INFINITY, f64::max));
+    let turned = (high - low) / DEG;
+    ThesisRow {
+        quantity: "Turn of joint 1 along the circle, deg",
+        source: "Fig. 5.4",
+        printed: "within the robot's range",
+        ours: format!("{turned:.0}"),
+        agrees: turned < 320.0,
+        reason: "The circle runs all around the base: joint 1 turns once, beyond any RX-90's range of about \
+                 +-160 deg. We compute it and warn.",
+    }
+}
 
+fn feed_per_tooth(report: &Report) -> ThesisRow {
     let chip = report.setup().limits.feed / report.setup().teeth_per_second / MM;
-    let reason = "The feed of 100 mm/s at 4000 rpm and 4 flutes gives more than the chip that the forces were computed with. We keep 0.1 mm, as printed, and warn.";
-    row(
-        "Feed per tooth, mm",
-        "sections 4.2, 5.2",
-        "0.1",
-        format!("{chip:.3}"),
-        (chip - 0.1).abs() < 0.001,
-        reason,
-    );
-    Ok(rows)
+    ThesisRow {
+        quantity: "Feed per tooth, mm",
+        source: "sections 4.2, 5.2",
+        printed: "0.1",
+        ours: format!("{chip:.3}"),
+        agrees: (chip - 0.1).abs() < 0.001,
+        reason: "The feed of 100 mm/s at 4000 rpm and 4 flutes gives more than the chip that the forces were \
+                 computed with. We keep 0.1 mm, as printed, and warn.",
+    }
 }
 
 fn point(pose: &Pose, decimals: usize) -> String {

@@ -240,30 +240,12 @@ fn angle_of_sine(sine: f64) -> f64 {
     math::atan2(sine, (1.0 - sine * sine).max(0.0).sqrt())
 }
 
+/// What is odd about the cut.
 fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
-    let trajectory = &plan.trajectory;
-    let dt = trajectory.sample_time;
-    let cutting = || plan.path.moves().iter().filter(|step| step.pace != MovePace::Rapid);
-    let feed = |step: &Move| if let MovePace::Feed(feed) = step.pace { feed } else { setup.limits.feed };
-    if let ChipLoad::Fixed(c) = setup.chip {
-        let from_feed = |step: &Move| {
-            let teeth_per_second =
-                step.spindle.map_or(setup.teeth_per_second, |spindle| spindle * f64::from(setup.cut.flutes));
-            feed(step) / teeth_per_second
-        };
-        let off = |chip: f64| (c - chip).abs() / chip;
-        let worst = cutting().map(from_feed).max_by(|a, b| off(*a).total_cmp(&off(*b)));
-        if let Some(chip) = worst.filter(|chip| off(*chip) > 0.05) {
-            let message = format!(
-                "the feed per tooth of {} mm does not agree with feed and spindle speed, which give {:.3} mm",
-                c / MM,
-                chip / MM
-            );
-            warnings.push(Warning::new("chip-load", message));
-        }
-    }
+    warnings.extend(chip_load(setup, plan));
     if setup.cut.axial_depth > 0.0 && setup.cut.section() == 0.0 {
-        let message = "the tool does not reach the part: at this axial depth its corner is narrower than the gap the radial depth leaves";
+        let message = "the tool does not reach the part: at this axial depth its corner is narrower than the \
+                       gap the radial depth leaves";
         warnings.push(Warning::new("no-contact", message));
     }
     if matches!(setup.material.model, Model::Linear(_)) && setup.rake != 0.0 {
@@ -272,9 +254,46 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
         warnings.push(Warning::new("rake-unused", message));
     }
     if setup.cut.runout > 0.0 {
-        let message = "runout changes the force within a revolution and its peak; the mean force and the deviation of the path stay";
+        let message = "runout changes the force within a revolution and its peak; the mean force and the \
+                       deviation of the path stay";
         warnings.push(Warning::new("runout", message));
     }
+    warnings.extend(plunge(plan));
+    warnings.extend(centripetal(setup, plan));
+}
+
+/// The moves that cut.
+fn cutting_moves(plan: &Plan) -> impl Iterator<Item = &Move> {
+    plan.path.moves().iter().filter(|step| step.pace != MovePace::Rapid)
+}
+
+/// Feed of a move that cuts [m/s].
+fn feed(setup: &Setup, step: &Move) -> f64 {
+    if let MovePace::Feed(feed) = step.pace { feed } else { setup.limits.feed }
+}
+
+/// A stated feed per tooth that feed and spindle speed contradict.
+fn chip_load(setup: &Setup, plan: &Plan) -> Option<Warning> {
+    let ChipLoad::Fixed(c) = setup.chip else { return None };
+    let from_feed = |step: &Move| {
+        let teeth_per_second =
+            step.spindle.map_or(setup.teeth_per_second, |spindle| spindle * f64::from(setup.cut.flutes));
+        feed(setup, step) / teeth_per_second
+    };
+    let off = |chip: f64| (c - chip).abs() / chip;
+    let worst = cutting_moves(plan).map(from_feed).max_by(|a, b| off(*a).total_cmp(&off(*b)));
+    let chip = worst.filter(|chip| off(*chip) > 0.05)?;
+    let message = format!(
+        "the feed per tooth of {} mm does not agree with feed and spindle speed, which give {:.3} mm",
+        c / MM,
+        chip / MM
+    );
+    Some(Warning::new("chip-load", message))
+}
+
+/// A feed along the tool axis, which the force model does not know.
+fn plunge(plan: &Plan) -> Option<Warning> {
+    let trajectory = &plan.trajectory;
     // At rest in a corner the heading only turns.
     let sine = |k: usize| {
         if trajectory.timing.speed[k] == 0.0 && k > 0 && k + 1 < trajectory.moving {
@@ -285,26 +304,28 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
         along.abs()
     };
     let steep = math::sin(RAMP);
-    if let Some(range) = range(trajectory.len(), |k| sine(k) > steep) {
-        let steepest = angle_of_sine((0..trajectory.len()).map(sine).fold(0.0, f64::max)) / DEG;
-        let message = format!(
-            "the tool climbs or dives at up to {steepest:.0} deg; the force model takes the cut across the tool axis only and knows no plunging"
-        );
-        warnings.push(Warning::new("plunge", message).within(range, dt));
-    }
-    let across = |step: &Move| feed(step) * feed(step) * step.segment.curvature();
-    if let Some(step) = cutting().max_by(|a, b| across(a).total_cmp(&across(b)))
-        && across(step) > setup.limits.acceleration
-    {
-        let message = format!(
-            "at {:.1} mm/s an arc of radius {:.2} mm takes {:.0} mm/s² across the path, more than the {:.0} mm/s² along it",
-            feed(step) / MM,
-            1.0 / step.segment.curvature() / MM,
-            across(step) / MM,
-            setup.limits.acceleration / MM
-        );
-        warnings.push(Warning::new("centripetal", message));
-    }
+    let range = range(trajectory.len(), |k| sine(k) > steep)?;
+    let steepest = angle_of_sine((0..trajectory.len()).map(sine).fold(0.0, f64::max)) / DEG;
+    let message = format!(
+        "the tool climbs or dives at up to {steepest:.0} deg; the force model takes the cut across the tool \
+         axis only and knows no plunging"
+    );
+    Some(Warning::new("plunge", message).within(range, trajectory.sample_time))
+}
+
+/// An arc that takes more acceleration across the path than the motion has along it.
+fn centripetal(setup: &Setup, plan: &Plan) -> Option<Warning> {
+    let across = |step: &Move| feed(setup, step) * feed(setup, step) * step.segment.curvature();
+    let step = cutting_moves(plan).max_by(|a, b| across(a).total_cmp(&across(b)))?;
+    let message = format!(
+        "at {:.1} mm/s an arc of radius {:.2} mm takes {:.0} mm/s² across the path, more than the {:.0} mm/s² \
+         along it",
+        feed(setup, step) / MM,
+        1.0 / step.segment.curvature() / MM,
+        across(step) / MM,
+        setup.limits.acceleration / MM
+    );
+    (across(step) > setup.limits.acceleration).then(|| Warning::new("centripetal", message))
 }
 
 /// The cut asks for more than the spindle has.
