@@ -93,6 +93,27 @@ pub enum Error {
 }
 
 impl Error {
+    /// A value that is legal by itself but not here: its JSON path, the value as given, and what would be legal.
+    pub fn invalid(field: impl Into<String>, value: impl ToString, expected: impl Into<String>) -> Error {
+        Error::Invalid { field: field.into(), value: value.to_string(), expected: expected.into() }
+    }
+
+    /// A key that this kind of job needs: its JSON path and why it is needed.
+    pub fn missing(field: impl Into<String>, expected: impl Into<String>) -> Error {
+        Error::Missing { field: field.into(), expected: expected.into() }
+    }
+
+    /// A word that is none of `names`; `known` introduces the list of them in the message, as in "the charts are".
+    pub fn unknown_name<'a>(
+        field: impl Into<String>,
+        given: &str,
+        known: &str,
+        names: impl IntoIterator<Item = &'a str>,
+    ) -> Error {
+        let names: Vec<_> = names.into_iter().collect();
+        Error::invalid(field, format!("\"{given}\""), format!("{known} {}", names.join(", ")))
+    }
+
     /// Goes on only in a build with the feature `full`. In the other the compiler then sees that what follows is never reached, and
     /// leaves it out: this is how the core that the page starts with stays small.
     ///
