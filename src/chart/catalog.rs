@@ -89,7 +89,8 @@ pub fn chart(report: &Report, name: &str, options: &Options) -> Result<Chart, Er
     Error::unless_full("drawing a chart")?;
     let content = content(report, name, options.units)?;
     let title = CATALOG.iter().find(|entry| entry.name == name).map_or("", |entry| entry.title);
-    content.draw(name, title, options).map_err(|expected| refused(name, expected))
+    let refused = |expected| Error::invalid("chart", format!("\"{name}\""), expected);
+    content.draw(name, title, options).map_err(refused)
 }
 
 /// The values that the chart `name` shows, every sample of them: what stands along its first axis (in space: the time), then each
@@ -100,10 +101,6 @@ pub fn chart(report: &Report, name: &str, options: &Options) -> Result<Chart, Er
 pub fn data(report: &Report, name: &str, units: Units) -> Result<Vec<Column>, Error> {
     Error::unless_full("the values of a chart")?;
     Ok(content(report, name, units)?.columns())
-}
-
-fn refused(name: &str, expected: String) -> Error {
-    Error::Invalid { field: "chart".into(), value: format!("\"{name}\""), expected }
 }
 
 fn content(report: &Report, name: &str, units: Units) -> Result<Content, Error> {
@@ -146,8 +143,8 @@ fn content(report: &Report, name: &str, units: Units) -> Result<Content, Error> 
         _ => match name.strip_prefix("joint-").and_then(|joint| joint.parse::<usize>().ok()) {
             Some(joint @ 1..=6) => sheet.shaped_joint(joint - 1),
             _ => {
-                let names: Vec<_> = CATALOG.iter().map(|entry| entry.name).collect();
-                return Err(refused(name, format!("the charts are {}", names.join(", "))));
+                let names = CATALOG.iter().map(|entry| entry.name);
+                return Err(Error::unknown_name("chart", name, "the charts are", names));
             }
         },
     };

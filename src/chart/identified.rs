@@ -30,11 +30,7 @@ impl Identified<'_> {
             Identified::Response(..) => ("response", "Measured response and fitted vibration"),
         };
         let drawn = self.content(options.units).draw(name, title, options);
-        drawn.map_err(|expected| Error::Invalid {
-            field: "chart".into(),
-            value: format!("\"{name}\""),
-            expected,
-        })
+        drawn.map_err(|expected| Error::invalid("chart", format!("\"{name}\""), expected))
     }
 
     /// The values drawn.

@@ -267,11 +267,8 @@ fn wrist_turns(robot: &Robot, g: &Geometry, m: &Matrix3<f64>, near: &Joints) -> 
 
 /// The pose is within reach, but rounding keeps every branch from it.
 pub(crate) fn unclosed(tcp: &Pose) -> Error {
-    Error::Invalid {
-        field: "path".into(),
-        value: place_mm(tcp),
-        expected: "no solution of the inverse model closes there; move the path a little".into(),
-    }
+    let expected = "no solution of the inverse model closes there; move the path a little";
+    Error::invalid("path", place_mm(tcp), expected)
 }
 
 /// A place in words.

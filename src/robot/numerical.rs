@@ -44,13 +44,10 @@ pub(crate) fn solutions(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solu
         }
     }
     if found.iter().next().is_none() {
-        return Err(Error::Invalid {
-            field: "path".into(),
-            value: place_mm(tcp),
-            expected: format!(
-                "no joint values were found that put the tool there with this axis (numerical inverse, {STARTS} starting points); move or turn the path"
-            ),
-        });
+        let expected = format!(
+            "no joint values were found that put the tool there with this axis (numerical inverse, {STARTS} starting points); move or turn the path"
+        );
+        return Err(Error::invalid("path", place_mm(tcp), expected));
     }
     Ok(found)
 }
