@@ -67,11 +67,8 @@ impl Convention {
     /// [`Error::Invalid`] with the keys there are.
     pub fn of(id: &str) -> Result<Self, Error> {
         let found = Self::ALL.iter().find(|(key, _)| *key == id);
-        found.map(|(_, convention)| *convention).ok_or_else(|| Error::Invalid {
-            field: "convention".into(),
-            value: format!("\"{id}\""),
-            expected: format!("legal are {}", Self::ALL.map(|(key, _)| key).join(", ")),
-        })
+        let refused = || Error::unknown_name("convention", id, "legal are", Self::ALL.map(|(key, _)| key));
+        found.map(|(_, convention)| *convention).ok_or_else(refused)
     }
 
     /// Whether rows so counted can be meant for the robot.
@@ -80,11 +77,8 @@ impl Convention {
     /// [`Error::Invalid`] if the robot itself counts joint 3 from the base: it would be turned twice.
     pub fn suits(self, robot: &Robot) -> Result<(), Error> {
         if self == Convention::CoupledJ3 && robot.elbow() != Elbow::Serial {
-            return Err(Error::Invalid {
-                field: "convention".into(),
-                value: "\"coupled-j3\"".into(),
-                expected: "table: this robot's own joint 3 is counted from the base already".into(),
-            });
+            let expected = "table: this robot's own joint 3 is counted from the base already";
+            return Err(Error::invalid("convention", "\"coupled-j3\"", expected));
         }
         Ok(())
     }

@@ -137,7 +137,8 @@ pub fn mode(signal: &Signal, from: Option<f64>) -> Result<Mode, Error> {
     };
     let ringing = all.part(start, all.len());
     let guess = extrema::guess(&ringing).ok_or_else(|| {
-        refused(
+        Error::invalid(
+            FIELD,
             format!("{} samples from {:.4} s on", ringing.len(), signal.time.get(start).unwrap_or(&f64::NAN)),
             "nothing rings there for a cycle and a half: the response after a step or a blow, until it has died down",
         )
@@ -146,7 +147,8 @@ pub fn mode(signal: &Signal, from: Option<f64>) -> Result<Mode, Error> {
     let seen_by = |cycle: f64, span: f64, samples: usize| samples as f64 * cycle / span;
     let span = ringing.span();
     if seen_by(cycle, span, ringing.len()) < FEW_SAMPLES.1 {
-        return Err(refused(
+        return Err(Error::invalid(
+            FIELD,
             format!("{:.1} samples a cycle", seen_by(cycle, span, ringing.len())),
             "sampled too slowly to tell the frequency: ten samples a cycle or more",
         ));
@@ -170,7 +172,8 @@ pub fn mode(signal: &Signal, from: Option<f64>) -> Result<Mode, Error> {
         other = Some(Other { frequency, damping, share: second.amplitude() / decay.amplitude() });
     }
     if decay.rate <= 0.0 {
-        return Err(refused("a vibration that grows".into(), "a free decay, from the step or blow on"));
+        let expected = "a free decay, from the step or blow on";
+        return Err(Error::invalid(FIELD, "a vibration that grows", expected));
     }
     let left: f64 = rest.iter().map(|r| r * r).sum();
     let freedom = part.len().saturating_sub(if other.is_some() { 10 } else { 5 });
@@ -273,8 +276,4 @@ fn remarks(mode: &Mode, rest: &[f64], explained_by_one: f64) -> Vec<(&'static st
         say("not-converged", format!("the fit did not come to rest in {} passes", mode.passes.0));
     }
     remarks
-}
-
-fn refused(value: String, expected: &str) -> Error {
-    Error::Invalid { field: FIELD.into(), value, expected: expected.into() }
 }

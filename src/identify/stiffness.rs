@@ -15,6 +15,8 @@ use crate::identify::{nnls, student};
 use crate::robot::{Robot, jacobian::spring_jacobian};
 use nalgebra::{Matrix6, Vector6};
 
+/// JSON path of the measurements, for errors.
+const FIELD: &str = "measurements";
 /// A direction is unseen where its singular value is below this share of the largest, columns scaled to unit length.
 const UNSEEN: f64 = 1e-5;
 /// A column shorter than this share of the longest moves the TCP by nothing but rounding.
@@ -156,7 +158,8 @@ pub fn fit(robot: &Robot, rows: &[Measurement]) -> Result<Fit, Error> {
     let equations: Vec<_> = rows.iter().map(|row| equations(robot, row)).collect();
     let count: usize = equations.iter().map(Vec::len).sum();
     if count <= 6 {
-        return Err(refused(
+        return Err(Error::invalid(
+            FIELD,
             format!("{} rows with {count} displacements", rows.len()),
             "six compliances and their uncertainty take seven or more measured displacements, better 60",
         ));
@@ -169,7 +172,8 @@ pub fn fit(robot: &Robot, rows: &[Measurement]) -> Result<Fit, Error> {
     }
     let longest = (0..6).map(|i| g[(i, i)].sqrt()).fold(0.0, f64::max);
     if !(longest > 0.0 && square > 0.0) {
-        return Err(refused("without load or without displacement".into(), "loads that move the TCP"));
+        let value = "without load or without displacement";
+        return Err(Error::invalid(FIELD, value, "loads that move the TCP"));
     }
     // What only rounding moves is not moved.
     for i in (0..6).filter(|&i| g[(i, i)].sqrt() <= IDLE * longest).collect::<Vec<_>>() {
@@ -211,10 +215,6 @@ pub fn fit(robot: &Robot, rows: &[Measurement]) -> Result<Fit, Error> {
         explained: 1.0 - left / square,
         condition: poses.condition(),
     })
-}
-
-fn refused(value: String, expected: &str) -> Error {
-    Error::Invalid { field: "measurements".into(), value, expected: expected.into() }
 }
 
 /// What the poses and loads can tell at all, whatever was measured.

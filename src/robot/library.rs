@@ -77,11 +77,8 @@ pub fn robot(id: &str) -> Result<Preset, Error> {
     let mut keys: Vec<_> = names().map(|[key, ..]| (strsim::jaro_winkler(id, key), key)).collect();
     keys.sort_by(|a, b| b.0.total_cmp(&a.0));
     let like: Vec<_> = keys.iter().take(3).map(|(_, key)| *key).collect();
-    Err(Error::Invalid {
-        field: "robot.preset".into(),
-        value: format!("\"{id}\""),
-        expected: format!("of the library's {} robots, {} are most like it", keys.len(), like.join(", ")),
-    })
+    let expected = format!("of the library's {} robots, {} are most like it", keys.len(), like.join(", "));
+    Err(Error::invalid("robot.preset", format!("\"{id}\""), expected))
 }
 
 /// Joint stiffness at [`RULE_PAYLOAD`] [Nm/rad]: geometric means of the measured values in `stiffness.csv`, each brought to that payload.

@@ -7,6 +7,7 @@
 use crate::error::Error;
 use crate::math::{self, Pose};
 use crate::robot::equilibrium::{Burden, equilibrium};
+use crate::units::{DEG, MM};
 use nalgebra::{Vector3, Vector6};
 
 /// Six joint values [rad].
@@ -120,40 +121,31 @@ impl Robot {
     ) -> Result<Self, Error> {
         for (i, &c) in compliance.iter().enumerate() {
             if !(c.is_finite() && c >= 0.0) {
-                return Err(Error::Invalid {
-                    field: format!("robot.joint_compliance_rad_per_nm[{i}]"),
-                    value: c.to_string(),
-                    expected: "a compliance is zero (rigid) or positive".into(),
-                });
+                let field = format!("robot.joint_compliance_rad_per_nm[{i}]");
+                return Err(Error::invalid(field, c, "a compliance is zero (rigid) or positive"));
             }
         }
         for (i, &(low, high)) in limits.iter().flatten().enumerate() {
             if !(low.is_finite() && high.is_finite() && low < high) {
-                return Err(Error::Invalid {
-                    field: format!("robot.joint_limits_deg[{i}]"),
-                    value: format!("[{}, {}]", low / crate::units::DEG, high / crate::units::DEG),
-                    expected: "a range is [lowest, highest] with the lowest first".into(),
-                });
+                let value = format!("[{}, {}]", low / DEG, high / DEG);
+                let expected = "a range is [lowest, highest] with the lowest first";
+                return Err(Error::invalid(format!("robot.joint_limits_deg[{i}]"), value, expected));
             }
         }
         for (i, link) in links.iter().enumerate() {
             for (key, value, unit) in [
-                ("alpha_deg", link.alpha, crate::units::DEG),
-                ("a_mm", link.a, crate::units::MM),
-                ("d_mm", link.d, crate::units::MM),
-                ("theta_offset_deg", link.theta_offset, crate::units::DEG),
+                ("alpha_deg", link.alpha, DEG),
+                ("a_mm", link.a, MM),
+                ("d_mm", link.d, MM),
+                ("theta_offset_deg", link.theta_offset, DEG),
             ] {
                 if !value.is_finite() {
-                    return Err(broken(i, key, value / unit, "a finite number is needed"));
+                    return Err(Error::invalid(cell(i, key), value / unit, "a finite number is needed"));
                 }
             }
             if link.sign.abs() != 1.0 {
-                return Err(broken(
-                    i,
-                    "joint_sign",
-                    link.sign,
-                    "a joint turns one way or the other: 1 or -1",
-                ));
+                let expected = "a joint turns one way or the other: 1 or -1";
+                return Err(Error::invalid(cell(i, "joint_sign"), link.sign, expected));
             }
         }
         Ok(Self {
@@ -184,11 +176,8 @@ impl Robot {
     /// [`Error::Invalid`] if axes 2 and 3 are not parallel: the forearm has no inclination of its own then.
     pub fn with_elbow(mut self, elbow: Elbow) -> Result<Self, Error> {
         if elbow != Elbow::Serial && quarter_turns(self.links[2].alpha).is_none_or(|turns| turns % 2 != 0) {
-            return Err(Error::Invalid {
-                field: "robot.joint_3".into(),
-                value: "counted from the base".into(),
-                expected: "axes 2 and 3 that are parallel: alpha of row 3 is 0 or 180".into(),
-            });
+            let expected = "axes 2 and 3 that are parallel: alpha of row 3 is 0 or 180";
+            return Err(Error::invalid("robot.joint_3", "counted from the base", expected));
         }
         self.elbow = elbow;
         Ok(self)
@@ -309,7 +298,7 @@ impl Geometry {
     fn of(links: &[Link; 6]) -> Result<Self, Error> {
         let turn = |i: usize, legal: [u8; 2], expected: &'static str| match quarter_turns(links[i].alpha) {
             Some(turns) if legal.contains(&turns) => Ok(if turns == legal[0] { 1.0 } else { -1.0 }),
-            _ => Err(broken(i, "alpha_deg", links[i].alpha / crate::units::DEG, expected)),
+            _ => Err(Error::invalid(cell(i, "alpha_deg"), links[i].alpha / DEG, expected)),
         };
         turn(0, [0, 2], "the closed form needs axis 1 vertical in the base frame: 0 or 180")?;
         let sin_1 = turn(1, [1, 3], "the closed form needs axes 1 and 2 at right angles: 90 or -90")?;
@@ -321,17 +310,17 @@ impl Geometry {
             if value.abs() > 1e-9 {
                 let expected =
                     "the closed form needs axes 4, 5 and 6 to meet in one point (spherical wrist): 0";
-                return Err(broken(i, key, value / crate::units::MM, expected));
+                return Err(Error::invalid(cell(i, key), value / MM, expected));
             }
         }
         // The wrist centre in frame 3 is (a_3, -d_4 sin(alpha_3), 0).
         let (along, across) = (links[3].a, -sin_3 * links[3].d);
         let fore = math::hypot(along, across);
         if links[2].a.abs() < 1e-6 {
-            return Err(broken(2, "a_mm", links[2].a / crate::units::MM, "the upper arm needs a length"));
+            return Err(Error::invalid(cell(2, "a_mm"), links[2].a / MM, "the upper arm needs a length"));
         }
         if fore < 1e-6 {
-            return Err(broken(3, "d_mm", links[3].d / crate::units::MM, "the forearm needs a length"));
+            return Err(Error::invalid(cell(3, "d_mm"), links[3].d / MM, "the forearm needs a length"));
         }
         Ok(Self {
             sin_1,
@@ -346,10 +335,7 @@ impl Geometry {
     }
 }
 
-fn broken(row: usize, key: &str, value: f64, expected: &str) -> Error {
-    Error::Invalid {
-        field: format!("robot.modified_dh[{row}].{key}"),
-        value: format!("{value}"),
-        expected: expected.into(),
-    }
+/// JSON path of a number of the modified DH table.
+fn cell(row: usize, key: &str) -> String {
+    format!("robot.modified_dh[{row}].{key}")
 }

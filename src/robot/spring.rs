@@ -21,24 +21,21 @@ impl Spring {
     /// # Errors
     /// [`Error::Invalid`] naming `field` and the point if there is none, a torque does not rise from above 0, or a turn falls.
     pub fn through(field: &str, points: Vec<(f64, f64)>) -> Result<Self, Error> {
-        let wrong = |value: String, expected: &str| Error::Invalid {
-            field: field.to_owned(),
-            value,
-            expected: expected.to_owned(),
-        };
         if points.is_empty() {
-            return Err(wrong("no point".into(), "a torque and its turn, at least once"));
+            return Err(Error::invalid(field, "no point", "a torque and its turn, at least once"));
         }
         let mut last = (0.0, 0.0);
         for &(torque, turn) in &points {
             if !(torque.is_finite() && torque > last.0) {
-                return Err(wrong(
+                return Err(Error::invalid(
+                    field,
                     format!("torque {torque} N m after {} N m", last.0),
                     "torques of a joint rise from row to row, from above 0",
                 ));
             }
             if !(turn.is_finite() && turn >= last.1) {
-                return Err(wrong(
+                return Err(Error::invalid(
+                    field,
                     format!("turn {turn} rad after {} rad", last.1),
                     "a joint turns no less under more torque",
                 ));

@@ -1,6 +1,6 @@
 //! Options as JavaScript gives them: read into a type, refused with the key that is wrong.
 
-use crate::chart::{ForceUnit, Options, Units};
+use crate::chart::{self, ForceUnit, Units};
 use crate::error::Error;
 use crate::path::unit::LengthUnit;
 use crate::wasm::error::thrown;
@@ -65,9 +65,9 @@ pub(super) fn units(options: JsValue) -> Result<Units, JsValue> {
 }
 
 /// Reads `ChartOptions`.
-pub(super) fn chart(options: JsValue) -> Result<Options, JsValue> {
+pub(super) fn chart(options: JsValue) -> Result<chart::ChartOptions, JsValue> {
     let ChartOptions { width, height, x_range, y_range, hidden, length, force } = read(options)?;
-    Ok(Options { width, height, x_range, y_range, hidden, units: chosen(length, force) })
+    Ok(chart::ChartOptions { width, height, x_range, y_range, hidden, units: chosen(length, force) })
 }
 
 fn chosen(length: Length, force: Force) -> Units {

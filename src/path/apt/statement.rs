@@ -1,6 +1,7 @@
 //! Statements of an APT text: lines joined at `$`, comments cut at `$$`, a major word and what follows its slash.
 
 use crate::error::Error;
+use crate::path::draft::Fault;
 use std::str::Lines;
 
 /// Words whose text is for people or for the controller: the whole line is theirs, `$` included.
@@ -177,13 +178,9 @@ impl<'a> Iterator for Statements<'a> {
         }
         while goes_on {
             let Some((next, more)) = self.line() else {
-                return Some(Err(Error::Text {
-                    field: self.field.into(),
-                    line: place.line,
-                    column: place.text.chars().count() + 1,
-                    found: "the end of the text after $".into(),
-                    expected: "$ says that the statement goes on in the next line".into(),
-                }));
+                let end = (place.line, place.text.chars().count() + 1);
+                let expected = "$ says that the statement goes on in the next line";
+                return Some(Err(Fault::new("the end of the text after $", expected).at(self.field, end)));
             };
             (place, goes_on) = (next, more);
             if !slash && rest.is_empty() && place.text[place.byte..].starts_with('/') {
