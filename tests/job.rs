@@ -4,7 +4,7 @@
 
 mod common;
 
-use armill::job::fields::{Kind, fields};
+use armill::job::fields::{FieldKind, fields};
 use armill::{Error, Job};
 use common::{job_text, refused, run};
 use serde_json::{Value, json};
@@ -44,7 +44,7 @@ fn every_default_in_the_table_is_the_default_job_s() {
         let default = json!(field.default);
         let same = match (value, &default) {
             (Value::Number(a), Value::Number(b)) => a.as_f64() == b.as_f64(),
-            (Value::Array(a), Value::Array(b)) if field.kind == Kind::Vector => {
+            (Value::Array(a), Value::Array(b)) if field.kind == FieldKind::Vector => {
                 a.iter().map(Value::as_f64).eq(b.iter().map(Value::as_f64))
             }
             (a, b) => a == b,
@@ -60,15 +60,15 @@ fn every_number_is_checked_against_its_range() {
     let mut checked = 0;
     for field in fields() {
         let (Some(min), Some(max)) = (field.min, field.max) else { continue };
-        if !matches!(field.kind, Kind::Number | Kind::Integer) {
+        if !matches!(field.kind, FieldKind::Number | FieldKind::Integer) {
             continue;
         }
         let (section, key) = field.path.split_once('.').unwrap();
         for value in [min - min.abs().max(1.0), max + max.abs().max(1.0)] {
-            if field.kind == Kind::Integer && value < 0.0 {
+            if field.kind == FieldKind::Integer && value < 0.0 {
                 continue;
             }
-            let number = if field.kind == Kind::Integer { json!(value as u64) } else { json!(value) };
+            let number = if field.kind == FieldKind::Integer { json!(value as u64) } else { json!(value) };
             let mut given = match section {
                 "path" => path_of(field.when.as_ref().unwrap().is[0]),
                 "material" => json!({"ktc_n_mm2":1,"krc_n_mm2":1,"kac_n_mm2":1}),

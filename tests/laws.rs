@@ -55,7 +55,7 @@ fn no_depth_no_force_no_shaper_no_error() {
 #[test]
 fn amplitudes_add_up_to_one_and_times_ascend() {
     let mut random = fastrand::Rng::with_seed(11);
-    for kind in &shaper::KINDS {
+    for kind in &shaper::TYPES {
         for _ in 0..500 {
             let damping = between(&mut random, 0.0, kind.damping_max);
             let shaper = Shaper::new(kind, between(&mut random, 0.5, 500.0), damping);
@@ -158,7 +158,7 @@ fn shapers_leave_no_vibration_at_their_frequency() {
 fn residual_vibration_is_what_delayed_steps_leave_together() {
     let mut random = fastrand::Rng::with_seed(14);
     for _ in 0..300 {
-        let kind = &shaper::KINDS[random.usize(0..4)];
+        let kind = &shaper::TYPES[random.usize(0..4)];
         let shaper = Shaper::new(kind, between(&mut random, 5.0, 50.0), between(&mut random, 0.0, 0.25));
         let (w, z) = (between(&mut random, 5.0, 50.0), between(&mut random, 0.0, 0.5));
         let damped = w * f64::sqrt(1.0 - z * z);

@@ -7,7 +7,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 use super::chart::{Axis, AxisInfo, Band, Chart, ChartOptions, Legend, LinePlot, PlotArea, PlotSeries};
 use super::scale::{Scale, widened};
 use super::svg::{Canvas, FONT_SIZE, Layer, TENTHS};
-use super::trace::{Point, Window, lines};
+use super::trace::{SheetPoint, Window, lines};
 
 /// Room above the plot area, for the name of the y axis [SVG units].
 pub(super) const TOP: f64 = 26.0;
@@ -57,7 +57,7 @@ pub(super) fn window(area: &PlotArea) -> Window {
 }
 
 /// A chart whose size and scales are settled.
-pub(super) struct Frame {
+pub(super) struct PlotFrame {
     /// Width of the chart [SVG units].
     pub(super) width: u32,
     /// Height of the chart [SVG units].
@@ -72,7 +72,7 @@ pub(super) struct Frame {
     pub(super) full: [(f64, f64); 2],
 }
 
-impl Frame {
+impl PlotFrame {
     /// Draws bands, grid, curves and axes, in this order.
     pub(super) fn draw(&self, plot: &LinePlot, options: &ChartOptions) -> Result<Chart, String> {
         let LinePlot { caption, x, y, series, bands } = plot;
@@ -107,7 +107,7 @@ impl Frame {
     }
 
     /// Where a pair of values stands on the canvas; not a number where a scale has no place for it.
-    fn place(&self, x: f64, y: f64) -> Point {
+    fn place(&self, x: f64, y: f64) -> SheetPoint {
         let PlotArea { left, top, width, height } = self.area;
         (left + width * self.x.position(x), top + height * (1.0 - self.y.position(y)))
     }

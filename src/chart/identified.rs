@@ -10,24 +10,22 @@ use crate::identify::stiffness::{Fit, Residual};
 
 /// What can be drawn.
 #[derive(Debug, Clone, Copy)]
-pub enum Identified<'a> {
+pub enum Fitted<'a> {
     /// Displacement and residual, row by row.
     Stiffness(&'a Fit),
     /// Signal and fitted vibration over time.
     Response(&'a Signal, &'a Mode),
 }
 
-impl Identified<'_> {
+impl Fitted<'_> {
     /// Draws it.
     ///
     /// # Errors
     /// [`Error::Invalid`] for options that cannot be drawn.
     pub fn chart(&self, options: &ChartOptions) -> Result<Chart, Error> {
         let (name, title) = match self {
-            Identified::Stiffness(_) => {
-                ("stiffness", "Displacement of each row, and what the fit leaves of it")
-            }
-            Identified::Response(..) => ("response", "Measured response and fitted vibration"),
+            Fitted::Stiffness(_) => ("stiffness", "Displacement of each row, and what the fit leaves of it"),
+            Fitted::Response(..) => ("response", "Measured response and fitted vibration"),
         };
         let drawn = self.content(options.units).draw(name, title, options);
         drawn.map_err(|expected| Error::invalid("chart", format!("\"{name}\""), expected))
@@ -40,8 +38,8 @@ impl Identified<'_> {
 
     fn content(&self, units: Units) -> Content {
         match self {
-            Identified::Stiffness(fit) => stiffness(fit, units),
-            Identified::Response(signal, mode) => response(signal, mode),
+            Fitted::Stiffness(fit) => stiffness(fit, units),
+            Fitted::Response(signal, mode) => response(signal, mode),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Charts over two axes: curves, steps, marked points.
 
 use super::chart::{Axis, Band, Chart, ChartOptions, LinePlot, PlotArea, PlotSeries};
-use super::frame::{BOTTOM, Frame, TOP, size, valid};
+use super::frame::{BOTTOM, PlotFrame, TOP, size, valid};
 use super::scale::{Scale, extent, widened};
 use crate::math;
 
@@ -36,7 +36,7 @@ pub fn line_chart(plot: &LinePlot, options: &ChartOptions) -> Result<Chart, Stri
         |right: f64| Scale::new(x_range, x.log).with_ticks_across(f64::from(width) - left - right, x.whole);
     let right = (x_scale(12.0).label_width() / 2.0 + 2.0).max(12.0).ceil();
     let area = PlotArea { left, top: TOP, width: f64::from(width) - left - right, height: plot_height };
-    let frame = Frame { width, height, area, x: x_scale(right), y: y_scale, full: [full_x, full_y] };
+    let frame = PlotFrame { width, height, area, x: x_scale(right), y: y_scale, full: [full_x, full_y] };
     frame.draw(plot, options)
 }
 

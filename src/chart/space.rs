@@ -6,7 +6,7 @@ use super::chart::{Axis, AxisInfo, Caption, Chart, ChartOptions, Legend, PlotAre
 use super::frame::{TOP, equal_aspect, size, valid, window};
 use super::scale::{Tick, extent, linear_ticks, widened};
 use super::svg::{Canvas, FONT_SIZE, Layer, text_width};
-use super::trace::{Point, lines};
+use super::trace::{SheetPoint, lines};
 use crate::math;
 use crate::units::DEG;
 
@@ -72,14 +72,14 @@ pub fn space_chart(
     };
     let unit = options.units.length.name();
     let axis = Axis { label: "", unit, ..Axis::default() };
-    let shown: Vec<Point> = paths
+    let shown: Vec<SheetPoint> = paths
         .iter()
         .flat_map(|path| path.points.iter().copied())
         .chain(room.frame(&camera))
         .map(|point| camera.project(point))
         .collect();
     let whole =
-        |side: fn(&Point) -> f64| widened(extent(shown.iter().map(side), false).unwrap_or((0.0, 1.0)));
+        |side: fn(&SheetPoint) -> f64| widened(extent(shown.iter().map(side), false).unwrap_or((0.0, 1.0)));
     let full = equal_aspect(whole(|p| p.0), whole(|p| p.1), &plot);
     let range = |zoom: Option<(f64, f64)>, full| zoom.map_or(Ok(full), |range| valid(&axis, range));
     let (across, up) = equal_aspect(range(options.x_range, full.0)?, range(options.y_range, full.1)?, &plot);
@@ -139,7 +139,7 @@ impl Camera {
     }
 
     /// Right and up in the picture, in the unit of the point.
-    fn project(&self, point: [f64; 3]) -> Point {
+    fn project(&self, point: [f64; 3]) -> SheetPoint {
         let dot = |axis: [f64; 3]| axis[0] * point[0] + axis[1] * point[1] + axis[2] * point[2];
         (dot(self.right), dot(self.up))
     }
@@ -203,19 +203,19 @@ struct Scene {
     room: Room,
     plot: PlotArea,
     /// Upper left corner of the plot area in the picture [mm].
-    origin: Point,
+    origin: SheetPoint,
     /// SVG units in a millimetre.
     scale: f64,
 }
 
 impl Scene {
     /// Where a point in space stands on the canvas.
-    fn place(&self, point: [f64; 3]) -> Point {
+    fn place(&self, point: [f64; 3]) -> SheetPoint {
         let (u, v) = self.camera.project(point);
         (self.plot.left + (u - self.origin.0) * self.scale, self.plot.top + (self.origin.1 - v) * self.scale)
     }
 
-    fn lines(&self, canvas: &Canvas, points: impl Iterator<Item = Point>) -> Result<(), String> {
+    fn lines(&self, canvas: &Canvas, points: impl Iterator<Item = SheetPoint>) -> Result<(), String> {
         lines(points, window(&self.plot)).iter().try_for_each(|line| canvas.line(line))
     }
 
@@ -269,7 +269,7 @@ impl Scene {
         let (nx, ny) = (-dy * side, dx * side);
         // Ends on the border are inside whatever the rounding.
         let window = window(&self.plot).grown(0.1);
-        let label = |text: &str, at: Point, gap: f64| {
+        let label = |text: &str, at: SheetPoint, gap: f64| {
             let reach = gap + nx.abs() * text_width(text) / 2.0 + ny.abs() * FONT_SIZE / 2.0;
             canvas.text(text, (at.0 + nx * reach, at.1 + ny * reach), HPos::Center, VPos::Center)
         };
@@ -287,7 +287,7 @@ impl Scene {
             label(name, named, 8.0)?;
         }
         // The name keeps its place; ticks are labelled as far as there is room beside it and each other.
-        let mut last: Option<Point> = None;
+        let mut last: Option<SheetPoint> = None;
         for tick in self.ticks(axis) {
             let at = along(tick.value);
             if !window.contains(at) {
@@ -306,7 +306,7 @@ impl Scene {
     }
 }
 
-fn distance(a: Point, b: Point) -> f64 {
+fn distance(a: SheetPoint, b: SheetPoint) -> f64 {
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
     (dx * dx + dy * dy).sqrt()
 }

@@ -1,7 +1,7 @@
 //! From samples in the canvas's units to the few points worth drawing: gaps, reduction, clipping.
 
 /// A point on the canvas [SVG units, y down].
-pub(super) type Point = (f64, f64);
+pub(super) type SheetPoint = (f64, f64);
 
 /// Width of the columns to which dense curves are reduced [SVG units]: half a pixel.
 const COLUMN: f64 = 0.5;
@@ -21,7 +21,7 @@ pub(super) struct Window {
 
 impl Window {
     /// Whether the point lies inside or on the border.
-    pub(super) fn contains(&self, (x, y): Point) -> bool {
+    pub(super) fn contains(&self, (x, y): SheetPoint) -> bool {
         (self.left..=self.right).contains(&x) && (self.top..=self.bottom).contains(&y)
     }
 
@@ -32,7 +32,7 @@ impl Window {
     }
 
     /// The part of a segment that lies inside, after Liang and Barsky (ACM Transactions on Graphics 3(1), 1984).
-    fn clip(&self, a: Point, b: Point) -> Option<(Point, Point)> {
+    fn clip(&self, a: SheetPoint, b: SheetPoint) -> Option<(SheetPoint, SheetPoint)> {
         let (dx, dy) = (b.0 - a.0, b.1 - a.1);
         let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
         for (step, room) in
@@ -58,8 +58,8 @@ impl Window {
 
 /// The lines that show these samples in the window. A sample that is not finite leaves a gap. Peaks survive
 /// any reduction: a curve over a growing x keeps the extremes of every half pixel, a path in a plane its shape.
-pub(super) fn lines(samples: impl IntoIterator<Item = Point>, window: Window) -> Vec<Vec<Point>> {
-    let samples: Vec<Point> = samples.into_iter().collect();
+pub(super) fn lines(samples: impl IntoIterator<Item = SheetPoint>, window: Window) -> Vec<Vec<SheetPoint>> {
+    let samples: Vec<SheetPoint> = samples.into_iter().collect();
     samples
         .split(|(x, y)| !(x.is_finite() && y.is_finite()))
         .filter(|run| !run.is_empty())
@@ -72,14 +72,14 @@ pub(super) fn lines(samples: impl IntoIterator<Item = Point>, window: Window) ->
 }
 
 /// The samples of a growing x that stand in the window, and the next on either side.
-fn seen(run: &[Point], window: Window) -> &[Point] {
+fn seen(run: &[SheetPoint], window: Window) -> &[SheetPoint] {
     let from = run.partition_point(|p| p.0 < window.left).saturating_sub(1);
     let to = run.partition_point(|p| p.0 <= window.right) + 1;
     &run[from..to.clamp(from + 1, run.len())]
 }
 
 /// The first, lowest, highest and last sample of every column, in their order.
-fn column_extremes(run: &[Point]) -> Vec<Point> {
+fn column_extremes(run: &[SheetPoint]) -> Vec<SheetPoint> {
     run.chunk_by(|a, b| (a.0 / COLUMN).floor() == (b.0 / COLUMN).floor())
         .flat_map(|column| {
             let by_height = |a: &usize, b: &usize| column[*a].1.total_cmp(&column[*b].1);
@@ -94,8 +94,8 @@ fn column_extremes(run: &[Point]) -> Vec<Point> {
 }
 
 /// A path without the samples that crowd round the last one kept; its ends stay.
-fn spaced(run: &[Point]) -> Vec<Point> {
-    let mut kept: Vec<Point> = Vec::new();
+fn spaced(run: &[SheetPoint]) -> Vec<SheetPoint> {
+    let mut kept: Vec<SheetPoint> = Vec::new();
     for (i, &p) in run.iter().enumerate() {
         let near = kept.last().is_some_and(|k| {
             let (dx, dy) = (p.0 - k.0, p.1 - k.1);
@@ -109,7 +109,7 @@ fn spaced(run: &[Point]) -> Vec<Point> {
 }
 
 /// Without the points that a straight line passes anyway, after Douglas and Peucker (Cartographica 10(2), 1973).
-fn straightened(run: &[Point]) -> Vec<Point> {
+fn straightened(run: &[SheetPoint]) -> Vec<SheetPoint> {
     let mut keep = vec![false; run.len()];
     let mut open = vec![(0, run.len() - 1)];
     while let Some((first, last)) = open.pop() {
@@ -124,7 +124,7 @@ fn straightened(run: &[Point]) -> Vec<Point> {
 }
 
 /// From a point to the segment from a to b.
-fn squared_distance(p: Point, a: Point, b: Point) -> f64 {
+fn squared_distance(p: SheetPoint, a: SheetPoint, b: SheetPoint) -> f64 {
     let (ux, uy) = (b.0 - a.0, b.1 - a.1);
     let (vx, vy) = (p.0 - a.0, p.1 - a.1);
     let length = ux * ux + uy * uy;
@@ -134,11 +134,11 @@ fn squared_distance(p: Point, a: Point, b: Point) -> f64 {
 }
 
 /// The pieces of a line inside the window.
-fn clipped(run: &[Point], window: Window) -> Vec<Vec<Point>> {
+fn clipped(run: &[SheetPoint], window: Window) -> Vec<Vec<SheetPoint>> {
     if let [point] = run {
         return if window.contains(*point) { vec![vec![*point]] } else { vec![] };
     }
-    let mut pieces: Vec<Vec<Point>> = Vec::new();
+    let mut pieces: Vec<Vec<SheetPoint>> = Vec::new();
     for pair in run.windows(2) {
         let Some((a, b)) = window.clip(pair[0], pair[1]) else { continue };
         match pieces.last_mut() {

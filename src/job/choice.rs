@@ -14,7 +14,7 @@ pub enum Choice<W> {
 }
 
 /// The word of a [`Choice`].
-pub trait Word {
+pub trait Keyword {
     /// As written in the JSON.
     const WORD: &'static str;
 }
@@ -22,38 +22,38 @@ pub trait Word {
 /// `"settle"`: until the shaped command has settled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Settle;
-impl Word for Settle {
+impl Keyword for Settle {
     const WORD: &'static str = "settle";
 }
 /// `"from_feed"`: feed divided by the teeth that pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FromFeed;
-impl Word for FromFeed {
+impl Keyword for FromFeed {
     const WORD: &'static str = "from_feed";
 }
 
 /// `"ball"`: half the tool's diameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Ball;
-impl Word for Ball {
+impl Keyword for Ball {
     const WORD: &'static str = "ball";
 }
 /// `"mean"`: the cut's own mean thickness of chip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Mean;
-impl Word for Mean {
+impl Keyword for Mean {
     const WORD: &'static str = "mean";
 }
 
 /// `"unknown"`: not checked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Unknown;
-impl Word for Unknown {
+impl Keyword for Unknown {
     const WORD: &'static str = "unknown";
 }
 
 /// Time at rest in a corner [s], or `"settle"`.
-pub type Dwell = Choice<Settle>;
+pub type CornerDwell = Choice<Settle>;
 /// Feed per tooth [mm], or `"from_feed"`.
 pub type FeedPerTooth = Choice<FromFeed>;
 
@@ -77,7 +77,7 @@ impl<W> Choice<W> {
     }
 }
 
-impl<W: Word> Serialize for Choice<W> {
+impl<W: Keyword> Serialize for Choice<W> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Choice::Word => serializer.serialize_str(W::WORD),
@@ -86,7 +86,7 @@ impl<W: Word> Serialize for Choice<W> {
     }
 }
 
-impl<W: Word> Read for Choice<W> {
+impl<W: Keyword> Read for Choice<W> {
     fn read(&mut self, node: &Node) -> Result<(), Error> {
         let unexpected = || node.error(&format!("expected a number or \"{}\"", W::WORD));
         *self = match node.is_text() {

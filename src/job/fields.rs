@@ -8,7 +8,7 @@ mod block;
 use crate::error::Error;
 use crate::job::{DhRow, Job, Opw};
 use crate::robot::library::Preset;
-use block::Block;
+use block::FieldBlock;
 use serde::{Deserialize, Serialize, Serializer};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ const TEXT: &str = include_str!("fields.txt");
 /// How a value is entered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Kind {
+pub enum FieldKind {
     /// A number.
     Number,
     /// A whole number.
@@ -48,10 +48,10 @@ pub struct Field {
     /// Unit as printed.
     pub unit: &'static str,
     /// How it is entered.
-    pub kind: Kind,
+    pub kind: FieldKind,
     /// Words it accepts, with what is read for each; a number field takes them besides numbers.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub choices: Vec<Word>,
+    pub choices: Vec<ChoiceWord>,
     /// Smallest number it accepts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub min: Option<f64>,
@@ -104,7 +104,7 @@ fn plain<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> 
 
 /// A word that a field accepts.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Word {
+pub struct ChoiceWord {
     /// As in the JSON.
     pub value: &'static str,
     /// As read.
@@ -147,7 +147,7 @@ pub fn fields() -> Vec<Field> {
 /// The data file, read once.
 fn table() -> &'static [Field] {
     static TABLE: OnceLock<Vec<Field>> = OnceLock::new();
-    TABLE.get_or_init(|| block::blocks(TEXT).iter().filter_map(Block::field).collect())
+    TABLE.get_or_init(|| block::blocks(TEXT).iter().filter_map(FieldBlock::field).collect())
 }
 
 /// The job without its program's text, which may be megabytes long; that there is one stays.

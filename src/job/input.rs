@@ -1,7 +1,7 @@
 //! The job's keys, one to one as in the JSON. Values are as typed, not yet checked.
 
 use crate::error::Error;
-use crate::job::choice::{Choice, Dwell, choice};
+use crate::job::choice::{Choice, CornerDwell, choice};
 use crate::job::cutting::{Cutting, Material, Tool};
 use crate::job::json::{Node, Read, keys};
 use crate::job::path::{Path, PathKind};
@@ -249,7 +249,7 @@ pub struct Motion {
     /// A corner sharper than this is a full stop.
     pub corner_angle_deg: f64,
     /// Time at rest in such a corner.
-    pub corner_dwell: Dwell,
+    pub corner_dwell: CornerDwell,
 }
 
 impl Default for Motion {

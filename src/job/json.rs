@@ -20,13 +20,13 @@ pub(super) struct Node<'a> {
     /// The part of it that is this value.
     raw: &'a str,
     /// What this value is a part of, and which; nothing for the whole.
-    parent: Option<(&'a Node<'a>, Step<'a>)>,
+    parent: Option<(&'a Node<'a>, PathStep<'a>)>,
     /// The members of the whole, which is asked twice: a text of megabytes is scanned for them once.
     members: Option<Members<'a>>,
 }
 
 #[derive(Clone, Copy)]
-enum Step<'a> {
+enum PathStep<'a> {
     Key(&'a str),
     Index(usize),
 }
@@ -54,7 +54,7 @@ impl<'a> Node<'a> {
     pub(super) fn get<'s>(&'s self, key: &'s str) -> Result<Option<Node<'s>>, Error> {
         let Members::Object(members) = self.members(OBJECT)? else { return Ok(None) };
         let member = members.into_iter().find(|(name, _)| name == key);
-        Ok(member.map(|(_, raw)| self.member(Step::Key(key), raw)))
+        Ok(member.map(|(_, raw)| self.member(PathStep::Key(key), raw)))
     }
 
     /// This value as one of serde's own types.
@@ -91,7 +91,7 @@ impl<'a> Node<'a> {
             return Err(self.error("a list stands where an object with named keys belongs"));
         };
         for (k, (key, raw)) in members.iter().enumerate() {
-            let node = self.member(Step::Key(key), raw);
+            let node = self.member(PathStep::Key(key), raw);
             let Some(at) = keys.iter().position(|(name, _)| name == key) else {
                 return Err(node.unknown_key(key, keys));
             };
@@ -121,10 +121,10 @@ impl<'a> Node<'a> {
         let Members::List(members) = self.members(expected)? else {
             return Err(self.error(&format!("invalid type: map, expected {expected}")));
         };
-        Ok(members.into_iter().enumerate().map(|(k, raw)| self.member(Step::Index(k), raw)).collect())
+        Ok(members.into_iter().enumerate().map(|(k, raw)| self.member(PathStep::Index(k), raw)).collect())
     }
 
-    fn member<'s>(&'s self, step: Step<'s>, raw: &'s RawValue) -> Node<'s> {
+    fn member<'s>(&'s self, step: PathStep<'s>, raw: &'s RawValue) -> Node<'s> {
         Node { text: self.text, raw: raw.get(), parent: Some((self, step)), members: None }
     }
 
@@ -142,8 +142,8 @@ impl<'a> Node<'a> {
     pub(super) fn path(&self) -> String {
         match self.parent {
             None => String::new(),
-            Some((parent, Step::Index(index))) => format!("{}[{index}]", parent.path()),
-            Some((parent, Step::Key(key))) => join(&parent.path(), key),
+            Some((parent, PathStep::Index(index))) => format!("{}[{index}]", parent.path()),
+            Some((parent, PathStep::Key(key))) => join(&parent.path(), key),
         }
     }
 

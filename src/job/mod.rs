@@ -14,7 +14,7 @@ mod read;
 pub mod presets;
 pub mod fields;
 
-pub use choice::{ChipThickness, Choice, CornerRadius, Dwell, FeedPerTooth, SpindlePower};
+pub use choice::{ChipThickness, Choice, CornerDwell, CornerRadius, FeedPerTooth, SpindlePower};
 pub use cutting::{Cutting, Engaged, Line, Material, Tool, ToolBending};
 pub use input::{
     Branch, Compensation, DhRow, Elbow, Frame, Job, Joint3, Motion, Opw, Robot, SagZero, Shaper, ShaperKind,

@@ -16,7 +16,7 @@ pub struct Impulse {
 
 /// A kind of shaper: a pure function of frequency and damping with its range of validity.
 #[derive(Debug, Clone, Copy)]
-pub struct Kind {
+pub struct ShaperType {
     /// Key used in jobs.
     pub id: &'static str,
     /// Name as read.
@@ -33,26 +33,36 @@ pub struct Kind {
 /// Control 112 (1990); exact for any damping below 1 (limited to 0.9 here, beyond which nothing vibrates).
 /// EI: W. Singhose, W. Seering, N. Singer, Residual Vibration Reduction Using Vector Diagrams to Generate Shaped Inputs,
 /// ASME J. Mech. Des. 116 (1994), with the damped fit for 5 % residual vibration, given for damping up to 0.3.
-pub const KINDS: [Kind; 4] = [
-    Kind { id: "zv", name: "ZV (zero vibration)", damping_max: 0.9, impulses: |w, z| binomial(1, w, z) },
-    Kind {
+pub const TYPES: [ShaperType; 4] = [
+    ShaperType {
+        id: "zv",
+        name: "ZV (zero vibration)",
+        damping_max: 0.9,
+        impulses: |w, z| binomial(1, w, z),
+    },
+    ShaperType {
         id: "zvd",
         name: "ZVD (and its derivative)",
         damping_max: 0.9,
         impulses: |w, z| binomial(2, w, z),
     },
-    Kind {
+    ShaperType {
         id: "zvdd",
         name: "ZVDD (and two derivatives)",
         damping_max: 0.9,
         impulses: |w, z| binomial(3, w, z),
     },
-    Kind { id: "ei", name: "EI (extra-insensitive, 5 %)", damping_max: 0.3, impulses: extra_insensitive },
+    ShaperType {
+        id: "ei",
+        name: "EI (extra-insensitive, 5 %)",
+        damping_max: 0.3,
+        impulses: extra_insensitive,
+    },
 ];
 
 /// The kind with the key `id`.
-pub fn kind(id: &str) -> Option<&'static Kind> {
-    KINDS.iter().find(|kind| kind.id == id)
+pub fn kind(id: &str) -> Option<&'static ShaperType> {
+    TYPES.iter().find(|kind| kind.id == id)
 }
 
 /// Period of the damped vibration T_d [s] (below eq. 4.13).
@@ -116,7 +126,7 @@ impl Shaper {
     }
 
     /// A shaper of a kind, for a mode of the undamped natural frequency `frequency` [rad/s] and the damping ratio `damping`.
-    pub fn new(kind: &Kind, frequency: f64, damping: f64) -> Self {
+    pub fn new(kind: &ShaperType, frequency: f64, damping: f64) -> Self {
         Self { impulses: (kind.impulses)(frequency, damping) }
     }
 

@@ -9,7 +9,7 @@ pub mod axes;
 pub mod roll;
 pub mod program;
 pub mod unit;
-mod draft;
+mod builder;
 pub mod gcode;
 pub mod apt;
 pub mod csv;

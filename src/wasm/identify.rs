@@ -110,10 +110,10 @@ impl Identified {
 }
 
 impl Found {
-    fn drawn(&self) -> identified::Identified<'_> {
+    fn drawn(&self) -> identified::Fitted<'_> {
         match self {
-            Found::Stiffness(fit, _) => identified::Identified::Stiffness(fit),
-            Found::Response(signal, mode, _) => identified::Identified::Response(signal, mode),
+            Found::Stiffness(fit, _) => identified::Fitted::Stiffness(fit),
+            Found::Response(signal, mode, _) => identified::Fitted::Response(signal, mode),
         }
     }
 }

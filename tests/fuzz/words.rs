@@ -53,13 +53,13 @@ impl Words {
             1 => words.insert(at, one),
             2 => words.insert(at, old),
             3 => words.swap(at, other),
-            4 if kind(old) != Kind::Number => words[at] = one,
+            4 if kind(old) != FieldKind::Number => words[at] = one,
             _ => {
                 // A number at or behind this place.
                 let place = words
                     .iter()
                     .skip(at)
-                    .position(|word| kind(word) == Kind::Number)
+                    .position(|word| kind(word) == FieldKind::Number)
                     .map_or(at, |skip| at + skip);
                 tweaked = number(words[place], random);
                 words[place] = &tweaked;
@@ -99,17 +99,17 @@ fn number(old: &str, random: &mut Rng) -> String {
 }
 
 #[derive(PartialEq)]
-enum Kind {
+enum FieldKind {
     Name,
     Number,
     Other,
 }
 
-fn kind(word: &str) -> Kind {
+fn kind(word: &str) -> FieldKind {
     match word.chars().next() {
-        Some(c) if c.is_alphabetic() || c == '_' => Kind::Name,
-        Some(c) if c.is_ascii_digit() || c == '.' => Kind::Number,
-        _ => Kind::Other,
+        Some(c) if c.is_alphabetic() || c == '_' => FieldKind::Name,
+        Some(c) if c.is_ascii_digit() || c == '.' => FieldKind::Number,
+        _ => FieldKind::Other,
     }
 }
 
@@ -119,7 +119,7 @@ fn split(text: &str) -> Vec<&str> {
     let mut rest = text;
     while let Some(first) = rest.chars().next() {
         let length = match kind(rest) {
-            Kind::Other => first.len_utf8(),
+            FieldKind::Other => first.len_utf8(),
             run => rest.find(|c: char| kind(c.encode_utf8(&mut [0; 4])) != run).unwrap_or(rest.len()),
         };
         let (word, behind) = rest.split_at(length);

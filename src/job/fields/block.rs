@@ -1,20 +1,20 @@
 //! From the blocks of `fields.txt`, whose first lines say how they are written, to fields.
 
-use super::{DefaultValue, Field, When, Word, dh_rows, opw};
+use super::{ChoiceWord, DefaultValue, Field, When, dh_rows, opw};
 use crate::cutting::material::{self, Material};
 use crate::job::Job;
 use crate::robot::library;
 use std::collections::BTreeMap;
 
 /// A block of a table of fields: its first line, and the lines of each key.
-pub(super) struct Block {
+pub(super) struct FieldBlock {
     head: &'static str,
     keys: Vec<(&'static str, Vec<&'static str>)>,
 }
 
 /// The blocks of a text; lines that are empty or begin with # belong to none.
-pub(super) fn blocks(text: &'static str) -> Vec<Block> {
-    let mut blocks: Vec<Block> = Vec::new();
+pub(super) fn blocks(text: &'static str) -> Vec<FieldBlock> {
+    let mut blocks: Vec<FieldBlock> = Vec::new();
     for line in text.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
         let content = line.trim_start();
         match (line.len() - content.len(), blocks.last_mut()) {
@@ -27,13 +27,13 @@ pub(super) fn blocks(text: &'static str) -> Vec<Block> {
                 block.keys.last_mut().into_iter().for_each(|(_, lines)| lines.push(content));
             }
             // A line of another indent is the beginning of a block that is no field.
-            _ => blocks.push(Block { head: line, keys: Vec::new() }),
+            _ => blocks.push(FieldBlock { head: line, keys: Vec::new() }),
         }
     }
     blocks
 }
 
-impl Block {
+impl FieldBlock {
     /// The field; none if the block breaks the rules at the top of the file.
     pub(super) fn field(&self) -> Option<Field> {
         let (path, kind) = self.head.split_once(": ")?;
@@ -91,18 +91,18 @@ fn group(path: &'static str) -> &'static str {
 }
 
 /// The words that a field accepts; those of presets come from the libraries.
-fn words(path: &str, lines: &[&'static str]) -> Option<Vec<Word>> {
+fn words(path: &str, lines: &[&'static str]) -> Option<Vec<ChoiceWord>> {
     if lines != ["of the library"] {
         let words = lines.iter().flat_map(|line| line.trim_end_matches(';').split("; "));
-        let word = |(value, label): (_, &str)| Word { value, label: label.into(), heading: None };
+        let word = |(value, label): (_, &str)| ChoiceWord { value, label: label.into(), heading: None };
         return words.map(|text| text.split_once(" = ").map(word)).collect();
     }
-    let robot = |[value, maker, model]: [&'static str; 3]| Word {
+    let robot = |[value, maker, model]: [&'static str; 3]| ChoiceWord {
         value,
         label: format!("{maker} {model}"),
         heading: Some(maker),
     };
-    let material = |material: &Material| Word {
+    let material = |material: &Material| ChoiceWord {
         value: material.id,
         label: material.name.into(),
         heading: Some(material.model.heading()),
@@ -141,7 +141,7 @@ mod tests {
     use super::*;
     use crate::cutting::kienzle::{AXIAL, RADIAL};
     use crate::error::Error;
-    use crate::job::fields::{Kind, TEXT, table};
+    use crate::job::fields::{FieldKind, TEXT, table};
     use serde_json::{Value, json};
 
     fn field(path: &str) -> &'static Field {
@@ -216,22 +216,24 @@ mod tests {
     #[test]
     fn every_range_has_numbers_and_its_default() {
         for Field { path, kind, min, max, default, choices, .. } in table() {
-            let numeric = matches!(kind, Kind::Number | Kind::Integer | Kind::Vector);
+            let numeric = matches!(kind, FieldKind::Number | FieldKind::Integer | FieldKind::Vector);
             assert!(min.is_some() || !numeric, "{path} has no range");
             assert!(min.zip(*max).is_none_or(|(min, max)| min < max), "{path}");
             let inside = |value: &f64| min.zip(*max).is_none_or(|(min, max)| (min..=max).contains(value));
             let fits = match default {
-                DefaultValue::Number(value) => inside(value) && matches!(kind, Kind::Number | Kind::Integer),
-                DefaultValue::Numbers(values) => {
-                    values.iter().all(inside) && matches!(kind, Kind::Vector | Kind::Table)
+                DefaultValue::Number(value) => {
+                    inside(value) && matches!(kind, FieldKind::Number | FieldKind::Integer)
                 }
-                DefaultValue::Rows(rows) => rows.iter().flatten().all(inside) && *kind == Kind::Table,
-                DefaultValue::ModifiedDh(_) | DefaultValue::Opw(_) => *kind == Kind::Table,
-                DefaultValue::Text(_) if *kind == Kind::Text => choices.is_empty(),
+                DefaultValue::Numbers(values) => {
+                    values.iter().all(inside) && matches!(kind, FieldKind::Vector | FieldKind::Table)
+                }
+                DefaultValue::Rows(rows) => rows.iter().flatten().all(inside) && *kind == FieldKind::Table,
+                DefaultValue::ModifiedDh(_) | DefaultValue::Opw(_) => *kind == FieldKind::Table,
+                DefaultValue::Text(_) if *kind == FieldKind::Text => choices.is_empty(),
                 DefaultValue::Text(word) => choices.iter().any(|choice| choice.value == word),
                 DefaultValue::Words(words) => {
                     let known = |word| choices.iter().any(|choice| choice.value == word);
-                    words.iter().all(known) && *kind == Kind::Set
+                    words.iter().all(known) && *kind == FieldKind::Set
                 }
             };
             assert!(fits, "{path}: {default:?}");
@@ -241,11 +243,14 @@ mod tests {
     #[test]
     fn every_word_is_one_that_the_job_reads() {
         for Field { path, kind, choices, defaults, when, .. } in table() {
-            assert!(!choices.is_empty() || !matches!(kind, Kind::Choice | Kind::Set), "{path} has no words");
-            for (k, Word { value, label, .. }) in choices.iter().enumerate() {
+            assert!(
+                !choices.is_empty() || !matches!(kind, FieldKind::Choice | FieldKind::Set),
+                "{path} has no words"
+            );
+            for (k, ChoiceWord { value, label, .. }) in choices.iter().enumerate() {
                 assert!(choices[..k].iter().all(|other| other.value != *value), "{path}: {value} twice");
                 assert!(!label.is_empty(), "{path}: {value}");
-                let given = if *kind == Kind::Set { json!([value]) } else { json!(value) };
+                let given = if *kind == FieldKind::Set { json!([value]) } else { json!(value) };
                 // No shaper is a word instead of the section.
                 let none = *path == "shaper.kind" && *value == "none";
                 assert!(none || is_read(path, &given), "{path}: {value}");

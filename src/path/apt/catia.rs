@@ -3,7 +3,7 @@
 use super::reader::Reader;
 use super::statement::{Statement, Token};
 use crate::error::Error;
-use crate::path::draft::{self, Circle};
+use crate::path::builder::{self, Circle};
 use nalgebra::Vector3;
 
 /// How far a start direction may lie off the circle's tangent (sine of the angle): CAM systems round it.
@@ -37,14 +37,14 @@ impl<'a> Reader<'a> {
                 "INDIRV/i,j,k before it says which way it runs",
             ));
         };
-        let Some((from, tool_axis)) = self.draft.pose else {
+        let Some((from, tool_axis)) = self.builder.pose else {
             return Err(self.error(
                 &place,
                 "an arc before any point",
                 "an arc starts at the point before it",
             ));
         };
-        let (ahead, _) = draft::unit(ahead).map_err(|fault| fault.at(self.field, said.position()))?;
+        let (ahead, _) = builder::unit(ahead).map_err(|fault| fault.at(self.field, said.position()))?;
         let center = self.point_of(&[xc, circle[1], circle[2]])?;
         let end = self.point_of(&[line[3], line[4], z])?;
         let radius = self.radius(&r)?;
@@ -59,7 +59,7 @@ impl<'a> Reader<'a> {
         }
         let axis = if turn > 0.0 { Vector3::z() } else { -Vector3::z() };
         let target = self.target(&place, end, tool_axis)?;
-        self.draft
+        self.builder
             .arc_to(Circle { center, axis, radius, sweep: None }, target)
             .map_err(|fault| fault.at(self.field, place.position()))
     }

@@ -1,9 +1,9 @@
 //! Statements that move the tool: GOTO, FROM, CIRCLE, MOVARC.
 
 use super::reader::{Feed, Reader};
-use super::statement::{Place, Statement};
+use super::statement::{Statement, TextPlace};
 use crate::error::Error;
-use crate::path::draft::{self, Circle, Target};
+use crate::path::builder::{self, Circle, Target};
 use crate::path::program::MovePace;
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
@@ -20,13 +20,13 @@ impl<'a> Reader<'a> {
 
     pub(super) fn go(&mut self, statement: &Statement<'a>, made: Option<Circle>) -> Result<(), Error> {
         let place = statement.place;
-        let before = self.draft.pose;
+        let before = self.builder.pose;
         let (point, axis) = self.point_and_axis(statement)?;
         let target = self.target(&place, point, axis)?;
         let done = match self.circle.take() {
             Some((circle, _)) => {
                 self.made = Some(circle);
-                self.draft.arc_to(circle, target)
+                self.builder.arc_to(circle, target)
             }
             None => {
                 if let (Some(circle), Some((from, _))) = (made, before)
@@ -34,12 +34,12 @@ impl<'a> Reader<'a> {
                     && circle.passes(&from)
                     && circle.passes(&point)
                 {
-                    self.draft.remark("chord", place.line, || {
+                    self.builder.remark("chord", place.line, || {
                         "a straight move between two points of the arc before it: if the CAM system writes several points to a CIRCLE, \
                          let it write the end only".into()
                     });
                 }
-                self.draft.line_to(target)
+                self.builder.line_to(target)
             }
         };
         done.map_err(|fault| fault.at(self.field, place.position()))
@@ -48,7 +48,7 @@ impl<'a> Reader<'a> {
     /// Where a move at `place` goes, and how as things stand; this uses up a RAPID.
     pub(super) fn target(
         &mut self,
-        place: &Place<'_>,
+        place: &TextPlace<'_>,
         point: Vector3<f64>,
         axis: Vector3<f64>,
     ) -> Result<Target, Error> {
@@ -57,19 +57,19 @@ impl<'a> Reader<'a> {
             let expected = "where home lies is not said: write RAPID and the GOTO that it means";
             return Err(self.error(place, found, expected));
         }
-        let pace = if self.draft.pose.is_some() { self.pace(place)? } else { MovePace::JobFeed };
+        let pace = if self.builder.pose.is_some() { self.pace(place)? } else { MovePace::JobFeed };
         self.rapid = false;
         let spindle = self.speed.filter(|_| self.spinning);
         Ok(Target { point, axis, pace, spindle, line: place.line })
     }
 
     /// The pace of the move that stands at `place`.
-    fn pace(&mut self, place: &Place<'_>) -> Result<MovePace, Error> {
+    fn pace(&mut self, place: &TextPlace<'_>) -> Result<MovePace, Error> {
         if self.rapid {
             return Ok(MovePace::Rapid);
         }
         if self.speed.is_some() && !self.spinning {
-            self.draft.remark("spindle-stopped", place.line, || {
+            self.builder.remark("spindle-stopped", place.line, || {
                 "a feed move while the spindle stands still".into()
             });
         }
@@ -83,20 +83,20 @@ impl<'a> Reader<'a> {
                 }
             },
             None => {
-                self.draft
+                self.builder
                     .remark("feed-missing", place.line, || "no FEDRAT yet: the job's feed is used".into());
                 return Ok(MovePace::JobFeed);
             }
         };
-        draft::feed(feed).map(MovePace::Feed).map_err(|fault| fault.at(self.field, place.position()))
+        builder::feed(feed).map(MovePace::Feed).map_err(|fault| fault.at(self.field, place.position()))
     }
 
     pub(super) fn start(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
         self.no_circle_waits()?;
         let (point, axis) = self.point_and_axis(statement)?;
         let place = statement.place;
-        match self.draft.pose {
-            None => self.draft.pose = Some((point, axis)),
+        match self.builder.pose {
+            None => self.builder.pose = Some((point, axis)),
             Some((from, _)) if (from - point).norm() <= 1e-3 * MM => {}
             Some(_) => {
                 let expected = "FROM says where the path starts: write RAPID and GOTO to go on elsewhere";
@@ -133,7 +133,7 @@ impl<'a> Reader<'a> {
         let numbers: Vec<f64> = values.iter().map(|token| self.number(token)).collect::<Result<_, _>>()?;
         let center = self.point(&numbers[..3], values)?;
         let axis = self
-            .draft
+            .builder
             .direction(Vector3::from_column_slice(&numbers[3..6]), place.line)
             .map_err(|fault| fault.at(self.field, values[3].place.position()))?;
         let radius = self.radius(&values[6])?;
@@ -146,7 +146,7 @@ impl<'a> Reader<'a> {
             )),
         });
         if !movarc {
-            self.draft.remark("circle-sense", place.line, || {
+            self.builder.remark("circle-sense", place.line, || {
                 "CIRCLE is read as counter-clockwise about its vector, as PTC Creo means it; other systems may mean the other way".into()
             });
         }

@@ -1,9 +1,9 @@
 //! The state that APT statements leave behind, and which of them does what.
 
-use super::statement::{Place, Statement, Statements};
+use super::statement::{Statement, Statements, TextPlace};
 use super::{Options, words};
 use crate::error::Error;
-use crate::path::draft::{Circle, Draft, Fault};
+use crate::path::builder::{Circle, Fault, ProgramBuilder};
 use crate::path::program::{Ignored, Program};
 use crate::path::unit::LengthUnit;
 use nalgebra::Vector3;
@@ -19,7 +19,7 @@ pub(super) enum Feed {
 
 pub(super) struct Reader<'a> {
     pub(super) field: &'a str,
-    pub(super) draft: Draft,
+    pub(super) builder: ProgramBuilder,
     pub(super) unit: LengthUnit,
     pub(super) unit_said: bool,
     /// Line of the first length that was read.
@@ -33,11 +33,11 @@ pub(super) struct Reader<'a> {
     /// Axis of the points that come without one.
     pub(super) fixed_axis: Option<Vector3<f64>>,
     /// The circle that waits for the end of its arc, and where it was said.
-    pub(super) circle: Option<(Circle, Place<'a>)>,
+    pub(super) circle: Option<(Circle, TextPlace<'a>)>,
     /// The circle of the arc that was just made.
     pub(super) made: Option<Circle>,
     /// The direction of `INDIRV`, and where it was said.
-    pub(super) ahead: Option<(Vector3<f64>, Place<'a>)>,
+    pub(super) ahead: Option<(Vector3<f64>, TextPlace<'a>)>,
     /// Line of a `GOHOME`.
     pub(super) home: Option<usize>,
     /// Where the coordinates' frame lies, as said first.
@@ -53,7 +53,7 @@ pub(super) fn read(
 ) -> Result<Program, Error> {
     let mut reader = Reader {
         field: options.field,
-        draft: Draft::default(),
+        builder: ProgramBuilder::default(),
         unit: options.unit,
         unit_said: false,
         first_length: None,
@@ -81,7 +81,7 @@ pub(super) fn read(
 impl<'a> Reader<'a> {
     fn finish(mut self, lines: usize) -> Result<Program, Error> {
         self.no_circle_waits()?;
-        if self.draft.program.moves.is_empty() {
+        if self.builder.program.moves.is_empty() {
             let expected = "a path has two GOTO points or more that are not all the same";
             return Err(
                 Fault::new("the end of a text without a move", expected).at(self.field, (lines.max(1), 1))
@@ -89,14 +89,14 @@ impl<'a> Reader<'a> {
         }
         let unit = self.unit.name();
         if let (false, Some(line)) = (self.unit_said, self.first_length) {
-            self.draft.remark("unit-assumed", line, || {
+            self.builder.remark("unit-assumed", line, || {
                 format!("the text has no UNITS statement: lengths are read in {unit}")
             });
         }
-        for tool in &mut self.draft.program.tools {
+        for tool in &mut self.builder.program.tools {
             tool.diameter *= self.unit.in_m();
         }
-        Ok(self.draft.finish(unit, lines))
+        Ok(self.builder.finish(unit, lines))
     }
 
     fn follow(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
@@ -135,14 +135,14 @@ impl<'a> Reader<'a> {
             "MULTAX" => self.multax = Some(self.words(statement, &["ON", "OFF"])? != Some("OFF")),
             "TLAXIS" => {
                 let (numbers, _) = self.numbers(statement, &[3])?;
-                let axis = self.draft.direction(Vector3::from_column_slice(&numbers), place.line);
+                let axis = self.builder.direction(Vector3::from_column_slice(&numbers), place.line);
                 self.fixed_axis = Some(axis.map_err(|fault| fault.at(self.field, place.position()))?);
             }
             "DELAY" | "DWELL" => self.dwell(statement)?,
             "GOHOME" => {
                 self.home = Some(place.line);
                 self.ignore(statement);
-                self.draft.remark("home", place.line, || "the way home is not part of the path".into());
+                self.builder.remark("home", place.line, || "the way home is not part of the path".into());
             }
             "FINI" => self.ended = Some(place.line),
             "MSYS" | "ORIGIN" => {
@@ -156,8 +156,8 @@ impl<'a> Reader<'a> {
                 self.ignore(statement);
             }
             word if words::HARMLESS.contains(&word) => {
-                if matches!(word, "LOADTL" | "LOAD") && !self.draft.program.moves.is_empty() {
-                    self.draft.remark("tool-change", place.line, || {
+                if matches!(word, "LOADTL" | "LOAD") && !self.builder.program.moves.is_empty() {
+                    self.builder.remark("tool-change", place.line, || {
                         "the tool changes here; the job's one tool is used for all moves".into()
                     });
                 }
@@ -167,7 +167,7 @@ impl<'a> Reader<'a> {
                 self.ignore(statement);
             }
             word if words::CONTROLLER.contains(&word) => {
-                self.draft.remark("controller-text", place.line, || {
+                self.builder.remark("controller-text", place.line, || {
                     format!(
                         "{}: text for the controller is not followed; it must not move the tool",
                         statement.written()
@@ -206,6 +206,6 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn ignore(&mut self, statement: &Statement<'_>) {
-        self.draft.program.ignored.push(Ignored { word: statement.written(), line: statement.place.line });
+        self.builder.program.ignored.push(Ignored { word: statement.written(), line: statement.place.line });
     }
 }

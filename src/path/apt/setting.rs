@@ -3,7 +3,7 @@
 use super::reader::{Feed, Reader};
 use super::statement::Statement;
 use crate::error::Error;
-use crate::path::draft::{self, LONGEST_WAIT, SPINDLE};
+use crate::path::builder::{self, LONGEST_WAIT, SPINDLE};
 use crate::path::program::{Dwell, Tool};
 use crate::path::unit::LengthUnit;
 use crate::units::{INCH, MINUTE, MM, RPM};
@@ -41,17 +41,17 @@ impl<'a> Reader<'a> {
         }
         match self.feed {
             Some(Feed::PerTime(feed)) => {
-                draft::feed(feed).map_err(|fault| fault.at(self.field, value.place.position()))?;
+                builder::feed(feed).map_err(|fault| fault.at(self.field, value.place.position()))?;
             }
             _ => {
-                draft::coordinate(own).map_err(|fault| fault.at(self.field, value.place.position()))?;
+                builder::coordinate(own).map_err(|fault| fault.at(self.field, value.place.position()))?;
             }
         }
         let line = statement.place.line;
         match (unit.starts_with('I'), unit.starts_with("MM"), self.unit) {
             (true, _, LengthUnit::Mm) | (_, true, LengthUnit::Inch) => {
                 let lengths = self.unit.name();
-                self.draft.remark("feed-unit", line, || {
+                self.builder.remark("feed-unit", line, || {
                     format!("the feed is in {unit}, but lengths are in {lengths}")
                 });
             }
@@ -101,7 +101,7 @@ impl<'a> Reader<'a> {
             [] => None,
         };
         if let Some(diameter) = diameter.filter(|diameter| *diameter > 0.0) {
-            self.draft.program.tools.push(Tool { diameter, line: statement.place.line });
+            self.builder.program.tools.push(Tool { diameter, line: statement.place.line });
         }
     }
 
@@ -144,8 +144,8 @@ impl<'a> Reader<'a> {
                 format!("a wait is 0 to {LONGEST_WAIT} s"),
             ));
         }
-        let after = self.draft.program.moves.len();
-        self.draft.program.dwells.push(Dwell { after, time, line: statement.place.line });
+        let after = self.builder.program.moves.len();
+        self.builder.program.dwells.push(Dwell { after, time, line: statement.place.line });
         Ok(())
     }
 }

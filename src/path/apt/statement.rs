@@ -1,7 +1,7 @@
 //! Statements of an APT text: lines joined at `$`, comments cut at `$$`, a major word and what follows its slash.
 
 use crate::error::Error;
-use crate::path::draft::Fault;
+use crate::path::builder::Fault;
 use std::str::Lines;
 
 /// Words whose text is for people or for the controller: the whole line is theirs, `$` included.
@@ -9,14 +9,14 @@ const FREE_TEXT: [&str; 6] = ["PARTNO", "PPRINT", "REMARK", "INSERT", "TPRINT", 
 
 /// A place in the text.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place<'a> {
+pub(super) struct TextPlace<'a> {
     /// From 1.
     pub(super) line: usize,
     text: &'a str,
     byte: usize,
 }
 
-impl Place<'_> {
+impl TextPlace<'_> {
     /// Line and column, both from 1; columns count characters.
     pub(super) fn position(&self) -> (usize, usize) {
         (self.line, self.text[..self.byte].chars().count() + 1)
@@ -27,7 +27,7 @@ impl Place<'_> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Token<'a> {
     pub(super) text: &'a str,
-    pub(super) place: Place<'a>,
+    pub(super) place: TextPlace<'a>,
 }
 
 impl<'a> Token<'a> {
@@ -37,7 +37,7 @@ impl<'a> Token<'a> {
         let name = inner.get(..word.len()).filter(|name| name.eq_ignore_ascii_case(word))?;
         let value = inner[name.len()..].trim_start().strip_prefix('/')?.trim_start();
         let byte = self.place.byte + self.text.len() - value.len();
-        Some(Self { text: value, place: Place { byte, ..self.place } })
+        Some(Self { text: value, place: TextPlace { byte, ..self.place } })
     }
 
     /// What stands before `)`, if it ends so.
@@ -63,9 +63,9 @@ pub(super) struct Statement<'a> {
     /// The major word: upper case, blanks squeezed.
     pub(super) word: String,
     /// Where the major word stands.
-    pub(super) place: Place<'a>,
+    pub(super) place: TextPlace<'a>,
     /// What follows the slash, piece by piece of each line.
-    rest: Vec<Place<'a>>,
+    rest: Vec<TextPlace<'a>>,
     slash: bool,
 }
 
@@ -74,7 +74,7 @@ impl<'a> Statement<'a> {
     ///
     /// # Errors
     /// The place of a continued line that has no comma before it.
-    pub(super) fn tokens(&self) -> Result<Vec<Token<'a>>, Place<'a>> {
+    pub(super) fn tokens(&self) -> Result<Vec<Token<'a>>, TextPlace<'a>> {
         let mut tokens: Vec<Token<'a>> = Vec::with_capacity(6);
         let mut wanted = self.slash;
         for place in &self.rest {
@@ -82,7 +82,7 @@ impl<'a> Statement<'a> {
             for cell in place.text[byte..].split(',') {
                 let comma = byte + cell.len() < place.text.len();
                 let trimmed = cell.trim();
-                let token = Place { byte: byte + cell.len() - cell.trim_start().len(), ..*place };
+                let token = TextPlace { byte: byte + cell.len() - cell.trim_start().len(), ..*place };
                 byte += cell.len() + 1;
                 if trimmed.is_empty() && (!comma || !wanted) {
                     // The line ends at a comma, or starts with one that the line before left out.
@@ -103,9 +103,9 @@ impl<'a> Statement<'a> {
     }
 
     /// Where the statement ends.
-    pub(super) fn end(&self) -> Place<'a> {
+    pub(super) fn end(&self) -> TextPlace<'a> {
         let last = self.rest.last().copied().unwrap_or(self.place);
-        Place { byte: last.text.trim_end().len(), ..last }
+        TextPlace { byte: last.text.trim_end().len(), ..last }
     }
 
     /// The statement as written, blanks squeezed.
@@ -134,7 +134,7 @@ impl<'a> Statements<'a> {
     }
 
     /// The next line with words on it, its end in bytes, and whether it goes on.
-    fn line(&mut self) -> Option<(Place<'a>, bool)> {
+    fn line(&mut self) -> Option<(TextPlace<'a>, bool)> {
         for (index, text) in self.lines.by_ref() {
             self.count = index + 1;
             let byte = text.len() - text.trim_start().len();
@@ -145,7 +145,7 @@ impl<'a> Statements<'a> {
             let goes_on = dollar.is_some_and(|at| !text[at + 1..].starts_with('$'));
             let text = text[..dollar.unwrap_or(text.len())].trim_end();
             if goes_on || byte < text.len() {
-                return Some((Place { line: index + 1, text, byte: byte.min(text.len()) }, goes_on));
+                return Some((TextPlace { line: index + 1, text, byte: byte.min(text.len()) }, goes_on));
             }
         }
         None

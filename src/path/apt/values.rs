@@ -1,15 +1,15 @@
 //! What follows a statement's slash: words, numbers, points and axes.
 
 use super::reader::Reader;
-use super::statement::{Place, Statement, Token};
+use super::statement::{Statement, TextPlace, Token};
 use crate::error::Error;
-use crate::path::draft::{self, Fault};
+use crate::path::builder::{self, Fault};
 use nalgebra::Vector3;
 
 impl<'a> Reader<'a> {
     pub(super) fn error(
         &self,
-        place: &Place<'_>,
+        place: &TextPlace<'_>,
         found: impl Into<String>,
         expected: impl Into<String>,
     ) -> Error {
@@ -95,7 +95,7 @@ impl<'a> Reader<'a> {
                 "a radius is larger than 0",
             ));
         }
-        draft::coordinate(number * self.unit.in_m())
+        builder::coordinate(number * self.unit.in_m())
             .map_err(|fault| fault.at(self.field, token.place.position()))
     }
 
@@ -103,7 +103,7 @@ impl<'a> Reader<'a> {
     pub(super) fn point(&mut self, numbers: &[f64], tokens: &[Token<'_>]) -> Result<Vector3<f64>, Error> {
         let mut point = Vector3::zeros();
         for ((value, number), token) in point.iter_mut().zip(numbers).zip(tokens) {
-            *value = draft::coordinate(number * self.unit.in_m())
+            *value = builder::coordinate(number * self.unit.in_m())
                 .map_err(|fault| fault.at(self.field, token.place.position()))?;
             self.first_length.get_or_insert(token.place.line);
         }
@@ -134,17 +134,17 @@ impl<'a> Reader<'a> {
                 return Err(self.error(&place, "a second point on the arc", expected));
             }
             self.fixed_axis = None;
-            let axis = self.draft.direction(Vector3::from_column_slice(ijk), line);
+            let axis = self.builder.direction(Vector3::from_column_slice(ijk), line);
             return Ok((point, axis.map_err(|fault| fault.at(self.field, place.position()))?));
         }
         if let Some(axis) = self.fixed_axis {
             return Ok((point, axis));
         }
-        let last = self.draft.pose.map_or(upright, |(_, axis)| axis);
+        let last = self.builder.pose.map_or(upright, |(_, axis)| axis);
         if self.multax == Some(false) || (last - upright).norm() < 1e-9 {
             return Ok((point, upright));
         }
-        self.draft.remark("axis-kept", line, || {
+        self.builder.remark("axis-kept", line, || {
             format!("no axis here: the tool keeps ({:.4}, {:.4}, {:.4})", last.x, last.y, last.z)
         });
         Ok((point, last))

@@ -1,6 +1,6 @@
 //! Which column is what, and in which unit.
 
-use crate::path::draft::Fault;
+use crate::path::builder::Fault;
 use crate::path::unit::{FeedUnit, LengthUnit};
 
 /// How many columns a text may have.

@@ -12,7 +12,7 @@ mod header;
 mod row;
 
 use crate::error::Error;
-use crate::path::draft::{self, Draft, Target};
+use crate::path::builder::{self, ProgramBuilder, Target};
 use crate::path::program::{MovePace, Program};
 use crate::path::unit::{FeedUnit, LengthUnit};
 use header::Width;
@@ -39,39 +39,39 @@ pub struct Options<'a> {
 /// # Errors
 /// [`Error::Text`] with line and column of the first cell that is not what its column needs.
 pub fn program(text: &str, options: &Options<'_>, mut on_line: impl FnMut(usize)) -> Result<Program, Error> {
-    let mut draft = Draft::default();
+    let mut builder = ProgramBuilder::default();
     let mut rows = Rows::new(text, options.field, options.unit, Width::Any);
     while let Some(row) = rows.next_row()? {
         let columns = row.columns;
         let unit = columns.unit.unwrap_or(options.unit);
         let feed_unit = columns.feed_unit.unwrap_or(options.feed_unit);
-        if (unit, feed_unit) != (options.unit, options.feed_unit) && draft.pose.is_none() {
-            draft.remark("header-unit", row.line, || {
+        if (unit, feed_unit) != (options.unit, options.feed_unit) && builder.pose.is_none() {
+            builder.remark("header-unit", row.line, || {
                 format!("the header's units hold: lengths in {}, feeds in {}", unit.name(), feed_unit.name())
             });
         }
         let axis = match columns.axis {
-            Some([i, j, k]) => draft
+            Some([i, j, k]) => builder
                 .direction(Vector3::new(row.numbers[i], row.numbers[j], row.numbers[k]), row.line)
                 .map_err(|fault| fault.at(options.field, row.position(i)))?,
             None => Vector3::z(),
         };
         let pace = match columns.feed {
-            Some(cell) => draft::feed(row.numbers[cell] * feed_unit.in_m_per_s())
+            Some(cell) => builder::feed(row.numbers[cell] * feed_unit.in_m_per_s())
                 .map(MovePace::Feed)
                 .map_err(|fault| fault.at(options.field, row.position(cell)))?,
             None => MovePace::JobFeed,
         };
-        draft
+        builder
             .line_to(Target { point: row.point, axis, pace, spindle: None, line: row.line })
             .map_err(|fault| fault.at(options.field, row.position(columns.axis.map_or(0, |axis| axis[0]))))?;
         on_line(rows.lines());
     }
-    if draft.program.moves.is_empty() {
+    if builder.program.moves.is_empty() {
         let expected = "a path has two rows or more that are not all the same point";
         return Err(rows.error((rows.lines().max(1), 1), "the end of a text without a move", expected));
     }
-    Ok(draft.finish(rows.unit().name(), rows.lines()))
+    Ok(builder.finish(rows.unit().name(), rows.lines()))
 }
 
 /// Reads rows of x, y, z [mm, where the header says nothing else] into points [m].

@@ -3,7 +3,7 @@
 use super::cell::{Separator, is_passed_over, number, position, separate};
 use super::header::{Columns, Width};
 use crate::error::Error;
-use crate::path::draft::{self, Fault};
+use crate::path::builder::{self, Fault};
 use crate::path::unit::LengthUnit;
 use nalgebra::Vector3;
 use std::str::Lines;
@@ -201,7 +201,7 @@ impl<'a> Rows<'a> {
         let mut point = Vector3::zeros();
         for (value, cell) in point.iter_mut().zip(columns.point) {
             let fail = |fault: Fault| fault.at(self.field, position(line, text, starts[cell]));
-            *value = draft::coordinate(numbers[cell] * self.unit().in_m()).map_err(fail)?;
+            *value = builder::coordinate(numbers[cell] * self.unit().in_m()).map_err(fail)?;
         }
         Ok(Row { line, columns, numbers, point, text, starts })
     }

@@ -5,7 +5,7 @@ use super::block::Block;
 use super::code::Group;
 use super::modal::Modal;
 use super::word::{self, Fault};
-use crate::path::draft::LONGEST_WAIT;
+use crate::path::builder::LONGEST_WAIT;
 use crate::path::program::{Dwell, Ignored, Program, Remark};
 use nalgebra::Vector3;
 

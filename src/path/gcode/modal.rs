@@ -5,7 +5,7 @@ use super::block::Block;
 use super::code::Group;
 use super::cycle::Cycle;
 use super::word::Fault;
-use crate::path::draft::{self, SPINDLE};
+use crate::path::builder::{self, SPINDLE};
 use crate::units::{INCH, MM, RPM};
 
 /// The motion that a line with axis words makes.
@@ -169,7 +169,7 @@ impl Modal {
         }
         self.feed = Some(match self.feed_mode {
             FeedMode::InverseTime => word.value / 60.0,
-            FeedMode::PerMinute => draft::feed(word.value * self.unit / 60.0)
+            FeedMode::PerMinute => builder::feed(word.value * self.unit / 60.0)
                 .map_err(|fault| word.fault(block.text, fault.expected))?,
             FeedMode::PerRevolution => word.value * self.unit,
         });

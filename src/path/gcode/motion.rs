@@ -8,7 +8,7 @@ use super::interpreter::{AXES, Interpreter};
 use super::modal::{FeedMode, Motion};
 use super::word::{Fault, Word};
 use crate::path::Segment;
-use crate::path::draft;
+use crate::path::builder;
 use crate::path::program::{Move, MovePace};
 use crate::units::{INCH, MM};
 use nalgebra::Vector3;
@@ -320,6 +320,6 @@ impl Interpreter<'_> {
 
 /// A feed [m/s] that comes out of other numbers.
 fn believed(feed: f64, at: usize) -> Result<MovePace, Fault> {
-    let fault = |fault: draft::Fault| Fault { at, found: fault.found, expected: fault.expected };
-    draft::feed(feed).map(MovePace::Feed).map_err(fault)
+    let fault = |fault: builder::Fault| Fault { at, found: fault.found, expected: fault.expected };
+    builder::feed(feed).map(MovePace::Feed).map_err(fault)
 }

@@ -15,8 +15,6 @@ use crate::robot::{Joints, Robot};
 use solution::place_mm;
 use std::f64::consts::FRAC_PI_4;
 
-/// What only the full core does, for the small one's refusal.
-
 /// All joint values that put the TCP at `tcp` (base frame); each is checked by the forward model
 /// (1e-9 m, 1e-9).
 ///

@@ -77,7 +77,7 @@ pub(super) struct Target {
 
 /// The moves read so far, and where the tool stands.
 #[derive(Default)]
-pub(super) struct Draft {
+pub(super) struct ProgramBuilder {
     pub(super) program: Program,
     /// Tip [m] and unit axis.
     pub(super) pose: Option<(Vector3<f64>, Vector3<f64>)>,
@@ -85,7 +85,7 @@ pub(super) struct Draft {
     counts: Vec<usize>,
 }
 
-impl Draft {
+impl ProgramBuilder {
     /// Puts a remark on the first line that gives cause for it, and counts the others.
     pub(super) fn remark(&mut self, code: &'static str, line: usize, message: impl FnOnce() -> String) {
         if let Some(index) = self.program.remarks.iter().position(|remark| remark.code == code) {
