@@ -9,7 +9,7 @@ pub use full::{
     default_job, fields, formats, identify_response, identify_stiffness, presets, thesis_recomputed,
 };
 
-use crate::chart::{self, ForceUnit, Options, Units};
+use crate::chart::{self, ChartOptions as Options, ForceUnit, Units};
 use crate::column::Column;
 use crate::error::Error;
 use crate::path::unit::LengthUnit;

@@ -395,11 +395,11 @@ fn columns_are_named_and_written_in_full() {
 
 #[test]
 fn every_chart_draws() {
-    use armill::chart::{CATALOG, Options, chart};
+    use armill::chart::{CATALOG, ChartOptions, chart};
     for changes in [vec![], vec![("shaper", json!("none")), ("cutting.axial_depth_mm", json!(0))]] {
         let report = run(&changes);
         for entry in CATALOG {
-            let options = Options::sized(700.0, 320.0);
+            let options = ChartOptions::sized(700.0, 320.0);
             let drawn = chart(&report, entry.name, &options).unwrap();
             assert!(drawn.svg.starts_with("<svg") && !drawn.svg.contains("NaN"), "{}", entry.name);
             assert!(
@@ -409,14 +409,17 @@ fn every_chart_draws() {
             );
             assert!(!drawn.description.is_empty());
         }
-        assert_eq!(chart(&report, "no such", &Options::sized(700.0, 320.0)).unwrap_err().code(), "invalid");
+        assert_eq!(
+            chart(&report, "no such", &ChartOptions::sized(700.0, 320.0)).unwrap_err().code(),
+            "invalid"
+        );
     }
 }
 
 /// What a chart shows is what the columns hold, in the unit asked for; and its axes say which.
 #[test]
 fn chart_data_are_the_columns_in_the_unit_asked_for() {
-    use armill::chart::{ForceUnit, Options, Units, chart, data};
+    use armill::chart::{ChartOptions, ForceUnit, Units, chart, data};
     use armill::path::unit::LengthUnit;
     let report = run(&[]);
     let columns = report.columns();
@@ -449,7 +452,8 @@ fn chart_data_are_the_columns_in_the_unit_asked_for() {
             assert!((shown * size - si).abs() <= 1e-12 * si.abs(), "{name}: {shown} is not {si}");
         }
     }
-    let drawn = |name| chart(&report, name, &Options { units, ..Options::sized(700.0, 320.0) }).unwrap();
+    let drawn =
+        |name| chart(&report, name, &ChartOptions { units, ..ChartOptions::sized(700.0, 320.0) }).unwrap();
     assert!(drawn("force").svg.contains(">Force, lbf<") && drawn("path").svg.contains(">z, inch<"));
     // The largest error before is 1.253 mm, 0.0493 inch: ticks are round in the unit.
     let errors = drawn("before-after");

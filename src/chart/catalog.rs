@@ -1,8 +1,8 @@
 //! Every chart that Armill shows, by name: the thesis's figures, recomputed for the job at hand.
 
+use crate::chart::chart::{Chart, ChartOptions};
 use crate::chart::content::Content;
-use crate::chart::plot::{Chart, Options};
-use crate::chart::sheet::{self, Sheet};
+use crate::chart::figures::{BOTH, DEFLECTION, Figures, SHAPING};
 use crate::chart::unit::Units;
 use crate::column::Column;
 use crate::deviation::Source;
@@ -85,7 +85,7 @@ pub fn charts_of(report: &Report) -> Vec<Entry> {
 ///
 /// # Errors
 /// [`Error::Invalid`] for a name that is not in [`CATALOG`], or for options that cannot be drawn.
-pub fn chart(report: &Report, name: &str, options: &Options) -> Result<Chart, Error> {
+pub fn chart(report: &Report, name: &str, options: &ChartOptions) -> Result<Chart, Error> {
     Error::unless_full("drawing a chart")?;
     let content = content(report, name, options.units)?;
     let title = CATALOG.iter().find(|entry| entry.name == name).map_or("", |entry| entry.title);
@@ -104,44 +104,44 @@ pub fn data(report: &Report, name: &str, units: Units) -> Result<Vec<Column>, Er
 }
 
 fn content(report: &Report, name: &str, units: Units) -> Result<Content, Error> {
-    let sheet = Sheet { report, units };
+    let figures = Figures { report, units };
     let (forces, shaping) = (&report.deflection_only, &report.shaping_only);
     let content = match name {
         "before-after" | "after-both" => {
-            sheet.before_and_after(&report.before.contour_error, &report.after.contour_error)
+            figures.before_and_after(&report.before.contour_error, &report.after.contour_error)
         }
         "after-deflection" => {
             let after = &report.alone(Source::Deflection).result.contour_error;
-            sheet.before_and_after(&forces.contour_error, after)
+            figures.before_and_after(&forces.contour_error, after)
         }
         "after-shaping" => {
             let after = &report.alone(Source::Shaping).result.contour_error;
-            sheet.before_and_after(&shaping.contour_error, after)
+            figures.before_and_after(&shaping.contour_error, after)
         }
-        "axis-error" => sheet.axis_errors(),
-        "convergence" => sheet.convergence(),
-        "path" => sheet.path(),
-        "coordinates" => sheet.lengths("Position", &report.plan.trajectory.position),
-        "actual-path" => sheet.bent(&report.before.actual, &report.before.contour_error, "Actual", "both"),
-        "distorted-path" => sheet.bent(&shaping.actual, &shaping.contour_error, "Shaped", "shaping"),
-        "deviation" => sheet.bent(&forces.actual, &forces.contour_error, "Bent", "deflection"),
-        "compensated-path" => sheet.compensated(),
-        "revolution" => sheet.revolution(),
-        "force" => sheet.forces(),
-        "deflection" => sheet.lengths("Deflection", &report.deflection),
-        "error-deflection" => sheet.errors(&[(sheet::DEFLECTION, &forces.contour_error)]),
-        "error-shaping" => sheet.errors(&[(sheet::SHAPING, &shaping.contour_error)]),
-        "combined" => sheet.errors(&[
-            (sheet::DEFLECTION, &forces.contour_error),
-            (sheet::SHAPING, &shaping.contour_error),
-            (sheet::BOTH, &report.before.contour_error),
+        "axis-error" => figures.axis_errors(),
+        "convergence" => figures.convergence(),
+        "path" => figures.path(),
+        "coordinates" => figures.lengths("Position", &report.plan.trajectory.position),
+        "actual-path" => figures.bent(&report.before.actual, &report.before.contour_error, "Actual", "both"),
+        "distorted-path" => figures.bent(&shaping.actual, &shaping.contour_error, "Shaped", "shaping"),
+        "deviation" => figures.bent(&forces.actual, &forces.contour_error, "Bent", "deflection"),
+        "compensated-path" => figures.compensated(),
+        "revolution" => figures.revolution(),
+        "force" => figures.forces(),
+        "deflection" => figures.lengths("Deflection", &report.deflection),
+        "error-deflection" => figures.errors(&[(DEFLECTION, &forces.contour_error)]),
+        "error-shaping" => figures.errors(&[(SHAPING, &shaping.contour_error)]),
+        "combined" => figures.errors(&[
+            (DEFLECTION, &forces.contour_error),
+            (SHAPING, &shaping.contour_error),
+            (BOTH, &report.before.contour_error),
         ]),
-        "joints" => sheet.joints(),
-        SPIN => sheet.spin(),
-        "shaper-step" => sheet.step(),
-        "shaper-robustness" => sheet.robustness(),
+        "joints" => figures.joints(),
+        SPIN => figures.spin(),
+        "shaper-step" => figures.step(),
+        "shaper-robustness" => figures.robustness(),
         _ => match name.strip_prefix("joint-").and_then(|joint| joint.parse::<usize>().ok()) {
-            Some(joint @ 1..=6) => sheet.shaped_joint(joint - 1),
+            Some(joint @ 1..=6) => figures.shaped_joint(joint - 1),
             _ => {
                 let names = CATALOG.iter().map(|entry| entry.name);
                 return Err(Error::unknown_name("chart", name, "the charts are", names));

@@ -2,7 +2,8 @@
 
 use nalgebra::Vector3;
 
-use crate::chart::plot::{Axis, Band, Caption, Chart, Options, Series, line_chart};
+use crate::chart::chart::{Axis, Band, Caption, Chart, ChartOptions, LinePlot, PlotSeries};
+use crate::chart::plot::line_chart;
 use crate::chart::space::{SpaceSeries, View, space_chart};
 use crate::column::Column;
 use crate::path::unit::LengthUnit;
@@ -20,7 +21,7 @@ pub(super) enum Shape {
     /// Over two axes.
     Curves { x: Axis<'static>, y: Axis<'static>, curves: Vec<Curve>, markers: bool, bands: Vec<Band> },
     /// In the three of the base frame.
-    Paths { unit: LengthUnit, paths: Vec<Path> },
+    Paths { unit: LengthUnit, paths: Vec<SpacePath> },
 }
 
 /// One curve: a value for each of the content's [`Content::at`].
@@ -32,7 +33,7 @@ pub(super) struct Curve {
 }
 
 /// One path, in the unit that is read.
-pub(super) struct Path {
+pub(super) struct SpacePath {
     pub(super) key: &'static str,
     pub(super) label: String,
     pub(super) class: &'static str,
@@ -43,13 +44,13 @@ pub(super) const TIME: Axis<'static> =
     Axis { label: "Time", unit: "s", range: None, zero: false, log: false, whole: false };
 
 impl Content {
-    pub(super) fn draw(&self, name: &str, title: &str, options: &Options) -> Result<Chart, String> {
+    pub(super) fn draw(&self, name: &str, title: &str, options: &ChartOptions) -> Result<Chart, String> {
         let caption = Caption { name, title, description: &self.description };
         match &self.shape {
             Shape::Curves { x, y, curves, markers, bands } => {
                 let series: Vec<_> = curves
                     .iter()
-                    .map(|&Curve { key, label, class, ref values }| Series {
+                    .map(|&Curve { key, label, class, ref values }| PlotSeries {
                         key,
                         label,
                         class,
@@ -58,12 +59,12 @@ impl Content {
                         markers: *markers,
                     })
                     .collect();
-                line_chart(caption, *x, *y, &series, bands, options)
+                line_chart(&LinePlot { caption, x: *x, y: *y, series: &series, bands }, options)
             }
             Shape::Paths { paths, .. } => {
                 let paths: Vec<_> = paths
                     .iter()
-                    .map(|Path { key, label, class, points }| SpaceSeries { key, label, class, points })
+                    .map(|SpacePath { key, label, class, points }| SpaceSeries { key, label, class, points })
                     .collect();
                 space_chart(caption, &paths, View::default(), options)
             }

@@ -4,9 +4,9 @@ use plotters::chart::{ChartBuilder, LabelAreaPosition};
 use plotters::style::BLACK;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::plot::{Axis, AxisInfo, Band, Caption, Chart, Legend, Options, PlotArea, Series};
-use super::scale::Scale;
-use super::svg::{FONT_SIZE, Layer, Sheet, TENTHS};
+use super::chart::{Axis, AxisInfo, Band, Chart, ChartOptions, Legend, LinePlot, PlotArea, PlotSeries};
+use super::scale::{Scale, widened};
+use super::svg::{Canvas, FONT_SIZE, Layer, TENTHS};
 use super::trace::{Point, Window, lines};
 
 /// Room above the plot area, for the name of the y axis [SVG units].
@@ -19,7 +19,7 @@ const TICK: f64 = 4.0;
 const DOT: f64 = 3.5;
 
 /// The size as whole SVG units.
-pub(super) fn size(options: &Options) -> Result<(u32, u32), String> {
+pub(super) fn size(options: &ChartOptions) -> Result<(u32, u32), String> {
     let whole = |name: &str, value: f64| {
         if (120.0..=8000.0).contains(&value) {
             Ok(value as u32)
@@ -28,6 +28,16 @@ pub(super) fn size(options: &Options) -> Result<(u32, u32), String> {
         }
     };
     Ok((whole("width", options.width)?, whole("height", options.height)?))
+}
+
+/// A range that somebody asked for.
+pub(super) fn valid(axis: &Axis, (min, max): (f64, f64)) -> Result<(f64, f64), String> {
+    let drawable = min.is_finite() && max.is_finite() && widened((min, max)) == (min, max);
+    if drawable && min < max && (!axis.log || min > 0.0) {
+        Ok((min, max))
+    } else {
+        Err(format!("The axis \"{}\" cannot run from {min} to {max}.", axis.label))
+    }
 }
 
 /// The smallest ranges around these that fill the plot area with units as long upwards as sideways.
@@ -40,6 +50,12 @@ pub(super) fn equal_aspect(x: (f64, f64), y: (f64, f64), plot: &PlotArea) -> ((f
     (around(x, plot.width), around(y, plot.height))
 }
 
+/// The part of the canvas that shows data.
+pub(super) fn window(area: &PlotArea) -> Window {
+    let PlotArea { left, top, width, height } = *area;
+    Window { left, top, right: left + width, bottom: top + height }
+}
+
 /// A chart whose size and scales are settled.
 pub(super) struct Frame {
     /// Width of the chart [SVG units].
@@ -47,7 +63,7 @@ pub(super) struct Frame {
     /// Height of the chart [SVG units].
     pub(super) height: u32,
     /// Where the data goes.
-    pub(super) plot: PlotArea,
+    pub(super) area: PlotArea,
     /// From left to right.
     pub(super) x: Scale,
     /// From bottom to top.
@@ -58,37 +74,31 @@ pub(super) struct Frame {
 
 impl Frame {
     /// Draws bands, grid, curves and axes, in this order.
-    pub(super) fn draw(
-        &self,
-        caption: Caption,
-        x: &Axis,
-        y: &Axis,
-        series: &[Series],
-        bands: &[Band],
-        options: &Options,
-    ) -> Result<Chart, String> {
-        let sheet = Sheet::new(self.width, self.height);
-        for band in bands {
-            sheet.layer(Layer::Band, || self.band(&sheet, band))?;
+    pub(super) fn draw(&self, plot: &LinePlot, options: &ChartOptions) -> Result<Chart, String> {
+        let LinePlot { caption, x, y, series, bands } = plot;
+        let canvas = Canvas::new(self.width, self.height);
+        for band in *bands {
+            canvas.layer(Layer::Band, || self.band(&canvas, band))?;
         }
-        sheet.layer(Layer::Grid, || self.mesh(&sheet, x, true))?;
+        canvas.layer(Layer::Grid, || self.mesh(&canvas, x, true))?;
         for one in series.iter().filter(|one| options.shows(one.key)) {
-            sheet.layer(Layer::Series { class: one.class, key: one.key }, || self.series(&sheet, one))?;
+            canvas.layer(Layer::Series { class: one.class, key: one.key }, || self.series(&canvas, one))?;
         }
-        sheet.layer(Layer::Axis, || {
-            self.mesh(&sheet, x, false)?;
-            bands.iter().try_for_each(|band| self.band_name(&sheet, band))?;
-            sheet.text(&y.text(), (0.0, 2.0), HPos::Left, VPos::Top)
+        canvas.layer(Layer::Axis, || {
+            self.mesh(&canvas, x, false)?;
+            bands.iter().try_for_each(|band| self.band_name(&canvas, band))?;
+            canvas.text(&y.text(), (0.0, 2.0), HPos::Left, VPos::Top)
         })?;
-        let legend = |s: &Series| Legend { key: s.key.into(), label: s.label.into(), class: s.class.into() };
+        let legend =
+            |s: &PlotSeries| Legend { key: s.key.into(), label: s.label.into(), class: s.class.into() };
         Ok(Chart {
             name: caption.name.into(),
             title: caption.title.into(),
             description: caption.description.into(),
-            svg: sheet.finish(caption.title, caption.description),
+            svg: canvas.finish(caption.title, caption.description),
             width: f64::from(self.width),
             height: f64::from(self.height),
-            plot: self.plot,
+            plot: self.area,
             x: info(x, &self.x, self.full[0]),
             y: info(y, &self.y, self.full[1]),
             series: series.iter().map(legend).collect(),
@@ -96,17 +106,17 @@ impl Frame {
         })
     }
 
-    /// Where a pair of values stands on the sheet; not a number where a scale has no place for it.
+    /// Where a pair of values stands on the canvas; not a number where a scale has no place for it.
     fn place(&self, x: f64, y: f64) -> Point {
-        let PlotArea { left, top, width, height } = self.plot;
+        let PlotArea { left, top, width, height } = self.area;
         (left + width * self.x.position(x), top + height * (1.0 - self.y.position(y)))
     }
 
     /// plotters' mesh: the grid alone, or axes with ticks and the name of x alone.
-    fn mesh(&self, sheet: &Sheet, x: &Axis, grid: bool) -> Result<(), String> {
-        let PlotArea { left, top, width, height } = self.plot;
+    fn mesh(&self, canvas: &Canvas, x: &Axis, grid: bool) -> Result<(), String> {
+        let PlotArea { left, top, width, height } = self.area;
         let pixels = |units: f64| (units * TENTHS).round() as u32;
-        let mut chart = ChartBuilder::on(&sheet.area)
+        let mut chart = ChartBuilder::on(&canvas.area)
             .margin_top(pixels(top))
             .margin_right(pixels(f64::from(self.width) - left - width))
             .set_label_area_size(LabelAreaPosition::Left, pixels(left))
@@ -114,7 +124,7 @@ impl Frame {
             .build_cartesian_2d(self.x.clone(), self.y.clone())
             .map_err(|e| e.to_string())?;
         let mut mesh = chart.configure_mesh();
-        mesh.bold_line_style(BLACK).label_style(sheet.text.clone());
+        mesh.bold_line_style(BLACK).label_style(canvas.text.clone());
         mesh.set_all_tick_mark_size(TICK * TENTHS);
         if grid {
             mesh.disable_axes().disable_x_mesh();
@@ -126,7 +136,7 @@ impl Frame {
 
     /// The part of the plot that a band covers, as its upper and lower edge: at least one unit high.
     fn covered(&self, band: &Band) -> Option<(f64, f64)> {
-        let Window { top, bottom, .. } = self.plot.window();
+        let Window { top, bottom, .. } = window(&self.area);
         let (from, to) = (band.from.min(band.to), band.from.max(band.to));
         let edge = |value: f64| {
             let y = self.place(self.x.min, value).1;
@@ -135,25 +145,25 @@ impl Frame {
         (from <= self.y.max && to >= self.y.min).then(|| (edge(to).min(edge(from) - 1.0), edge(from)))
     }
 
-    fn band(&self, sheet: &Sheet, band: &Band) -> Result<(), String> {
-        let Window { left, right, .. } = self.plot.window();
-        self.covered(band).map_or(Ok(()), |(high, low)| sheet.rectangle((left, high), (right, low)))
+    fn band(&self, canvas: &Canvas, band: &Band) -> Result<(), String> {
+        let Window { left, right, .. } = window(&self.area);
+        self.covered(band).map_or(Ok(()), |(high, low)| canvas.rectangle((left, high), (right, low)))
     }
 
     /// A band's name at the left: inside if the band is high enough, else on it.
-    fn band_name(&self, sheet: &Sheet, band: &Band) -> Result<(), String> {
+    fn band_name(&self, canvas: &Canvas, band: &Band) -> Result<(), String> {
         let Some((high, low)) = self.covered(band) else { return Ok(()) };
         let inside = low - high > 1.5 * FONT_SIZE;
         let (anchor, gap) = if inside { (VPos::Top, 4.0) } else { (VPos::Bottom, -1.0) };
-        sheet.text(band.label, (self.plot.left + 6.0, high + gap), HPos::Left, anchor)
+        canvas.text(band.label, (self.area.left + 6.0, high + gap), HPos::Left, anchor)
     }
 
-    fn series(&self, sheet: &Sheet, series: &Series) -> Result<(), String> {
-        let window = self.plot.window();
+    fn series(&self, canvas: &Canvas, series: &PlotSeries) -> Result<(), String> {
+        let window = window(&self.area);
         let points = || series.x.iter().zip(series.y).map(|(&x, &y)| self.place(x, y));
-        lines(points(), window).iter().try_for_each(|line| sheet.line(line))?;
+        lines(points(), window).iter().try_for_each(|line| canvas.line(line))?;
         if series.markers {
-            points().filter(|&p| window.contains(p)).try_for_each(|p| sheet.dot(p, DOT))?;
+            points().filter(|&p| window.contains(p)).try_for_each(|p| canvas.dot(p, DOT))?;
         }
         Ok(())
     }

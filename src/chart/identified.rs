@@ -1,12 +1,12 @@
 //! What measurements and the model fitted to them look like.
 
+use crate::chart::chart::{Axis, Chart, ChartOptions};
 use crate::chart::content::{Content, Curve, Shape, TIME};
-use crate::chart::plot::{Axis, Chart, Options};
 use crate::chart::unit::Units;
 use crate::column::Column;
 use crate::error::Error;
 use crate::identify::response::{Mode, Signal};
-use crate::identify::stiffness::Fit;
+use crate::identify::stiffness::{Fit, Residual};
 
 /// What can be drawn.
 #[derive(Debug, Clone, Copy)]
@@ -22,7 +22,7 @@ impl Identified<'_> {
     ///
     /// # Errors
     /// [`Error::Invalid`] for options that cannot be drawn.
-    pub fn chart(&self, options: &Options) -> Result<Chart, Error> {
+    pub fn chart(&self, options: &ChartOptions) -> Result<Chart, Error> {
         let (name, title) = match self {
             Identified::Stiffness(_) => {
                 ("stiffness", "Displacement of each row, and what the fit leaves of it")
@@ -48,9 +48,7 @@ impl Identified<'_> {
 
 fn stiffness(fit: &Fit, units: Units) -> Content {
     let (size, unit) = (units.length.in_m(), units.length.name());
-    let values = |of: fn(&crate::identify::stiffness::Residual) -> f64| {
-        fit.rows.iter().map(|row| of(row) / size).collect()
-    };
+    let values = |of: fn(&Residual) -> f64| fit.rows.iter().map(|row| of(row) / size).collect();
     let curves = vec![
         Curve { key: "measured", label: "Measured", class: "desired", values: values(|row| row.measured) },
         Curve {

@@ -1,8 +1,15 @@
 //! Results as charts: data in, SVG text out, the same bytes natively and in every browser.
 //!
-//! [`catalog`] names every chart and `sheet` says what each shows, in the [units](unit) asked for; the rest draws: [`plot`] over two axes, [`space`] in three
-//! dimensions, through plotters onto our own [`svg`] surface (plotters' own rounds to whole pixels and measures text in the page).
+//! [`catalog`] names every chart and `figures` says what each shows, in the [units](unit) asked
+//! for; the rest draws: [`plot`] over two axes, [`space`] in three dimensions.
+//!
+//! plotters gives the mesh of axes and grid, and the shapes to draw with. Scales, decimation,
+//! legend and the [`svg`] backend are our own: plotters searches ticks with the platform's
+//! logarithm, rounds to whole pixels, draws every sample, and measures text through the DOM, which
+//! a Worker does not have.
 
+#[allow(clippy::module_inception, reason = "the room of charts has a file for what a chart is")]
+pub mod chart;
 pub mod catalog;
 #[cfg(feature = "full")]
 pub mod identified;
@@ -11,11 +18,11 @@ pub mod space;
 pub mod svg;
 pub mod unit;
 mod content;
-mod sheet;
+mod figures;
 mod frame;
 mod scale;
 mod trace;
 
 pub use catalog::{CATALOG, Entry, chart, charts_of, data};
-pub use plot::{Chart, Options};
+pub use chart::{Chart, ChartOptions};
 pub use unit::{ForceUnit, Units};

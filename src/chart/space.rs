@@ -2,10 +2,10 @@
 
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::frame::{TOP, equal_aspect, size};
-use super::plot::{Axis, AxisInfo, Caption, Chart, Legend, Options, PlotArea, valid};
+use super::chart::{Axis, AxisInfo, Caption, Chart, ChartOptions, Legend, PlotArea};
+use super::frame::{TOP, equal_aspect, size, valid, window};
 use super::scale::{Tick, extent, linear_ticks, widened};
-use super::svg::{FONT_SIZE, Layer, Sheet, text_width};
+use super::svg::{Canvas, FONT_SIZE, Layer, text_width};
 use super::trace::{Point, lines};
 use crate::math;
 use crate::units::DEG;
@@ -56,7 +56,7 @@ pub fn space_chart(
     caption: Caption,
     paths: &[SpaceSeries],
     view: View,
-    options: &Options,
+    options: &ChartOptions,
 ) -> Result<Chart, String> {
     let (width, height) = size(options)?;
     if !(view.azimuth_deg.is_finite() && view.elevation_deg.is_finite()) {
@@ -86,18 +86,18 @@ pub fn space_chart(
     let scene =
         Scene { camera, room, plot, origin: (across.0, up.1), scale: plot.width / (across.1 - across.0) };
 
-    let sheet = Sheet::new(width, height);
-    sheet.layer(Layer::Floor, || scene.floor(&sheet))?;
+    let canvas = Canvas::new(width, height);
+    canvas.layer(Layer::Floor, || scene.floor(&canvas))?;
     if let Some(first) = paths.first() {
         let floor = scene.room.min[2];
         let shadow =
             first.points.iter().map(|&[x, y, z]| scene.place([x, y, if z.is_finite() { floor } else { z }]));
-        sheet.layer(Layer::Shadow, || scene.lines(&sheet, shadow))?;
+        canvas.layer(Layer::Shadow, || scene.lines(&canvas, shadow))?;
     }
-    sheet.layer(Layer::Axis, || scene.axes(&sheet, unit))?;
+    canvas.layer(Layer::Axis, || scene.axes(&canvas, unit))?;
     for path in paths.iter().filter(|path| options.shows(path.key)) {
         let layer = Layer::Series { class: path.class, key: path.key };
-        sheet.layer(layer, || scene.lines(&sheet, path.points.iter().map(|&p| scene.place(p))))?;
+        canvas.layer(layer, || scene.lines(&canvas, path.points.iter().map(|&p| scene.place(p))))?;
     }
     let info =
         |(min, max), full| AxisInfo { label: String::new(), unit: unit.into(), min, max, log: false, full };
@@ -106,7 +106,7 @@ pub fn space_chart(
         name: caption.name.into(),
         title: caption.title.into(),
         description: caption.description.into(),
-        svg: sheet.finish(caption.title, caption.description),
+        svg: canvas.finish(caption.title, caption.description),
         width: f64::from(width),
         height: f64::from(height),
         plot,
@@ -197,7 +197,7 @@ impl Room {
     }
 }
 
-/// A room seen on a sheet.
+/// A room seen on a canvas.
 struct Scene {
     camera: Camera,
     room: Room,
@@ -209,14 +209,14 @@ struct Scene {
 }
 
 impl Scene {
-    /// Where a point in space stands on the sheet.
+    /// Where a point in space stands on the canvas.
     fn place(&self, point: [f64; 3]) -> Point {
         let (u, v) = self.camera.project(point);
         (self.plot.left + (u - self.origin.0) * self.scale, self.plot.top + (self.origin.1 - v) * self.scale)
     }
 
-    fn lines(&self, sheet: &Sheet, points: impl Iterator<Item = Point>) -> Result<(), String> {
-        lines(points, self.plot.window()).iter().try_for_each(|line| sheet.line(line))
+    fn lines(&self, canvas: &Canvas, points: impl Iterator<Item = Point>) -> Result<(), String> {
+        lines(points, window(&self.plot)).iter().try_for_each(|line| canvas.line(line))
     }
 
     /// Ticks along an axis: about one every fifty units as seen.
@@ -228,7 +228,7 @@ impl Scene {
     }
 
     /// The floor's outline and its lines at the ticks of x and y.
-    fn floor(&self, sheet: &Sheet) -> Result<(), String> {
+    fn floor(&self, canvas: &Canvas) -> Result<(), String> {
         let Room { min, max } = self.room;
         let lines_at = |axis: usize| {
             let ticks = self.ticks(axis).into_iter().map(|tick| tick.value);
@@ -236,20 +236,22 @@ impl Scene {
         };
         let along_y = lines_at(0).into_iter().map(|x| [[x, min[1], min[2]], [x, max[1], min[2]]]);
         let along_x = lines_at(1).into_iter().map(|y| [[min[0], y, min[2]], [max[0], y, min[2]]]);
-        along_y.chain(along_x).try_for_each(|ends| self.lines(sheet, ends.into_iter().map(|p| self.place(p))))
+        along_y
+            .chain(along_x)
+            .try_for_each(|ends| self.lines(canvas, ends.into_iter().map(|p| self.place(p))))
     }
 
     /// x and y along the floor's edges next to the reader, z at the floor's leftmost corner.
-    fn axes(&self, sheet: &Sheet, unit: &str) -> Result<(), String> {
+    fn axes(&self, canvas: &Canvas, unit: &str) -> Result<(), String> {
         let low = self.room.min;
         let (near, _) = self.room.sides(&self.camera);
-        self.axis(sheet, 0, &format!("x, {unit}"), [low[0], near[1], low[2]])?;
-        self.axis(sheet, 1, &format!("y, {unit}"), [near[0], low[1], low[2]])?;
-        self.axis(sheet, 2, &format!("z, {unit}"), self.room.post(&self.camera))
+        self.axis(canvas, 0, &format!("x, {unit}"), [low[0], near[1], low[2]])?;
+        self.axis(canvas, 1, &format!("y, {unit}"), [near[0], low[1], low[2]])?;
+        self.axis(canvas, 2, &format!("z, {unit}"), self.room.post(&self.camera))
     }
 
     /// One axis as an arrow from `start` to the end of the room, with ticks and name on its outer side.
-    fn axis(&self, sheet: &Sheet, axis: usize, name: &str, start: [f64; 3]) -> Result<(), String> {
+    fn axis(&self, canvas: &Canvas, axis: usize, name: &str, start: [f64; 3]) -> Result<(), String> {
         let along = |value: f64| {
             let mut point = start;
             point[axis] = value;
@@ -266,17 +268,17 @@ impl Scene {
         // Square to the axis, away from the room.
         let (nx, ny) = (-dy * side, dx * side);
         // Ends on the border are inside whatever the rounding.
-        let window = self.plot.window().grown(0.1);
+        let window = window(&self.plot).grown(0.1);
         let label = |text: &str, at: Point, gap: f64| {
             let reach = gap + nx.abs() * text_width(text) / 2.0 + ny.abs() * FONT_SIZE / 2.0;
-            sheet.text(text, (at.0 + nx * reach, at.1 + ny * reach), HPos::Center, VPos::Center)
+            canvas.text(text, (at.0 + nx * reach, at.1 + ny * reach), HPos::Center, VPos::Center)
         };
         let apart = |text: &str| text_width(text) * dx.abs() + FONT_SIZE * dy.abs();
 
-        lines([foot, tip], window).iter().try_for_each(|line| sheet.line(line))?;
+        lines([foot, tip], window).iter().try_for_each(|line| canvas.line(line))?;
         if window.contains(tip) {
             let barb = |s: f64| (tip.0 - 9.0 * dx + 3.0 * s * dy, tip.1 - 9.0 * dy - 3.0 * s * dx);
-            sheet.polygon(&[tip, barb(1.0), barb(-1.0)])?;
+            canvas.polygon(&[tip, barb(1.0), barb(-1.0)])?;
         }
         // The name stands short of the tip, where the tip of another axis may be.
         let back = (apart(name) / 2.0 + 6.0).min(length);
@@ -291,7 +293,7 @@ impl Scene {
             if !window.contains(at) {
                 continue;
             }
-            sheet.line(&[at, (at.0 + 4.0 * nx, at.1 + 4.0 * ny)])?;
+            canvas.line(&[at, (at.0 + 4.0 * nx, at.1 + 4.0 * ny)])?;
             let room = apart(&tick.label) + 4.0;
             let crowded = distance(at, named) < (room + apart(name)) / 2.0
                 || last.is_some_and(|last| distance(at, last) < room);
@@ -317,7 +319,7 @@ mod tests {
 
     fn chart(points: &[[f64; 3]], view: View) -> Chart {
         let path = SpaceSeries { key: "p", label: "P", class: "desired", points };
-        space_chart(CAPTION, &[path], view, &Options::sized(860.0, 420.0)).unwrap()
+        space_chart(CAPTION, &[path], view, &ChartOptions::sized(860.0, 420.0)).unwrap()
     }
 
     #[test]
@@ -362,6 +364,6 @@ mod tests {
             }
         }
         let blind = View { azimuth_deg: f64::NAN, elevation_deg: 0.0 };
-        assert!(space_chart(CAPTION, &[], blind, &Options::sized(860.0, 420.0)).is_err());
+        assert!(space_chart(CAPTION, &[], blind, &ChartOptions::sized(860.0, 420.0)).is_err());
     }
 }

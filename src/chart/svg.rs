@@ -62,17 +62,17 @@ impl Layer<'_> {
     }
 }
 
-/// A sheet to draw on, in SVG units with y down; everything goes through plotters to [`SvgBackend`].
-pub(super) struct Sheet {
+/// A canvas, in SVG units with y down; everything goes through plotters to [`SvgBackend`].
+pub(super) struct Canvas {
     backend: SvgBackend,
-    /// plotters' view of the whole sheet, for charts built by plotters itself.
+    /// plotters' view of the whole canvas, for charts built by plotters itself.
     pub(super) area: DrawingArea<SvgBackend, Shift>,
     /// The one text style.
     pub(super) text: TextStyle<'static>,
 }
 
-impl Sheet {
-    /// An empty sheet of this many SVG units.
+impl Canvas {
+    /// An empty canvas of this many SVG units.
     pub(super) fn new(width: u32, height: u32) -> Self {
         let backend = SvgBackend { body: Rc::default(), width, height };
         let area = backend.clone().into_drawing_area();
@@ -335,10 +335,10 @@ mod tests {
 
     #[test]
     fn text_is_escaped() {
-        let sheet = Sheet::new(100, 100);
+        let canvas = Canvas::new(100, 100);
         let layer = Layer::Series { class: "s1", key: r#""><script>"# };
-        sheet.layer(layer, || sheet.text("<script>&", (1.0, 2.0), HPos::Left, VPos::Top)).unwrap();
-        let svg = sheet.finish("a<b", "c>d");
+        canvas.layer(layer, || canvas.text("<script>&", (1.0, 2.0), HPos::Left, VPos::Top)).unwrap();
+        let svg = canvas.finish("a<b", "c>d");
         assert!(svg.contains("&lt;script&gt;&amp;</text>"), "{svg}");
         assert!(svg.contains(r#"data-key="&quot;&gt;&lt;script&gt;""#), "{svg}");
         assert!(svg.contains("<title>a&lt;b</title>") && !svg.contains("<script"), "{svg}");
@@ -346,9 +346,9 @@ mod tests {
 
     #[test]
     fn a_lone_point_is_a_dot_in_the_line_colour() {
-        let sheet = Sheet::new(100, 100);
-        sheet.line(&[(5.04, 6.0)]).unwrap();
-        let svg = sheet.finish("", "");
+        let canvas = Canvas::new(100, 100);
+        canvas.line(&[(5.04, 6.0)]).unwrap();
+        let svg = canvas.finish("", "");
         assert!(svg.contains(r#"<circle cx="5" cy="6" r="0.75" stroke-width="1.5""#), "{svg}");
     }
 }

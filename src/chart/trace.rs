@@ -1,6 +1,6 @@
-//! From samples in the sheet's units to the few points worth drawing: gaps, reduction, clipping.
+//! From samples in the canvas's units to the few points worth drawing: gaps, reduction, clipping.
 
-/// A point on the sheet [SVG units, y down].
+/// A point on the canvas [SVG units, y down].
 pub(super) type Point = (f64, f64);
 
 /// Width of the columns to which dense curves are reduced [SVG units]: half a pixel.
@@ -10,7 +10,7 @@ const CLOSE: f64 = 0.3;
 /// A drawn line strays from the samples by no more than this [SVG units]: half the raster of the file.
 const STRAY: f64 = 0.05;
 
-/// The part of the sheet that shows data [SVG units].
+/// The part of the canvas that shows data [SVG units].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
     pub(super) left: f64,
@@ -25,7 +25,7 @@ impl Window {
         (self.left..=self.right).contains(&x) && (self.top..=self.bottom).contains(&y)
     }
 
-    /// A little more of the sheet on all sides.
+    /// A little more of the canvas on all sides.
     pub(super) fn grown(&self, by: f64) -> Self {
         let Self { left, top, right, bottom } = *self;
         Self { left: left - by, top: top - by, right: right + by, bottom: bottom + by }

@@ -257,7 +257,7 @@ fn check_numbers(report: &Report) {
 
 fn check_charts(report: &Report) {
     for entry in CATALOG {
-        let options = chart::Options::sized(640.0, 300.0);
+        let options = chart::ChartOptions::sized(640.0, 300.0);
         let chart = chart::chart(report, entry.name, &options)
             .unwrap_or_else(|error| panic!("{}: {error}", entry.name));
         assert!(!chart.svg.contains("NaN") && !chart.svg.contains("inf\""), "{}", entry.name);

@@ -4,7 +4,7 @@ use crate::browser::{DESKTOP, Page, Result, visit};
 use crate::chart::Chart;
 use crate::common::run;
 use crate::{current, shows};
-use armill::chart::Options;
+use armill::chart::ChartOptions;
 use serde_json::json;
 
 #[test]
@@ -68,11 +68,11 @@ fn a_pinned_result_is_drawn_with_the_next_and_stays_over_a_reload() -> Result {
                 .js("const plot = document.querySelector('#chart-before-after svg.plot'); return [Number(plot.getAttribute('width')), Number(plot.getAttribute('height'))]")
                 .await?;
             let [width, height]: [f64; 2] = serde_json::from_value(size)?;
-            let whole = Options::sized(width, height);
-            let draw = |report, options: &Options| armill::chart::chart(report, "before-after", options);
+            let whole = ChartOptions::sized(width, height);
+            let draw = |report, options: &ChartOptions| armill::chart::chart(report, "before-after", options);
             let (first, second) = (draw(&a, &whole)?, draw(&b, &whole)?);
             let joined = |one: (f64, f64), other: (f64, f64)| Some((one.0.min(other.0), one.1.max(other.1)));
-            let both = Options {
+            let both = ChartOptions {
                 x_range: joined(first.x.full, second.x.full),
                 y_range: joined(first.y.full, second.y.full),
                 ..whole

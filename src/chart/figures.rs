@@ -1,7 +1,7 @@
 //! What each chart of the catalogue shows of a report.
 
-use crate::chart::content::{Content, Curve, Path, Shape, TIME, points};
-use crate::chart::plot::{Axis, Band};
+use crate::chart::chart::{Axis, Band};
+use crate::chart::content::{Content, Curve, Shape, SpacePath, TIME, points};
 use crate::chart::unit::Units;
 use crate::math;
 use crate::path::unit::LengthUnit;
@@ -21,13 +21,13 @@ pub(super) const DEFLECTION: Name = ("deflection", "Forces alone", "deflection")
 pub(super) const SHAPING: Name = ("shaping", "Shaping alone", "shaping");
 pub(super) const BOTH: Name = ("both", "Both together", "both");
 
-/// A report and how it is read.
-pub(super) struct Sheet<'a> {
+/// The figures of a report, in the units that they are read in.
+pub(super) struct Figures<'a> {
     pub(super) report: &'a Report,
     pub(super) units: Units,
 }
 
-impl Sheet<'_> {
+impl Figures<'_> {
     /// A length [m] as read in a sentence, without its unit: no finer than a tenth of a micrometre, which no machine knows.
     fn read(&self, length: f64) -> String {
         match self.units.length {
@@ -147,7 +147,7 @@ impl Sheet<'_> {
         let unit = self.units.length;
         let path = |((key, name, class), note, positions): (Name, String, &[Vector3<f64>])| {
             let points = points(positions, unit.in_m());
-            Path { key, label: format!("{name}{note}"), class, points }
+            SpacePath { key, label: format!("{name}{note}"), class, points }
         };
         let paths = paths.into_iter().map(path).collect();
         Content { description, at: self.time(), shape: Shape::Paths { unit, paths } }
