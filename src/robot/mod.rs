@@ -8,7 +8,6 @@ pub mod model;
 pub mod opw;
 pub mod forward;
 pub mod inverse;
-mod numerical;
 pub mod jacobian;
 pub mod compliance;
 pub mod spring;

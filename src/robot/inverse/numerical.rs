@@ -1,13 +1,15 @@
-//! Inverse kinematics by iteration, for six-joint arms outside the closed form: wrists whose axes do not meet, bent twists.
+//! Inverse kinematics by iteration, for six-joint arms outside the closed form: wrists whose axes
+//! do not meet, bent twists.
 //!
-//! Levenberg-Marquardt with a damping that follows the squared error, as Sugihara proposes ("Solvability-unconcerned inverse kinematics by
-//! the Levenberg-Marquardt method", IEEE Trans. Robotics 27(5), 2011, eqs. 12-16): it never meets a singular matrix, and near the
-//! solution it is Newton's method, which doubles the correct digits at every step. Starting points are fixed, so the same pose gives the
-//! same bits.
+//! Levenberg-Marquardt with a damping that follows the squared error, as Sugihara proposes
+//! ("Solvability-unconcerned inverse kinematics by the Levenberg-Marquardt method", IEEE Trans.
+//! Robotics 27(5), 2011, eqs. 12-16): it never meets a singular matrix, and near the solution it is
+//! Newton's method, which doubles the correct digits at every step. Starting points are fixed, so
+//! the same pose gives the same bits.
 
+use super::solution::{Branch, Margin, Solution, Solutions, closes, place_mm, unreachable};
 use crate::error::Error;
 use crate::math::{self, Pose, TAU};
-use crate::robot::inverse::{Branch, Margin, Solution, Solutions, closes, place_mm, unreachable};
 use crate::robot::{Joints, Robot, forward, jacobian};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
@@ -15,18 +17,19 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 const STEPS: usize = 50;
 /// Starting points that are tried for all solutions of a pose.
 const STARTS: usize = 160;
-/// Squared error (positions over the arm's length) below which a step can only stir the last digits.
+/// Squared error (positions over the arm's length) below which a step can only stir the last
+/// digits.
 const DONE: f64 = 1e-29;
 /// Joint values nearer to each other than this are one solution [rad].
 const SAME: f64 = 1e-5;
 /// A continuation that turns a joint further is not trusted to be the nearest solution [rad].
 const TRUSTED: f64 = 0.3;
-/// The positive root of x^7 = x + 1: its powers spread points evenly over six dimensions (M. Roberts, "The unreasonable effectiveness of
-/// quasirandom sequences", 2018).
+/// The positive root of x^7 = x + 1: its powers spread points evenly over six dimensions (M.
+/// Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
 const SPREAD: f64 = 1.112_775_684_278_706;
 
 /// Every solution that the starting points lead to, `near` first; at most eight.
-pub(crate) fn solutions(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solutions, Error> {
+pub(super) fn solutions(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solutions, Error> {
     let wrist = wrist_of(robot, tcp);
     let shoulder = forward::frames(robot, near)[0].position;
     let (distance, reach) = ((wrist - shoulder).norm(), robot.reach());
@@ -53,7 +56,7 @@ pub(crate) fn solutions(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solu
 }
 
 /// The solution that grows out of `last`, if it is near enough to be the nearest.
-pub(crate) fn continued(robot: &Robot, tcp: &Pose, last: &Solution) -> Option<Solution> {
+pub(super) fn continued(robot: &Robot, tcp: &Pose, last: &Solution) -> Option<Solution> {
     let q = search(robot, tcp, &last.q)?;
     ((q - last.q).amax() < TRUSTED).then(|| described(robot, q))
 }
@@ -95,7 +98,8 @@ fn error(robot: &Robot, tcp: &Pose, q: &Joints, scale: f64) -> Vector6<f64> {
     Vector6::new(way.x, way.y, way.z, turn.x, turn.y, turn.z)
 }
 
-/// Axis times angle of a rotation (its logarithm); at half a turn, where the axis has no sign, nearly zero.
+/// Axis times angle of a rotation (its logarithm); at half a turn, where the axis has no sign,
+/// nearly zero.
 fn rotation_vector(r: &Matrix3<f64>) -> Vector3<f64> {
     let sine = Vector3::new(r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]) * 0.5;
     let size = sine.norm();
@@ -112,14 +116,16 @@ fn start(k: usize) -> Joints {
     })
 }
 
-/// Where axes 5 and 6 come nearest: the wrist centre, whose distance from the shoulder the links limit.
+/// Where axes 5 and 6 come nearest: the wrist centre, whose distance from the shoulder the links
+/// limit.
 fn wrist_of(robot: &Robot, tcp: &Pose) -> Vector3<f64> {
     let flange = tcp.compose(&robot.tool().inverse());
     flange.position - flange.rotation.column(2) * robot.links()[5].d
 }
 
-/// Joint values with their branch and margin, in the terms of the closed form, of which these are the general case.
-pub(crate) fn described(robot: &Robot, q: Joints) -> Solution {
+/// Joint values with their branch and margin, in the terms of the closed form, of which these are
+/// the general case.
+fn described(robot: &Robot, q: Joints) -> Solution {
     let frames = forward::frames(robot, &q);
     let axis = |i: usize| frames[i].rotation.column(2);
     let ahead = frames[0].rotation.column(0).dot(&(frames[4].position - frames[0].position));
