@@ -5,7 +5,7 @@ use crate::job::setup::invalid;
 use crate::job::{Job, SagZero};
 use crate::math::Pose;
 use crate::robot::load::GRAVITY;
-use crate::robot::{Burden, Joints, Load, Spring};
+use crate::robot::{JointStatics, Joints, Load, Spring};
 use crate::units::{ARCMIN, MM};
 use nalgebra::Vector3;
 
@@ -17,7 +17,7 @@ impl Job {
     ///
     /// # Errors
     /// What is wrong with a row, with its field.
-    pub(super) fn burden(&self, compliance: &Joints, base: &Pose) -> Result<Option<Burden>, Error> {
+    pub(super) fn burden(&self, compliance: &Joints, base: &Pose) -> Result<Option<JointStatics>, Error> {
         let robot = &self.robot;
         let points = robot.joint_springs_nm_arcmin.as_deref().unwrap_or_default();
         let rows = robot.loads_kg_mm.as_deref().unwrap_or_default();
@@ -53,7 +53,7 @@ impl Job {
         }
         let gravity = base.inverse().direction(&Vector3::new(0.0, 0.0, -GRAVITY));
         let touched_off = robot.sag_zero.unwrap_or_default() == SagZero::Start;
-        Ok(Some(Burden { springs, loads, gravity, touched_off }))
+        Ok(Some(JointStatics { springs, loads, gravity, touched_off }))
     }
 }
 

@@ -95,7 +95,7 @@ impl Job {
         let robot = robot.with_tool(frame(&self.tool_frame));
         let base = frame(&self.base_frame);
         let burden = self.burden(robot.compliance(), &base)?;
-        let robot = burden.into_iter().fold(robot, Robot::with_burden);
+        let robot = burden.into_iter().fold(robot, Robot::with_statics);
         let workpiece = base.inverse().compose(&frame(&self.workpiece_frame));
         let (path, listing) = self.desired_path(on_read)?;
         let spin = self.spin.angle_deg * DEG;
