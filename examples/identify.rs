@@ -1,6 +1,8 @@
-//! Identifies joint compliances from measured loads, or frequency and damping from a measured response, and prints one JSON object.
+//! Identifies joint compliances from measured loads, or frequency and damping from a measured
+//! response, and prints one JSON object.
 //!
-//! `cargo run --release --example identify -- data.csv [--robot preset|job.json] [--joints table|coupled-j3]`
+//! `cargo run --release --example identify -- data.csv [--robot preset|job.json]
+//! [--joints table|coupled-j3]` or
 //! `cargo run --release --example identify -- data.csv --response [--from seconds]`
 
 use armill::identify::{Convention, measurement, response, stiffness, summary};
@@ -34,15 +36,7 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
         Err(Refusal::Identify(error)) => {
-            let mut object = serde_json::json!({ "code": error.code(), "message": error.to_string() });
-            if let Some(field) = error.field() {
-                object["field"] = field.into();
-            }
-            if let Some((line, column)) = error.place() {
-                object["line"] = line.into();
-                object["column"] = column.into();
-            }
-            eprintln!("{object}");
+            eprintln!("{}", serde_json::json!(error));
             ExitCode::FAILURE
         }
     }
