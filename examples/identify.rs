@@ -67,7 +67,8 @@ fn identify() -> Result<serde_json::Value, Refusal> {
     }
     let text = read(&data.ok_or_else(|| Refusal::Usage("which file?".into()))?)?;
     if is_response {
-        return Ok(summary::response(&response::mode(&response::Signal::read(&text)?, from)?));
+        let mode = response::mode(&response::Signal::read(&text)?, from)?;
+        return Ok(serde_json::json!(summary::response(&mode)));
     }
     let job = match robot.as_deref() {
         None => Job::default(),
@@ -80,7 +81,7 @@ fn identify() -> Result<serde_json::Value, Refusal> {
     convention.suits(&robot)?;
     let measurements = measurement::read(&text, convention)?;
     let fit = stiffness::fit(&robot, &measurements.rows)?;
-    Ok(summary::stiffness(&robot, &measurements, &fit))
+    Ok(serde_json::json!(summary::stiffness(&robot, &measurements, &fit)))
 }
 
 fn read(file: &str) -> Result<String, Refusal> {

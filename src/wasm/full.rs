@@ -105,7 +105,7 @@ pub fn identify_stiffness(job: &str, text: &str, convention: &str) -> Result<Ide
         convention.suits(&robot)?;
         let measurements = measurement::read(text, convention)?;
         let fit = stiffness::fit(&robot, &measurements.rows)?;
-        let summary = summary::stiffness(&robot, &measurements, &fit);
+        let summary = serde_json::json!(summary::stiffness(&robot, &measurements, &fit));
         Ok(Identified { found: Found::Stiffness(Box::new(fit)), summary })
     };
     identify().map_err(|error| thrown(&error))
@@ -117,7 +117,7 @@ pub fn identify_response(text: &str, from_s: Option<f64>) -> Result<Identified, 
     let identify = || {
         let signal = response::Signal::read(text)?;
         let mode = response::mode(&signal, from_s)?;
-        let summary = summary::response(&mode);
+        let summary = serde_json::json!(summary::response(&mode));
         Ok(Identified { found: Found::Response(signal, Box::new(mode)), summary })
     };
     identify().map_err(|error| thrown(&error))
