@@ -1,6 +1,8 @@
-//! Identifies joint compliances from measured loads, or frequency and damping from a measured response, and prints one JSON object.
+//! Identifies joint compliances from measured loads, or frequency and damping from a measured
+//! response, and prints one JSON object.
 //!
-//! `cargo run --release --example identify -- data.csv [--robot preset|job.json] [--joints table|coupled-j3]`
+//! `cargo run --release --example identify -- data.csv [--robot preset|job.json]
+//! [--joints table|coupled-j3]` or
 //! `cargo run --release --example identify -- data.csv --response [--from seconds]`
 
 use armill::identify::{Convention, measurement, response, stiffness, summary};
@@ -34,15 +36,7 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
         Err(Refusal::Identify(error)) => {
-            let mut object = serde_json::json!({ "code": error.code(), "message": error.to_string() });
-            if let Some(field) = error.field() {
-                object["field"] = field.into();
-            }
-            if let Some((line, column)) = error.place() {
-                object["line"] = line.into();
-                object["column"] = column.into();
-            }
-            eprintln!("{object}");
+            eprintln!("{}", serde_json::json!(error));
             ExitCode::FAILURE
         }
     }
@@ -73,7 +67,8 @@ fn identify() -> Result<serde_json::Value, Refusal> {
     }
     let text = read(&data.ok_or_else(|| Refusal::Usage("which file?".into()))?)?;
     if is_response {
-        return Ok(summary::response(&response::mode(&response::Signal::read(&text)?, from)?));
+        let mode = response::mode(&response::Signal::read(&text)?, from)?;
+        return Ok(serde_json::json!(summary::response(&mode)));
     }
     let job = match robot.as_deref() {
         None => Job::default(),
@@ -86,7 +81,7 @@ fn identify() -> Result<serde_json::Value, Refusal> {
     convention.suits(&robot)?;
     let measurements = measurement::read(&text, convention)?;
     let fit = stiffness::fit(&robot, &measurements.rows)?;
-    Ok(summary::stiffness(&robot, &measurements, &fit))
+    Ok(serde_json::json!(summary::stiffness(&robot, &measurements, &fit)))
 }
 
 fn read(file: &str) -> Result<String, Refusal> {

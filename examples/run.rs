@@ -1,5 +1,5 @@
-//! Computes a job file (the default job without one), prints its summary as one JSON object, with what comes out of its path as a program
-//! (`as_program`), and, if asked, writes all columns.
+//! Computes a job file (the default job without one), prints its summary as one JSON object, with
+//! what comes out of its path as a program (`as_program`), and, if asked, writes all columns.
 //!
 //! `cargo run --release --example run -- [job.json] [--columns out.csv]`
 
@@ -53,15 +53,7 @@ fn main() -> ExitCode {
 
 /// The error as one JSON object on stderr.
 fn refuse(error: &Error) -> ExitCode {
-    let mut object = serde_json::json!({ "code": error.code(), "message": error.to_string() });
-    if let Some(field) = error.field() {
-        object["field"] = field.into();
-    }
-    if let Some((line, column)) = error.place() {
-        object["line"] = line.into();
-        object["column"] = column.into();
-    }
-    eprintln!("{object}");
+    eprintln!("{}", serde_json::json!(error));
     ExitCode::FAILURE
 }
 

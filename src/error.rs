@@ -1,5 +1,6 @@
 //! What can be wrong with a question: each error carries the data that a person needs to mend it.
 
+use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::fmt;
 
 /// Why a job was refused.
@@ -88,7 +89,8 @@ pub enum Error {
 }
 
 impl Error {
-    /// A value that is legal by itself but not here: its JSON path, the value as given, and what would be legal.
+    /// A value that is legal by itself but not here: its JSON path, the value as given, and what
+    /// would be legal.
     pub fn invalid(field: impl Into<String>, value: impl ToString, expected: impl Into<String>) -> Error {
         Error::Invalid { field: field.into(), value: value.to_string(), expected: expected.into() }
     }
@@ -98,7 +100,8 @@ impl Error {
         Error::Missing { field: field.into(), expected: expected.into() }
     }
 
-    /// A word that is none of `names`; `known` introduces the list of them in the message, as in "the charts are".
+    /// A word that is none of `names`; `known` introduces the list of them in the message, as in
+    /// "the charts are".
     pub fn unknown_name<'a>(
         field: impl Into<String>,
         given: &str,
@@ -145,7 +148,7 @@ impl Error {
         }
     }
 
-    /// The same error, told where along the path it happened.
+    /// The same error, with its place along the path.
     pub(crate) fn at(self, index: usize, s: f64) -> Self {
         match self {
             Error::Unreachable { position, distance, reach_min, reach_max, .. } => Error::Unreachable {
@@ -176,7 +179,7 @@ impl fmt::Display for Error {
                 let space = if unit.is_empty() { "" } else { " " };
                 let nearest = if value < min { min } else { max };
                 let size = value.abs();
-                // Three hundred digits tell nobody anything.
+                // Without the three hundred digits of f64::MAX.
                 let value = if size != 0.0 && !(1e-9..1e15).contains(&size) {
                     format!("{value:e}")
                 } else {
@@ -224,6 +227,24 @@ impl fmt::Display for Error {
 }
 
 impl std::error::Error for Error {}
+
+/// As scripts read it: one object with `code` and `message`, and with `field`, `line` and `column`
+/// where they apply.
+impl Serialize for Error {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut object = serializer.serialize_map(None)?;
+        object.serialize_entry("code", self.code())?;
+        object.serialize_entry("message", &self.to_string())?;
+        if let Some(field) = self.field() {
+            object.serialize_entry("field", field)?;
+        }
+        if let Some((line, column)) = self.place() {
+            object.serialize_entry("line", &line)?;
+            object.serialize_entry("column", &column)?;
+        }
+        object.end()
+    }
+}
 
 /// What was typed, cut where it is too long to be read in a sentence: it may be a whole file without a line break.
 pub(crate) struct Short<'a>(pub(crate) &'a str);

@@ -9,7 +9,7 @@ use armill::identify::Convention;
 use armill::math::Pose;
 use armill::robot::equilibrium::equilibrium;
 use armill::robot::{
-    Burden, Elbow, Joints, Load, Robot, Spring, compliance, forward, inverse, jacobian, library,
+    Elbow, JointStatics, Joints, Load, Robot, Spring, compliance, forward, inverse, jacobian, library,
 };
 use common::{between, refused, run};
 use nalgebra::{Vector3, Vector6};
@@ -158,7 +158,7 @@ fn force_and_weight_are_in_balance_with_a_parallelogram_too() {
     ];
     for arm in arms() {
         let springs = [0, 1, 2, 3, 4, 5].map(|joint| Spring::linear(arm.compliance()[joint]));
-        let burden = Burden {
+        let statics = JointStatics {
             springs,
             loads: loads.clone(),
             gravity: Vector3::new(0.0, 0.0, -9.8),
@@ -167,7 +167,7 @@ fn force_and_weight_are_in_balance_with_a_parallelogram_too() {
         let told = arm.clone().with_elbow(Elbow::Parallelogram).unwrap();
         let force = Vector3::new(-400.0, 300.0, 250.0);
         for q in poses(8) {
-            let balance = equilibrium(&told, &burden, &q, &force);
+            let balance = equilibrium(&told, &statics, &q, &force);
             assert!(balance.converged);
             let signs = Joints::from_fn(|i, _| arm.links()[i].sign);
             let rest = q + Joints::from(balance.turns).component_mul(&signs);
@@ -175,7 +175,7 @@ fn force_and_weight_are_in_balance_with_a_parallelogram_too() {
                 let frames = forward::frames(&told, &q);
                 let weight = loads
                     .iter()
-                    .map(|load| load.mass * burden.gravity.dot(&frames[load.link].point(&load.center)));
+                    .map(|load| load.mass * statics.gravity.dot(&frames[load.link].point(&load.center)));
                 force.dot(&frames[5].compose(told.tool()).position) + weight.sum::<f64>()
             };
             for i in 0..6 {
@@ -192,8 +192,8 @@ fn force_and_weight_are_in_balance_with_a_parallelogram_too() {
         let pendant = arm.clone().with_elbow(Elbow::Pendant).unwrap();
         for q in poses(9) {
             let back = arm.links()[1].sign * arm.links()[2].sign * q[1];
-            let serial = equilibrium(&arm, &burden, &(q - Joints::ith(2, back)), &force);
-            let shown = equilibrium(&pendant, &burden, &q, &force);
+            let serial = equilibrium(&arm, &statics, &(q - Joints::ith(2, back)), &force);
+            let shown = equilibrium(&pendant, &statics, &q, &force);
             assert!(serial.turns.iter().zip(shown.turns).all(|(a, b)| (a - b).abs() < 1e-12));
         }
     }

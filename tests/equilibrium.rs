@@ -7,7 +7,7 @@ mod common;
 use armill::math::Pose;
 use armill::robot::equilibrium::{Equilibrium, SETTLED, equilibrium};
 use armill::robot::load::GRAVITY;
-use armill::robot::{Burden, Joints, Load, Robot, Spring, compliance, forward, library};
+use armill::robot::{JointStatics, Joints, Load, Robot, Spring, compliance, forward, library};
 use common::{between, refused, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
@@ -33,10 +33,10 @@ fn loads() -> Vec<Load> {
     vec![load(1, 18.0, 0.2, 0.02, -0.1), load(2, 12.0, 0.03, -0.05, 0.1), load(5, 9.0, 0.04, -0.02, 0.12)]
 }
 
-fn burden(robot: &Robot, springs: Option<Spring>, loads: Vec<Load>) -> Burden {
+fn statics(robot: &Robot, springs: Option<Spring>, loads: Vec<Load>) -> JointStatics {
     let springs = [0, 1, 2, 3, 4, 5]
         .map(|joint| springs.clone().unwrap_or_else(|| Spring::linear(robot.compliance()[joint])));
-    Burden { springs, loads, gravity: Vector3::new(0.0, 0.0, -GRAVITY), touched_off: false }
+    JointStatics { springs, loads, gravity: Vector3::new(0.0, 0.0, -GRAVITY), touched_off: false }
 }
 
 fn poses() -> impl Iterator<Item = (Joints, Vector3<f64>)> {
@@ -47,8 +47,8 @@ fn poses() -> impl Iterator<Item = (Joints, Vector3<f64>)> {
     })
 }
 
-fn balanced(robot: &Robot, burden: &Burden, q: &Joints, force: &Vector3<f64>) -> Equilibrium {
-    let balance = equilibrium(robot, burden, q, force);
+fn balanced(robot: &Robot, statics: &JointStatics, q: &Joints, force: &Vector3<f64>) -> Equilibrium {
+    let balance = equilibrium(robot, statics, q, force);
     assert!(balance.converged && balance.residual <= SETTLED, "{balance:?}");
     balance
 }
@@ -62,23 +62,23 @@ fn sum(parts: &[(Vector3<f64>, Vector3<f64>); 6]) -> Vector3<f64> {
 fn at_rest_each_joint_turns_as_its_spring_says_under_the_slope_of_the_work() {
     let robot = arm();
     for springs in [None, Some(worn())] {
-        let burden = burden(&robot, springs, loads());
+        let statics = statics(&robot, springs, loads());
         for (q, force) in poses() {
-            let balance = balanced(&robot, &burden, &q, &force);
+            let balance = balanced(&robot, &statics, &q, &force);
             let work = |q: &Joints| {
                 let frames = forward::frames(&robot, q);
                 let tip = frames[5].compose(robot.tool()).position;
-                let lifted = burden
+                let lifted = statics
                     .loads
                     .iter()
-                    .map(|load| load.mass * burden.gravity.dot(&frames[load.link].point(&load.center)));
+                    .map(|load| load.mass * statics.gravity.dot(&frames[load.link].point(&load.center)));
                 force.dot(&tip) + lifted.sum::<f64>()
             };
             let rest = q + Joints::from(balance.turns);
             for joint in 0..6 {
                 let step = Joints::ith(joint, 1e-5);
                 let torque = (work(&(rest + step)) - work(&(rest - step))) / 2e-5;
-                let turn = burden.springs[joint].turn(torque);
+                let turn = statics.springs[joint].turn(torque);
                 // Differences over 1e-5 rad are good to 1e-6 N m; the softest piece turns 3e-4 rad a N m.
                 assert!((turn - balance.turns[joint]).abs() < 1e-9, "joint {joint}: {turn} {balance:?}");
             }
@@ -101,14 +101,14 @@ fn at_rest_each_joint_turns_as_its_spring_says_under_the_slope_of_the_work() {
 #[test]
 fn straight_springs_without_weight_are_the_thesiss_compliance_in_the_limit() {
     let robot = arm();
-    let burden = burden(&robot, None, Vec::new());
+    let statics = statics(&robot, None, Vec::new());
     for (q, force) in poses() {
         let off = |force: &Vector3<f64>| {
             let linear =
                 (compliance::cartesian_compliance(&robot, &q).fixed_view::<3, 3>(0, 0) * force).norm();
             let c = compliance::cartesian_compliance(&robot, &q);
             let displacement: Vector3<f64> = c.fixed_view::<3, 3>(0, 0) * force;
-            (sum(&balanced(&robot, &burden, &q, force).parts) - displacement).norm() / linear
+            (sum(&balanced(&robot, &statics, &q, force).parts) - displacement).norm() / linear
         };
         let (whole, half) = (off(&force), off(&(force / 2.0)));
         assert!(whole < 0.01, "{whole}");

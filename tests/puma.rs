@@ -3,7 +3,7 @@
 
 use armill::math::Pose;
 use armill::robot::equilibrium::equilibrium;
-use armill::robot::{Burden, Joints, Link, Load, Robot, Spring, forward, jacobian};
+use armill::robot::{JointStatics, Joints, Link, Load, Robot, Spring, forward, jacobian};
 use nalgebra::Vector3;
 use serde_json::Value;
 
@@ -76,9 +76,9 @@ fn the_weight_of_the_links_is_the_published_torque() {
     };
     let springs = [1e-12; 6].map(Spring::linear);
     let gravity = Vector3::new(0.0, 0.0, -inputs["g"].as_f64().unwrap());
-    let burden = Burden { springs, loads: (0..6).map(load).collect(), gravity, touched_off: false };
+    let statics = JointStatics { springs, loads: (0..6).map(load).collect(), gravity, touched_off: false };
     let q = Joints::from(numbers::<6>(&inputs["q_rad"]));
-    let balance = equilibrium(&robot, &burden, &q, &Vector3::zeros());
+    let balance = equilibrium(&robot, &statics, &q, &Vector3::zeros());
     let expected: [f64; 6] = numbers(&case["expected"]["tau_Nm"]);
     for (joint, (turn, expected)) in balance.turns.iter().zip(expected).enumerate() {
         // Printed with four digits.

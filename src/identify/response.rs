@@ -26,7 +26,7 @@ const FADED: f64 = 6.0;
 const FEW_CYCLES: f64 = 3.0;
 /// Samples a cycle below which the result is remarked on, and below which there is none.
 const FEW_SAMPLES: (f64, f64) = (10.0, 4.0);
-/// A second mode is told of from this share of the first one's amplitude on, if it explains this share of what the first leaves.
+/// A second mode is reported from this share of the first one's amplitude on, if it explains this share of what the first leaves.
 const SECOND: (f64, f64) = (0.03, 0.5);
 
 /// A signal over time.
@@ -219,7 +219,7 @@ fn widening<'a>(ringing: &Samples<'a>, guess: Decay) -> (Decay, Samples<'a>, (us
     }
 }
 
-/// A second damped sinusoid in what the first leaves, if there is one worth telling of.
+/// A second damped sinusoid in what the first leaves, if there is one worth reporting.
 fn second_mode(part: &Samples<'_>, rest: &[f64], first: &Decay) -> Option<Decay> {
     let rest = Samples { time: part.time, value: rest };
     let guess = extrema::guess(&rest)?;

@@ -20,7 +20,7 @@ const FIELD: &str = "measurements";
 /// A direction is unseen where its singular value is below this share of the largest, columns scaled to unit length.
 const UNSEEN: f64 = 1e-5;
 /// A column shorter than this share of the longest moves the TCP by nothing but rounding.
-const IDLE: f64 = 1e-9;
+const UNLOADED: f64 = 1e-9;
 /// Condition index from which a near dependency can do harm, and the share of variance that makes a joint part of it
 /// (D. Belsley, E. Kuh, R. Welsch, Regression Diagnostics, 1980, section 3.2).
 const HARMFUL: (f64, f64) = (30.0, 0.5);
@@ -36,12 +36,12 @@ pub enum Verdict {
     Known,
     /// Its interval reaches further, but not to zero.
     Rough,
-    /// Its interval reaches zero, or it is held there: these loads do not tell it from a rigid joint.
+    /// Its interval reaches zero, or it is held there: these loads do not distinguish it from a rigid joint.
     Small,
     /// No load of these poses moves the TCP through this joint.
-    Idle,
+    Unloaded,
     /// Only a sum with other joints' compliances shows.
-    Entangled,
+    Confounded,
 }
 
 impl Verdict {
@@ -51,8 +51,8 @@ impl Verdict {
             Verdict::Known => "known",
             Verdict::Rough => "rough",
             Verdict::Small => "small",
-            Verdict::Idle => "idle",
-            Verdict::Entangled => "entangled",
+            Verdict::Unloaded => "idle",
+            Verdict::Confounded => "entangled",
         }
     }
 }
@@ -176,7 +176,7 @@ pub fn fit(robot: &Robot, rows: &[Measurement]) -> Result<Fit, Error> {
         return Err(Error::invalid(FIELD, value, "loads that move the TCP"));
     }
     // What only rounding moves is not moved.
-    for i in (0..6).filter(|&i| g[(i, i)].sqrt() <= IDLE * longest).collect::<Vec<_>>() {
+    for i in (0..6).filter(|&i| g[(i, i)].sqrt() <= UNLOADED * longest).collect::<Vec<_>>() {
         g.set_row(i, &Matrix6::zeros().row(0));
         g.set_column(i, &Matrix6::zeros().column(0));
         h[i] = 0.0;
@@ -223,20 +223,20 @@ struct Poses {
     length: Vector6<f64>,
     /// A^T A with columns of unit length.
     g: Matrix6<f64>,
-    /// Squared singular values, largest first, and their directions; an idle joint has 1 and itself.
+    /// Squared singular values, largest first, and their directions; an unloaded joint has 1 and itself.
     directions: Vec<(f64, Vector6<f64>)>,
-    idle: [bool; 6],
+    unloaded: [bool; 6],
     /// Joints that take part in an unseen direction.
-    entangled: [bool; 6],
+    confounded: [bool; 6],
 }
 
 impl Poses {
     fn of(g: &Matrix6<f64>) -> Self {
         let length = Vector6::from_fn(|i, _| g[(i, i)].sqrt());
-        let idle = [0, 1, 2, 3, 4, 5].map(|i| length[i] == 0.0);
+        let unloaded = [0, 1, 2, 3, 4, 5].map(|i| length[i] == 0.0);
         let g = Matrix6::from_fn(|i, j| match i == j {
             true => 1.0,
-            false if idle[i] || idle[j] => 0.0,
+            false if unloaded[i] || unloaded[j] => 0.0,
             false => g[(i, j)] / (length[i] * length[j]),
         });
         let (values, vectors) = eigen(&g);
@@ -246,11 +246,11 @@ impl Poses {
             .map(|(k, value)| (value, vectors.column(k).into_owned()))
             .collect();
         directions.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-        let mut poses = Self { length, g, directions, idle, entangled: [false; 6] };
+        let mut poses = Self { length, g, directions, unloaded, confounded: [false; 6] };
         for k in poses.unseen() {
             let (_, direction) = &poses.directions[k];
-            for (i, entangled) in poses.entangled.iter_mut().enumerate() {
-                *entangled |= direction[i].abs() > 1e-2;
+            for (i, confounded) in poses.confounded.iter_mut().enumerate() {
+                *confounded |= direction[i].abs() > 1e-2;
             }
         }
         poses
@@ -266,7 +266,7 @@ impl Poses {
 
     fn condition(&self) -> f64 {
         let (largest, smallest) = (self.directions[0].0, self.directions[5].0);
-        if self.is_unseen(smallest) || self.idle.contains(&true) {
+        if self.is_unseen(smallest) || self.unloaded.contains(&true) {
             return f64::INFINITY;
         }
         (largest / smallest).sqrt()
@@ -281,10 +281,10 @@ impl Poses {
     fn joint(&self, i: usize, solution: &nnls::Solution, h: &Vector6<f64>, reach: f64) -> Joint {
         let compliance = solution.x[i];
         let mixed_with = self.mixed(i);
-        let entangled = self.entangled[i];
-        if self.idle[i] || entangled {
+        let confounded = self.confounded[i];
+        if self.unloaded[i] || confounded {
             let (verdict, inflation) =
-                if entangled { (Verdict::Entangled, f64::INFINITY) } else { (Verdict::Idle, 1.0) };
+                if confounded { (Verdict::Confounded, f64::INFINITY) } else { (Verdict::Unloaded, 1.0) };
             let interval = (0.0, f64::INFINITY);
             let (shares, load_factor, at_zero) = (vec![], None, !solution.free[i]);
             return Joint {
@@ -298,7 +298,7 @@ impl Poses {
                 verdict,
             };
         }
-        let distinct = [0, 1, 2, 3, 4, 5].map(|k| !self.entangled[k]);
+        let distinct = [0, 1, 2, 3, 4, 5].map(|k| !self.confounded[k]);
         // A joint at zero is judged as if all were free: how large it might be.
         let at_zero = !solution.free[i];
         let judged = if at_zero { distinct } else { solution.free };
@@ -329,7 +329,7 @@ impl Poses {
     /// What least squares without bounds would give.
     fn unconstrained(&self, i: usize, inverse: &Matrix6<f64>, h: &Vector6<f64>, judged: &[bool; 6]) -> f64 {
         let scaled =
-            Vector6::from_fn(|k, _| if judged[k] && !self.idle[k] { h[k] / self.length[k] } else { 0.0 });
+            Vector6::from_fn(|k, _| if judged[k] && !self.unloaded[k] { h[k] / self.length[k] } else { 0.0 });
         (inverse * scaled)[i] / self.length[i]
     }
 

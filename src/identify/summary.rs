@@ -1,60 +1,220 @@
 //! What was identified, as plain data with the units in the names and as sentences.
+//!
+//! JSON has no infinity: a number that nothing bounds is none here, `null` there.
 
 use crate::identify::measurement::Measurements;
-use crate::identify::response::{Measured, Mode};
-use crate::identify::stiffness::{Fit, Joint, Verdict};
+use crate::identify::response::{Measured, Mode, Other};
+use crate::identify::stiffness::{Fit, Joint, Residual, Verdict};
 use crate::robot::Robot;
 use crate::units::{HZ, MM};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// Rows named as those that fit worst.
 const WORST: usize = 3;
 
 /// A fit of joint compliances.
-pub fn stiffness(robot: &Robot, measurements: &Measurements, fit: &Fit) -> Value {
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StiffnessSummary {
+    /// The arm's name.
+    pub robot: String,
+    /// Where the compliances come from, in words.
+    pub source: String,
+    /// How many rows were fitted.
+    pub rows: usize,
+    /// Measured components minus free compliances.
+    pub degrees_of_freedom: usize,
+    /// Joint compliances [rad/(N m)].
+    pub joint_compliance_rad_per_nm: [f64; 6],
+    /// Share of the squared displacements that the joints' springs explain.
+    pub explained: f64,
+    /// Root mean square of the components' residuals [mm].
+    pub residual_rms_mm: f64,
+    /// Standard deviation of one component [mm], with the degrees of freedom taken off.
+    pub standard_deviation_mm: f64,
+    /// Mean over the rows of the residual by the measured length.
+    pub mean_relative_residual: f64,
+    /// The same of fits to all other rows.
+    pub mean_relative_left_out: f64,
+    /// Largest by smallest singular value, columns scaled to unit length; none where a direction is
+    /// unseen.
+    pub condition: Option<f64>,
+    /// The six joints.
+    pub joints: Vec<JointSummary>,
+    /// The rows in the order of the text.
+    pub residuals: Vec<ResidualSummary>,
+    /// Lines of the text, from 1, whose rows fit worst.
+    pub worst_lines: Vec<usize>,
+    /// How well the springs explain the data, in words.
+    pub sentence: String,
+    /// What is odd about the text but was read all the same.
+    pub remarks: Vec<String>,
+}
+
+/// What the poses say about one joint.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JointSummary {
+    /// Number of the joint, from 1.
+    pub joint: usize,
+    /// Compliance [rad/(N m)].
+    pub compliance_rad_per_nm: f64,
+    /// 95 % confidence interval of it [rad/(N m)]; an end is none where nothing bounds it.
+    pub interval_rad_per_nm: [Option<f64>; 2],
+    /// Stiffness [N m/rad]; none of a rigid joint.
+    pub stiffness_nm_per_rad: Option<f64>,
+    /// How many times as uncertain (squared) as with the other joints' columns at right angles;
+    /// none where it cannot be told from them.
+    pub variance_inflation: Option<f64>,
+    /// Share of the variance from each singular direction, the best determined one first; empty
+    /// where there is no variance.
+    pub direction_shares: Vec<f64>,
+    /// Numbers of the joints, from 1, that it is hard or impossible to tell from.
+    pub mixed_with: Vec<usize>,
+    /// How many times as large loads would bring its interval to 10 % on each side; none where more
+    /// load does not help.
+    pub load_factor: Option<f64>,
+    /// [`Verdict::id`].
+    pub verdict: &'static str,
+    /// What the verdict means, and what would help.
+    pub sentence: String,
+}
+
+/// What the fit leaves of one row.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ResidualSummary {
+    /// Line of the text, from 1.
+    pub line: usize,
+    /// Length of what was measured [mm].
+    pub measured_mm: f64,
+    /// Length of what the fit gives along the same axes [mm].
+    pub fitted_mm: f64,
+    /// Length of measured minus fitted [mm].
+    pub residual_mm: f64,
+    /// Length of measured minus what a fit to all other rows gives [mm].
+    pub left_out_mm: f64,
+}
+
+/// A vibration.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ResponseSummary {
+    /// Undamped natural frequency [rad/s].
+    pub frequency_rad_s: f64,
+    /// 95 % confidence interval of it [rad/s]; an end is none where nothing bounds it.
+    pub frequency_interval_rad_s: [Option<f64>; 2],
+    /// Undamped natural frequency [Hz].
+    pub frequency_hz: f64,
+    /// 95 % confidence interval of it [Hz]; an end is none where nothing bounds it.
+    pub frequency_interval_hz: [Option<f64>; 2],
+    /// Damping ratio.
+    pub damping: f64,
+    /// 95 % confidence interval of it; an end is none where nothing bounds it.
+    pub damping_interval: [Option<f64>; 2],
+    /// The same two by a second way.
+    pub decrement: DecrementSummary,
+    /// A second mode that the signal shows.
+    pub other: Option<OtherSummary>,
+    /// Start of the part of the signal that was fitted [s].
+    pub from_s: f64,
+    /// Its end [s].
+    pub to_s: f64,
+    /// Cycles in it.
+    pub cycles: f64,
+    /// Samples in a cycle.
+    pub samples_per_cycle: f64,
+    /// Share of the signal's variance that the fit explains.
+    pub explained: f64,
+    /// Passes of the fit.
+    pub passes: usize,
+    /// How much of the signal was fitted and how well, in words.
+    pub sentence: String,
+    /// What makes the result doubtful.
+    pub remarks: Vec<ResponseRemark>,
+}
+
+/// Frequency and damping from the extrema alone, by logarithmic decrement.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct DecrementSummary {
+    /// Undamped natural frequency [rad/s].
+    pub frequency_rad_s: f64,
+    /// Damping ratio.
+    pub damping: f64,
+}
+
+/// One more mode in the signal.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct OtherSummary {
+    /// Undamped natural frequency [Hz].
+    pub frequency_hz: f64,
+    /// Damping ratio.
+    pub damping: f64,
+    /// Amplitude at the beginning, as a share of the first mode's.
+    pub amplitude_share: f64,
+}
+
+/// What makes a vibration doubtful.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ResponseRemark {
+    /// Stable slug.
+    pub code: &'static str,
+    /// The reason in words.
+    pub message: String,
+}
+
+/// A fit of joint compliances.
+pub fn stiffness(robot: &Robot, measurements: &Measurements, fit: &Fit) -> StiffnessSummary {
     let (relative, left_out) = fit.relative();
-    let joints = fit.joints.iter().enumerate().map(|(i, joint)| {
-        json!({
-            "joint": i + 1,
-            "compliance_rad_per_nm": joint.compliance,
-            "interval_rad_per_nm": [joint.interval.0, joint.interval.1],
-            "stiffness_nm_per_rad": 1.0 / joint.compliance,
-            "variance_inflation": joint.inflation,
-            "direction_shares": joint.shares,
-            "mixed_with": joint.mixed_with.iter().map(|other| other + 1).collect::<Vec<_>>(),
-            "load_factor": joint.load_factor,
-            "verdict": joint.verdict.id(),
-            "sentence": judgement(joint),
-        })
-    });
-    let residuals = fit.rows.iter().map(|row| {
-        json!({
-            "line": row.line,
-            "measured_mm": row.measured / MM,
-            "fitted_mm": row.fitted / MM,
-            "residual_mm": row.residual / MM,
-            "left_out_mm": row.left_out / MM,
-        })
-    });
-    let worst: Vec<usize> = fit.worst().iter().take(WORST).map(|row| row.line).collect();
-    json!({
-        "robot": robot.name(),
-        "source": format!("identified from {} rows", fit.rows.len()),
-        "rows": fit.rows.len(),
-        "degrees_of_freedom": fit.freedom,
-        "joint_compliance_rad_per_nm": fit.compliance(),
-        "explained": fit.explained,
-        "residual_rms_mm": fit.rms / MM,
-        "standard_deviation_mm": fit.deviation / MM,
-        "mean_relative_residual": relative,
-        "mean_relative_left_out": left_out,
-        "condition": fit.condition,
-        "joints": joints.collect::<Vec<_>>(),
-        "residuals": residuals.collect::<Vec<_>>(),
-        "worst_lines": worst,
-        "sentence": explanation(fit, relative, left_out),
-        "remarks": measurements.remarks,
-    })
+    StiffnessSummary {
+        robot: robot.name().to_owned(),
+        source: format!("identified from {} rows", fit.rows.len()),
+        rows: fit.rows.len(),
+        degrees_of_freedom: fit.freedom,
+        joint_compliance_rad_per_nm: fit.compliance(),
+        explained: fit.explained,
+        residual_rms_mm: fit.rms / MM,
+        standard_deviation_mm: fit.deviation / MM,
+        mean_relative_residual: relative,
+        mean_relative_left_out: left_out,
+        condition: bounded(fit.condition),
+        joints: fit.joints.iter().enumerate().map(|(i, joint)| JointSummary::of(i + 1, joint)).collect(),
+        residuals: fit.rows.iter().map(ResidualSummary::of).collect(),
+        worst_lines: fit.worst().iter().take(WORST).map(|row| row.line).collect(),
+        sentence: explanation(fit, relative, left_out),
+        remarks: measurements.remarks.clone(),
+    }
+}
+
+impl JointSummary {
+    fn of(number: usize, joint: &Joint) -> Self {
+        let (low, high) = joint.interval;
+        Self {
+            joint: number,
+            compliance_rad_per_nm: joint.compliance,
+            interval_rad_per_nm: [bounded(low), bounded(high)],
+            stiffness_nm_per_rad: bounded(1.0 / joint.compliance),
+            variance_inflation: bounded(joint.inflation),
+            direction_shares: joint.shares.clone(),
+            mixed_with: joint.mixed_with.iter().map(|other| other + 1).collect(),
+            load_factor: joint.load_factor.and_then(bounded),
+            verdict: joint.verdict.id(),
+            sentence: judgement(joint),
+        }
+    }
+}
+
+impl ResidualSummary {
+    fn of(row: &Residual) -> Self {
+        Self {
+            line: row.line,
+            measured_mm: row.measured / MM,
+            fitted_mm: row.fitted / MM,
+            residual_mm: row.residual / MM,
+            left_out_mm: row.left_out / MM,
+        }
+    }
+}
+
+/// A number that is finite.
+fn bounded(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
 }
 
 /// How well J C J^T explains the data.
@@ -100,41 +260,51 @@ fn judgement(joint: &Joint) -> String {
             )
         }
         Verdict::Small => format!("not told from a rigid joint{hard}{more}"),
-        Verdict::Idle => {
+        Verdict::Unloaded => {
             "cannot be identified: no load in these poses turns it. Load the tip further from its axis"
                 .to_owned()
         }
-        Verdict::Entangled => format!(
+        Verdict::Confounded => format!(
             "cannot be identified: only a sum with {others} shows. Add poses and directions of load in which they do not move the tip alike"
         ),
     }
 }
 
 /// A vibration.
-pub fn response(mode: &Mode) -> Value {
+pub fn response(mode: &Mode) -> ResponseSummary {
     let interval = |measured: Measured, unit: f64| {
-        [(measured.value - measured.half) / unit, (measured.value + measured.half) / unit]
+        [(measured.value - measured.half) / unit, (measured.value + measured.half) / unit].map(bounded)
     };
-    let remarks = mode.remarks.iter().map(|(code, message)| json!({ "code": code, "message": message }));
-    json!({
-        "frequency_rad_s": mode.frequency.value,
-        "frequency_interval_rad_s": interval(mode.frequency, 1.0),
-        "frequency_hz": mode.frequency.value / HZ,
-        "frequency_interval_hz": interval(mode.frequency, HZ),
-        "damping": mode.damping.value,
-        "damping_interval": interval(mode.damping, 1.0),
-        "decrement": { "frequency_rad_s": mode.decrement.0, "damping": mode.decrement.1 },
-        "other": mode.other.map(|other| json!({ "frequency_hz": other.frequency / HZ, "damping": other.damping, "amplitude_share": other.share })),
-        "from_s": mode.window.0,
-        "to_s": mode.window.1,
-        "cycles": mode.cycles,
-        "samples_per_cycle": mode.samples_per_cycle,
-        "explained": mode.explained,
-        "passes": mode.passes.0,
-        "sentence": format!(
+    let (frequency_rad_s, damping) = mode.decrement;
+    let other = |other: Other| OtherSummary {
+        frequency_hz: other.frequency / HZ,
+        damping: other.damping,
+        amplitude_share: other.share,
+    };
+    let remark = |(code, message): &(&'static str, String)| ResponseRemark { code, message: message.clone() };
+    ResponseSummary {
+        frequency_rad_s: mode.frequency.value,
+        frequency_interval_rad_s: interval(mode.frequency, 1.0),
+        frequency_hz: mode.frequency.value / HZ,
+        frequency_interval_hz: interval(mode.frequency, HZ),
+        damping: mode.damping.value,
+        damping_interval: interval(mode.damping, 1.0),
+        decrement: DecrementSummary { frequency_rad_s, damping },
+        other: mode.other.map(other),
+        from_s: mode.window.0,
+        to_s: mode.window.1,
+        cycles: mode.cycles,
+        samples_per_cycle: mode.samples_per_cycle,
+        explained: mode.explained,
+        passes: mode.passes.0,
+        sentence: format!(
             "{:.2} cycles from {:.3} s to {:.3} s, {:.0} samples a cycle; the fit explains {:.2} % of the signal.",
-            mode.cycles, mode.window.0, mode.window.1, mode.samples_per_cycle, 100.0 * mode.explained
+            mode.cycles,
+            mode.window.0,
+            mode.window.1,
+            mode.samples_per_cycle,
+            100.0 * mode.explained
         ),
-        "remarks": remarks.collect::<Vec<_>>(),
-    })
+        remarks: mode.remarks.iter().map(remark).collect(),
+    }
 }

@@ -1,45 +1,141 @@
 //! The libraries as the page's form offers them, with the source of their numbers.
 
-use crate::cutting::material::{self, Model};
-use crate::job::fields;
-use crate::robot::Elbow;
-use crate::robot::library;
+use crate::cutting::material::{self, Material, Model};
+use crate::job::{DhRow, Joint3, Opw};
+use crate::robot::{Elbow, library};
 use crate::units::{N_PER_MM, N_PER_MM2};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// Robots and materials, each with its values under the keys of a job.
-pub fn presets() -> Value {
-    let robots = library::robots().map(|robot| {
-        json!({
-            "id": robot.id, "name": robot.name(), "maker": robot.maker,
-            "note": format!("{} {}", robot.geometry_note, robot.mode_note),
-            "stiffness_note": robot.stiffness_note, "stiffness_assumed": robot.stiffness_assumed,
-            "modified_dh": fields::dh_rows(&robot), "opw": fields::opw(&robot),
-            "joint_3": if robot.elbow == Elbow::Serial { "serial" } else { "pendant" },
-            "joint_limits_deg": robot.joint_limits_deg,
-            "joint_compliance_rad_per_nm": robot.joint_compliance,
-        })
-    });
-    let materials = material::library().iter().map(|material| {
-        let mut preset = json!({ "id": material.id, "name": material.name, "note": material.note() });
-        // Back from SI: without the last bits, which the table does not have.
-        let mut put = |key: &str, value: f64| preset[key] = ((value * 1e9).round() / 1e9).into();
-        match &material.model {
-            Model::Linear(k) => {
-                for (key, value) in [("ktc_n_mm2", k.ktc), ("krc_n_mm2", k.krc), ("kac_n_mm2", k.kac)] {
-                    put(key, value / N_PER_MM2);
-                }
-                for (key, value) in [("kte_n_mm", k.kte), ("kre_n_mm", k.kre), ("kae_n_mm", k.kae)] {
-                    put(key, value / N_PER_MM);
-                }
-            }
-            Model::Kienzle(kienzle) => {
-                put("kc11_n_mm2", kienzle.kc11 / N_PER_MM2);
-                put("mc", kienzle.mc);
-            }
-            Model::Orthogonal(_) => preset["orthogonal"] = true.into(),
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Presets {
+    /// Every robot of the library.
+    pub robots: Vec<RobotPreset>,
+    /// Every material of the library.
+    pub materials: Vec<MaterialPreset>,
+}
+
+/// A robot of the library.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RobotPreset {
+    /// Key used in jobs.
+    pub id: &'static str,
+    /// Maker and model.
+    pub name: String,
+    /// Who makes it.
+    pub maker: &'static str,
+    /// Where geometry and first natural frequency come from and how far to trust them.
+    pub note: String,
+    /// The same of the joint stiffness.
+    pub stiffness_note: String,
+    /// Whether the stiffness is only an order of magnitude.
+    pub stiffness_assumed: bool,
+    /// Rows of the modified Denavit-Hartenberg table [deg, mm].
+    pub modified_dh: [DhRow; 6],
+    /// Ortho-parallel parameters [mm, deg].
+    pub opw: Opw,
+    /// What joint 3 is counted from.
+    pub joint_3: Joint3,
+    /// Lowest and highest angle of each joint [deg], where they are known; `null` where not.
+    pub joint_limits_deg: Option<[[f64; 2]; 6]>,
+    /// Joint compliances [rad/(N m)].
+    pub joint_compliance_rad_per_nm: [f64; 6],
+}
+
+/// A material of the library, with the numbers of its own model: the others' keys are left out.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct MaterialPreset {
+    /// Key used in jobs.
+    pub id: &'static str,
+    /// Name as read.
+    pub name: &'static str,
+    /// Where the coefficients come from and how far to trust them.
+    pub note: String,
+    /// Tangential cutting coefficient [N/mm^2].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ktc_n_mm2: Option<f64>,
+    /// Radial cutting coefficient [N/mm^2].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub krc_n_mm2: Option<f64>,
+    /// Axial cutting coefficient [N/mm^2].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kac_n_mm2: Option<f64>,
+    /// Tangential edge coefficient [N/mm].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kte_n_mm: Option<f64>,
+    /// Radial edge coefficient [N/mm].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kre_n_mm: Option<f64>,
+    /// Axial edge coefficient [N/mm].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kae_n_mm: Option<f64>,
+    /// Specific cutting force at 1 mm of chip thickness [N/mm^2].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kc11_n_mm2: Option<f64>,
+    /// Exponent by which the specific cutting force falls with the chip thickness.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mc: Option<f64>,
+    /// Whether it is given by constants of orthogonal cutting, which the form has no fields for;
+    /// left out where not.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub orthogonal: bool,
+}
+
+/// Robots and materials of the library.
+pub fn presets() -> Presets {
+    Presets {
+        robots: library::robots().map(RobotPreset::of).collect(),
+        materials: material::library().iter().map(MaterialPreset::of).collect(),
+    }
+}
+
+impl RobotPreset {
+    fn of(robot: library::Preset) -> Self {
+        let mut signs = robot.opw.joint_sign.into_iter();
+        let modified_dh = robot.opw.modified_dh().map(|[alpha_deg, a_mm, d_mm, theta_offset_deg]| DhRow {
+            alpha_deg,
+            a_mm,
+            d_mm,
+            theta_offset_deg,
+            joint_sign: signs.next().unwrap_or(1.0),
+        });
+        let [a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm] = robot.opw.lengths_mm;
+        let (joint_sign, joint_offset_deg) = (robot.opw.joint_sign, robot.opw.joint_offset_deg);
+        Self {
+            id: robot.id,
+            name: robot.name(),
+            maker: robot.maker,
+            note: format!("{} {}", robot.geometry_note, robot.mode_note),
+            stiffness_note: robot.stiffness_note,
+            stiffness_assumed: robot.stiffness_assumed,
+            modified_dh,
+            opw: Opw { a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm, joint_sign, joint_offset_deg },
+            joint_3: if robot.elbow == Elbow::Serial { Joint3::Serial } else { Joint3::Pendant },
+            joint_limits_deg: robot.joint_limits_deg,
+            joint_compliance_rad_per_nm: robot.joint_compliance,
         }
-        preset
-    });
-    json!({ "robots": robots.collect::<Vec<_>>(), "materials": materials.collect::<Vec<_>>() })
+    }
+}
+
+impl MaterialPreset {
+    fn of(material: &Material) -> Self {
+        let preset = Self { id: material.id, name: material.name, note: material.note(), ..Self::default() };
+        // Back from SI: without the last bits, which the table does not have.
+        let number = |value: f64, unit: f64| Some((value / unit * 1e9).round() / 1e9);
+        match &material.model {
+            Model::Linear(k) => Self {
+                ktc_n_mm2: number(k.ktc, N_PER_MM2),
+                krc_n_mm2: number(k.krc, N_PER_MM2),
+                kac_n_mm2: number(k.kac, N_PER_MM2),
+                kte_n_mm: number(k.kte, N_PER_MM),
+                kre_n_mm: number(k.kre, N_PER_MM),
+                kae_n_mm: number(k.kae, N_PER_MM),
+                ..preset
+            },
+            Model::Kienzle(kienzle) => {
+                Self { kc11_n_mm2: number(kienzle.kc11, N_PER_MM2), mc: number(kienzle.mc, 1.0), ..preset }
+            }
+            Model::Orthogonal(_) => Self { orthogonal: true, ..preset },
+        }
+    }
 }

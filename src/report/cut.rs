@@ -186,7 +186,7 @@ impl Report {
                 |force: Vector3<f64>| compliance::deflection(robot, &q, &frames, &tip.position, &force).0;
             // The compliance is symmetric: what a unit force across the wall moves along F is what F moves across the wall. Springs that are
             // no straight lines are taken as straight around the mean force.
-            let (constant, mut moved) = if robot.burden().is_some() {
+            let (constant, mut moved) = if robot.statics().is_some() {
                 let weight = by(Vector3::zeros());
                 let moved = by(base + y) - by(base);
                 ((by(base) - weight).dot(&y) - moved.dot(&base), moved)

@@ -23,7 +23,7 @@ pub(crate) fn deflection(
     force: &Vector3<f64>,
 ) -> (Vector3<f64>, Vector3<f64>) {
     let (mut displacement, mut rotation) = (Vector3::zeros(), Vector3::zeros());
-    if robot.burden().is_none() && robot.elbow() != Elbow::Parallelogram {
+    if robot.statics().is_none() && robot.elbow() != Elbow::Parallelogram {
         // The usual arm, without a table of its joints: this runs for every sample of every pass.
         for (frame, c) in frames.iter().zip(robot.compliance().iter()) {
             let (k, v) = jacobian::turn(frame, tip);
@@ -51,9 +51,9 @@ pub(crate) fn by_joint(
     tip: &Vector3<f64>,
     force: &Vector3<f64>,
 ) -> [(Vector3<f64>, Vector3<f64>); 6] {
-    if let Some(burden) = robot.burden() {
+    if let Some(statics) = robot.statics() {
         let mut sag = robot.sag().iter();
-        return equilibrium(robot, burden, q, force).parts.map(|(moved, turned)| {
+        return equilibrium(robot, statics, q, force).parts.map(|(moved, turned)| {
             sag.next().map_or((moved, turned), |(zero, twist)| (moved - zero, turned - twist))
         });
     }

@@ -1,32 +1,20 @@
 //! Where the joints come to rest under force and weight when their springs are not straight lines.
 //!
-//! The torques are taken at the pose that the joints give way to, so the turns are sought until they no longer change: each round puts the
-//! turns of the last into the arm and reads the springs again. A round shrinks the error by about compliance x force x reach (1e-3 for a
-//! milling robot), so a few are enough; an arm so soft that it does not settle is told.
+//! The torques are taken at the pose that the joints give way to, so the turns are sought until
+//! they no longer change: each round puts the turns of the last into the arm and reads the springs
+//! again. A round shrinks the error by about compliance x force x reach (1e-3 for a milling robot),
+//! so a few are enough; an arm so soft that it does not settle is reported as not converged.
 
-use crate::robot::load::{self, Load};
-use crate::robot::{Elbow, Joints, Robot, Spring, forward, jacobian};
+use crate::robot::{Elbow, JointStatics, Joints, Robot, forward, jacobian, load};
 use nalgebra::Vector3;
-
-/// Springs and weight of an arm, where they are more than six compliances.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Burden {
-    /// One for each joint.
-    pub springs: [Spring; 6],
-    /// What the joints carry.
-    pub loads: Vec<Load>,
-    /// Acceleration of gravity in the base frame [m/s^2].
-    pub gravity: Vector3<f64>,
-    /// Whether the sag at the start of the path is no error: the workpiece was touched off there.
-    pub touched_off: bool,
-}
 
 /// Turns at which springs, force and weight are in balance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Equilibrium {
     /// Turn of each joint about its axis [rad].
     pub turns: [f64; 6],
-    /// What each turn moves [m] and turns [rad] the TCP, base frame; together they take it where the turned joints put it.
+    /// What each turn moves [m] and turns [rad] the TCP, base frame; together they take it where
+    /// the turned joints put it.
     pub parts: [(Vector3<f64>, Vector3<f64>); 6],
     /// Rounds.
     pub passes: usize,
@@ -42,11 +30,12 @@ pub const SETTLED: f64 = 1e-12;
 const ROUNDS: usize = 60;
 
 /// The balance for joint commands `q` [rad] and a force on the TCP [N], base frame.
-pub fn equilibrium(robot: &Robot, burden: &Burden, q: &Joints, force: &Vector3<f64>) -> Equilibrium {
+pub fn equilibrium(robot: &Robot, statics: &JointStatics, q: &Joints, force: &Vector3<f64>) -> Equilibrium {
     let bent = |turns: &[f64; 6], share: f64| {
         let turned = Joints::from_fn(|i, _| robot.links()[i].sign * turns[i] * share);
-        // A parallelogram's springs turn the joints as told; the others those of the serial arm.
-        let q = if robot.elbow() == Elbow::Pendant { q + robot.told(&turned) } else { q + turned };
+        // A parallelogram's springs turn the joints as the controller counts them; the others those
+        // of the serial arm.
+        let q = if robot.elbow() == Elbow::Pendant { q + robot.to_controller(&turned) } else { q + turned };
         let frames = forward::frames(robot, &q);
         let tip = frames[5].compose(robot.tool()).position;
         (frames, tip)
@@ -55,18 +44,19 @@ pub fn equilibrium(robot: &Robot, burden: &Burden, q: &Joints, force: &Vector3<f
     let (mut passes, mut residual) = (0, f64::INFINITY);
     while residual > SETTLED && passes < ROUNDS {
         let (frames, tip) = bent(&turns, 1.0);
-        let mut weight = load::torques(&frames, &burden.loads, &burden.gravity);
-        weight[1] += weight[2] * jacobian::held(robot);
+        let mut weight = load::torques(&frames, &statics.loads, &statics.gravity);
+        weight[1] += weight[2] * jacobian::parallelogram_coupling(robot);
         let mut next = [0.0; 6];
         for (joint, (_, v)) in jacobian::springs(robot, &frames, &tip).into_iter().enumerate() {
             // Eq. 3.47 with the weight added.
-            next[joint] = burden.springs[joint].turn(v.dot(force) + weight[joint]);
+            next[joint] = statics.springs[joint].turn(v.dot(force) + weight[joint]);
         }
         residual = (0..6).map(|i| (next[i] - turns[i]).abs()).fold(0.0, f64::max);
         turns = next;
         passes += 1;
     }
-    // Half way, the levers are the mean of those before and after: what the joints add up to is exact to the third power of the turns.
+    // Half way, the levers are the mean of those before and after: what the joints add up to is
+    // exact to the third power of the turns.
     let (frames, tip) = bent(&turns, 0.5);
     let mut joint = turns.iter();
     let parts = jacobian::springs(robot, &frames, &tip).map(|(k, v)| {

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 
 /// The frames 1 to 6 in the base frame for the joint values `q` [rad]: 0T1, 0T2, ... 0T6 (eqs. 3.1, 3.2).
 pub fn frames(robot: &Robot, q: &Joints) -> [Pose; 6] {
-    let q = robot.serial(q);
+    let q = robot.to_serial(q);
     let mut frame = Pose::identity();
     std::array::from_fn(|i| {
         frame = next(robot, i, &frame, Turn::of(robot.links()[i].theta(q[i])));

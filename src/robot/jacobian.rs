@@ -1,25 +1,28 @@
 //! Geometric Jacobian (thesis eqs. 3.23-3.40).
 //!
-//! Eq. 3.34 takes axis i-1 for joint i; with modified Denavit-Hartenberg frames joint i turns about z_i,
-//! so the axes k_i and origins p_i are used. Eqs. 3.35-3.40 agree with that, but for the sign of J_4's x row.
+//! Eq. 3.34 takes axis i-1 for joint i; with modified Denavit-Hartenberg frames joint i turns about
+//! z_i, so the axes k_i and origins p_i are used. Eqs. 3.35-3.40 agree with that, but for the sign
+//! of J_4's x row.
 
 use crate::math::Pose;
 use crate::robot::{Elbow, Joints, Robot, forward};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-/// The 6x6 Jacobian of the TCP in the base frame, by the joint values as told: rows v_x, v_y, v_z [m/rad], omega_x, omega_y, omega_z [1].
+/// The 6x6 Jacobian of the TCP in the base frame, by the joint values as the controller counts
+/// them: rows v_x, v_y, v_z [m/rad], omega_x, omega_y, omega_z [1].
 pub fn jacobian(robot: &Robot, q: &Joints) -> Matrix6<f64> {
     let (frames, tip) = frames_and_tip(robot, q);
     let mut j = columns(robot, frames.each_ref().map(|frame| turn(frame, &tip)));
     if robot.elbow() != Elbow::Serial {
-        let follows = j.column(2) * robot.follows();
-        j.set_column(1, &(j.column(1) + follows));
+        let coupled = j.column(2) * robot.elbow_coupling();
+        j.set_column(1, &(j.column(1) + coupled));
     }
     j
 }
 
-/// The Jacobian of the joints' springs: its columns belong to the drives. Where a parallelogram holds the forearm, what gives way at joint 2 turns the
-/// upper arm alone; where only the count differs, the springs are those of the serial arm.
+/// The Jacobian of the joints' springs: its columns belong to the drives. Where a parallelogram
+/// holds the forearm, what gives way at joint 2 turns the upper arm alone; where only the count
+/// differs, the springs are those of the serial arm.
 pub fn spring_jacobian(robot: &Robot, q: &Joints) -> Matrix6<f64> {
     let (frames, tip) = frames_and_tip(robot, q);
     columns(robot, springs(robot, &frames, &tip))
@@ -48,7 +51,8 @@ pub(crate) fn turn(frame: &Pose, tip: &Vector3<f64>) -> (Vector3<f64>, Vector3<f
     (k, k.cross(&(tip - frame.position)))
 }
 
-/// What a unit turn of each spring turns [1] and moves [m] the point `tip` by, base frame, counted about the joint's own axis.
+/// What a unit turn of each spring turns [1] and moves [m] the point `tip` by, base frame, counted
+/// about the joint's own axis.
 pub(crate) fn springs(
     robot: &Robot,
     frames: &[Pose; 6],
@@ -56,7 +60,7 @@ pub(crate) fn springs(
 ) -> [(Vector3<f64>, Vector3<f64>); 6] {
     let mut springs = frames.each_ref().map(|frame| turn(frame, tip));
     if robot.elbow() == Elbow::Parallelogram {
-        let share = held(robot);
+        let share = parallelogram_coupling(robot);
         let (k, v) = springs[2];
         springs[1].0 += k * share;
         springs[1].1 += v * share;
@@ -64,13 +68,19 @@ pub(crate) fn springs(
     springs
 }
 
-/// How far axis 3 turns, about its own direction, while a parallelogram holds the forearm and axis 2 turns by one.
-pub(crate) fn held(robot: &Robot) -> f64 {
+/// How far axis 3 turns, about its own direction, while a parallelogram holds the forearm and axis
+/// 2 turns by one.
+pub(crate) fn parallelogram_coupling(robot: &Robot) -> f64 {
     let [_, second, third, ..] = robot.links();
-    if robot.elbow() == Elbow::Parallelogram { robot.follows() * second.sign * third.sign } else { 0.0 }
+    if robot.elbow() == Elbow::Parallelogram {
+        robot.elbow_coupling() * second.sign * third.sign
+    } else {
+        0.0
+    }
 }
 
-/// Each joint's axis k_i and the lever from it to the point `tip`, both in the base frame (eq. 3.34, corrected).
+/// Each joint's axis k_i and the lever from it to the point `tip`, both in the base frame (eq.
+/// 3.34, corrected).
 pub(crate) fn levers(frames: &[Pose; 6], tip: &Vector3<f64>) -> [(Vector3<f64>, Vector3<f64>); 6] {
     frames.each_ref().map(|frame| (frame.rotation.column(2).into_owned(), tip - frame.position))
 }

@@ -86,7 +86,7 @@ pub const RULE_STIFFNESS: [f64; 6] = [2.3e6, 3.2e6, 2.1e6, 4.4e5, 3.3e5, 3.4e5];
 /// Payload that [`RULE_STIFFNESS`] is for [kg].
 pub const RULE_PAYLOAD: f64 = 200.0;
 
-/// Joint compliance [rad/(N m)] of an arm whose stiffness nobody has published, by its rated payload [kg]: an order of magnitude.
+/// Joint compliance [rad/(N m)] of an arm whose stiffness is not published, by its rated payload [kg]: an order of magnitude.
 ///
 /// k_i = K_i (payload / 200 kg)^(1/3). The exponent and K_i are the least-squares fit (in logarithms; 0.29, rounded up) over the eight
 /// published sets in `stiffness.csv`, from 6 to 500 kg; single values lie off by a factor of 1.9 (one standard deviation) and of up to 8.

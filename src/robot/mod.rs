@@ -12,11 +12,12 @@ pub mod jacobian;
 pub mod compliance;
 pub mod spring;
 pub mod load;
+pub mod statics;
 pub mod equilibrium;
 pub mod library;
 
-pub use equilibrium::Burden;
 pub use load::Load;
 pub use model::{Elbow, Joints, Link, Robot};
 pub use opw::Opw;
 pub use spring::Spring;
+pub use statics::JointStatics;

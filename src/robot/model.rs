@@ -1,12 +1,15 @@
-//! The arm: modified Denavit-Hartenberg table, joint limits, joint compliance, tool (thesis Tables 3.1, 3.2, 3.4).
+//! The arm: modified Denavit-Hartenberg table, joint limits, joint compliance, tool (thesis Tables
+//! 3.1, 3.2, 3.4).
 //!
-//! Armill solves arms of the RX-90's family in closed form: an ortho-parallel base (axes 1 and 2 at right angles,
-//! crossing or offset; axes 2 and 3 parallel) and a spherical wrist (axes 4, 5, 6 meet in one point).
-//! Other six-joint arms are solved by iteration; [`Robot::closed_form`] names the row that breaks the rule.
+//! Armill solves arms of the RX-90's family in closed form: an ortho-parallel base (axes 1 and 2 at
+//! right angles, crossing or offset; axes 2 and 3 parallel) and a spherical wrist (axes 4, 5, 6
+//! meet in one point). Other six-joint arms are solved by iteration; [`Robot::closed_form`] names
+//! the row that breaks the rule.
 
 use crate::error::Error;
 use crate::math::{self, Pose};
-use crate::robot::equilibrium::{Burden, equilibrium};
+use crate::robot::JointStatics;
+use crate::robot::equilibrium::equilibrium;
 use crate::units::{DEG, MM};
 use nalgebra::{Vector3, Vector6};
 
@@ -51,14 +54,16 @@ impl Link {
     }
 }
 
-/// The number of quarter turns (0 to 3) in an angle, or `None` if it is no multiple of 90 degrees within 1e-9 rad.
+/// The number of quarter turns (0 to 3) in an angle, or `None` if it is no multiple of 90 degrees
+/// within 1e-9 rad.
 fn quarter_turns(angle: f64) -> Option<u8> {
     let turns = angle / math::FRAC_PI_2;
     let whole = turns.round();
     ((turns - whole).abs() < 1e-9).then(|| whole.rem_euclid(4.0) as u8)
 }
 
-/// What the closed-form inverse needs of the table: signs of the twists and the lengths of the planar arm.
+/// What the closed-form inverse needs of the table: signs of the twists and the lengths of the
+/// planar arm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Geometry {
     /// Sines of the twists alpha_1, alpha_3, alpha_4, alpha_5: +1 or -1.
@@ -83,13 +88,16 @@ pub enum Elbow {
     /// From the upper arm; the drive is at the elbow.
     #[default]
     Serial,
-    /// From the base: told is the forearm's own inclination (FANUC's pendants), but the drive is at the elbow.
+    /// From the base: the controller counts the forearm's own inclination (FANUC's pendants), but
+    /// the drive is at the elbow.
     Pendant,
-    /// From the base, where the drive is, which holds the forearm's inclination through a parallelogram.
+    /// From the base, where the drive is, which holds the forearm's inclination through a
+    /// parallelogram.
     Parallelogram,
 }
 
-/// A six-joint arm with its joint compliance and its tool. The base frame is {B} (the thesis's {M}).
+/// A six-joint arm with its joint compliance and its tool. The base frame is {B} (the thesis's
+/// {M}).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Robot {
     name: String,
@@ -99,7 +107,7 @@ pub struct Robot {
     tool: Pose,
     flange: Pose,
     elbow: Elbow,
-    burden: Option<Box<Burden>>,
+    statics: Option<Box<JointStatics>>,
     sag: [(Vector3<f64>, Vector3<f64>); 6],
     pub(crate) twists: [(f64, f64); 6],
     geometry: Result<Geometry, Error>,
@@ -108,11 +116,13 @@ pub struct Robot {
 impl Robot {
     /// An arm from its modified DH table.
     ///
-    /// `limits` are the joints' ranges [rad], `compliance` the joints' compliances C_theta [rad/(N m)] (eq. 3.43).
+    /// `limits` are the joints' ranges [rad], `compliance` the joints' compliances C_theta
+    /// [rad/(N m)] (eq. 3.43).
     ///
     /// # Errors
-    /// [`Error::Invalid`] naming the row and the value if a number of the table, a limit or a compliance
-    /// is not legal. Field names are those of the job (`robot.modified_dh[1].alpha_deg`).
+    /// [`Error::Invalid`] naming the row and the value if a number of the table, a limit or a
+    /// compliance is not legal. Field names are those of the job
+    /// (`robot.modified_dh[1].alpha_deg`).
     pub fn new(
         name: impl Into<String>,
         links: [Link; 6],
@@ -156,7 +166,7 @@ impl Robot {
             tool: Pose::identity(),
             flange: Pose::identity(),
             elbow: Elbow::Serial,
-            burden: None,
+            statics: None,
             sag: [(Vector3::zeros(), Vector3::zeros()); 6],
             twists: links.map(|link| link.twist()),
             geometry: Geometry::of(&links),
@@ -173,7 +183,8 @@ impl Robot {
     /// The same arm with its joint 3 counted from elsewhere.
     ///
     /// # Errors
-    /// [`Error::Invalid`] if axes 2 and 3 are not parallel: the forearm has no inclination of its own then.
+    /// [`Error::Invalid`] if axes 2 and 3 are not parallel: the forearm has no inclination of its
+    /// own then.
     pub fn with_elbow(mut self, elbow: Elbow) -> Result<Self, Error> {
         if elbow != Elbow::Serial && quarter_turns(self.links[2].alpha).is_none_or(|turns| turns % 2 != 0) {
             let expected = "axes 2 and 3 that are parallel: alpha of row 3 is 0 or 180";
@@ -188,51 +199,56 @@ impl Robot {
         self.elbow
     }
 
-    /// How far axis 3 turns from the upper arm, in joint 3's own count, for each turn of joint 2 while joint 3 is told to stand still:
-    /// with the forearm's inclination s_2 q_2 cos(alpha_2) + s_3 q_3 held, -s_2 s_3 cos(alpha_2).
-    pub(crate) fn follows(&self) -> f64 {
+    /// How far axis 3 turns from the upper arm, in joint 3's own count, for each turn of joint 2
+    /// while joint 3 is commanded to stand still: with the forearm's inclination s_2 q_2
+    /// cos(alpha_2) + s_3 q_3 held, -s_2 s_3 cos(alpha_2).
+    pub(crate) fn elbow_coupling(&self) -> f64 {
         let (cos_2, _) = self.twists[2];
         if self.elbow == Elbow::Serial { 0.0 } else { -self.links[1].sign * self.links[2].sign * cos_2 }
     }
 
-    /// Joint values with joint 3 counted from the upper arm, for values as told.
-    pub(crate) fn serial(&self, q: &Joints) -> Joints {
+    /// Joint values with joint 3 counted from the upper arm, for values as the controller counts
+    /// them.
+    pub(crate) fn to_serial(&self, q: &Joints) -> Joints {
         let mut q = *q;
         if self.elbow != Elbow::Serial {
-            q[2] += self.follows() * q[1];
+            q[2] += self.elbow_coupling() * q[1];
         }
         q
     }
 
-    /// Joint values as told, for values with joint 3 counted from the upper arm.
-    pub(crate) fn told(&self, q: &Joints) -> Joints {
+    /// Joint values as the controller counts them, for values with joint 3 counted from the upper
+    /// arm.
+    pub(crate) fn to_controller(&self, q: &Joints) -> Joints {
         let mut q = *q;
         if self.elbow != Elbow::Serial {
-            q[2] -= self.follows() * q[1];
+            q[2] -= self.elbow_coupling() * q[1];
         }
         q
     }
 
     /// The same arm with springs that are no straight lines, or with the weight it carries.
-    pub fn with_burden(mut self, burden: Burden) -> Self {
-        self.burden = Some(Box::new(burden));
+    pub fn with_statics(mut self, statics: JointStatics) -> Self {
+        self.statics = Some(Box::new(statics));
         self
     }
 
-    /// The same arm with its sag at the joint commands `q` [rad] taken for zero, if the workpiece was touched off there.
+    /// The same arm with its sag at the joint commands `q` [rad] taken for zero, if the workpiece
+    /// was touched off there.
     pub fn touched_off_at(mut self, q: &Joints) -> Self {
-        if let Some(burden) = self.burden().filter(|burden| burden.touched_off) {
-            self.sag = equilibrium(&self, burden, q, &Vector3::zeros()).parts;
+        if let Some(statics) = self.statics().filter(|statics| statics.touched_off) {
+            self.sag = equilibrium(&self, statics, q, &Vector3::zeros()).parts;
         }
         self
     }
 
     /// Springs and weight, where they are more than [`Robot::compliance`].
-    pub fn burden(&self) -> Option<&Burden> {
-        self.burden.as_deref()
+    pub fn statics(&self) -> Option<&JointStatics> {
+        self.statics.as_deref()
     }
 
-    /// What each joint's sag has moved [m] and turned [rad] the TCP by where the workpiece was touched off.
+    /// What each joint's sag has moved [m] and turned [rad] the TCP by where the workpiece was
+    /// touched off.
     pub(crate) fn sag(&self) -> &[(Vector3<f64>, Vector3<f64>); 6] {
         &self.sag
     }
@@ -267,8 +283,8 @@ impl Robot {
         &self.flange
     }
 
-    /// Smallest and largest distance of the wrist centre from axis 2 [m]; of an arm that is solved numerically a bound: from frame 1's
-    /// origin, all links in line.
+    /// Smallest and largest distance of the wrist centre from axis 2 [m]; of an arm that is solved
+    /// numerically a bound: from frame 1's origin, all links in line.
     pub fn reach(&self) -> (f64, f64) {
         match self.geometry {
             Ok(Geometry { upper, fore, .. }) => ((upper.abs() - fore).abs(), upper.abs() + fore),
@@ -284,7 +300,8 @@ impl Robot {
         self.geometry.as_ref()
     }
 
-    /// Whether the inverse has a closed form; otherwise the row of the table that keeps it from one.
+    /// Whether the inverse has a closed form; otherwise the row of the table that keeps it from
+    /// one.
     ///
     /// # Errors
     /// [`Error::Invalid`] with the row, its value and what the closed form needs there.

@@ -102,7 +102,7 @@ impl Setup {
         let robot = robot.with_tool(frame(&job.tool_frame));
         let base = frame(&job.base_frame);
         let statics = statics::of(&job.robot, robot.compliance(), &base)?;
-        let robot = statics.into_iter().fold(robot, Robot::with_burden);
+        let robot = statics.into_iter().fold(robot, Robot::with_statics);
         let workpiece = base.inverse().compose(&frame(&job.workpiece_frame));
         let (path, program) = path::desired(job, progress)?;
         let roll = job.spin.angle_deg * DEG;

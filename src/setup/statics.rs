@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::job::{self, SagZero};
 use crate::math::Pose;
 use crate::robot::load::GRAVITY;
-use crate::robot::{Burden, Joints, Load, Spring};
+use crate::robot::{JointStatics, Joints, Load, Spring};
 use crate::units::{ARCMIN, MM};
 use nalgebra::Vector3;
 
@@ -15,7 +15,11 @@ const HEAVIEST: f64 = 1e5;
 ///
 /// # Errors
 /// What is wrong with a row, with its field.
-pub(super) fn of(robot: &job::Robot, compliance: &Joints, base: &Pose) -> Result<Option<Burden>, Error> {
+pub(super) fn of(
+    robot: &job::Robot,
+    compliance: &Joints,
+    base: &Pose,
+) -> Result<Option<JointStatics>, Error> {
     let points = robot.joint_springs_nm_arcmin.as_deref().unwrap_or_default();
     let rows = robot.loads_kg_mm.as_deref().unwrap_or_default();
     if points.is_empty() && rows.is_empty() {
@@ -49,7 +53,7 @@ pub(super) fn of(robot: &job::Robot, compliance: &Joints, base: &Pose) -> Result
     }
     let gravity = base.inverse().direction(&Vector3::new(0.0, 0.0, -GRAVITY));
     let touched_off = robot.sag_zero.unwrap_or_default() == SagZero::Start;
-    Ok(Some(Burden { springs, loads, gravity, touched_off }))
+    Ok(Some(JointStatics { springs, loads, gravity, touched_off }))
 }
 
 /// A number from 1 to 6 as an index.

@@ -204,7 +204,7 @@ fn joints_that_the_loads_do_not_turn_are_named() {
         (row.wrench, row.displacement) = (force, [Some(d[0]), Some(d[1]), Some(d[2])]);
     }
     let all = fit(&robot, &rows).unwrap();
-    assert_eq!(verdicts(&all)[5], Verdict::Idle);
+    assert_eq!(verdicts(&all)[5], Verdict::Unloaded);
     assert_eq!(all.joints[5].interval, (0.0, f64::INFINITY));
     assert!(all.condition.is_infinite());
     assert_eq!(verdicts(&all)[..5], [Verdict::Known; 5]);
@@ -219,8 +219,8 @@ fn joints_that_the_loads_do_not_turn_are_named() {
         })
         .collect();
     let poor = fit(&robot, &one).unwrap();
-    assert!(verdicts(&poor)[..5].contains(&Verdict::Entangled));
-    for joint in poor.joints.iter().filter(|joint| joint.verdict == Verdict::Entangled) {
+    assert!(verdicts(&poor)[..5].contains(&Verdict::Confounded));
+    for joint in poor.joints.iter().filter(|joint| joint.verdict == Verdict::Confounded) {
         assert!(joint.interval.1.is_infinite() && !joint.mixed_with.is_empty());
     }
 }

@@ -37,7 +37,7 @@ pub struct Options<'a> {
     pub unit: LengthUnit,
 }
 
-/// Reads an APT or CLDATA text; `on_line` hears the number of lines done after each statement.
+/// Reads an APT or CLDATA text; `on_line` is called with the number of lines done after each statement.
 ///
 /// # Errors
 /// [`Error::Text`] with line and column of the first word or number that cannot be followed, and what to do about it.

@@ -30,8 +30,8 @@ pub struct Options<'a> {
     pub feed_unit: FeedUnit,
 }
 
-/// Reads rows of points, with or without tool axis and feed, into a program of straight moves; `on_line` hears the number of lines
-/// done after each row.
+/// Reads rows of points, with or without tool axis and feed, into a program of straight moves;
+/// `on_line` is called with the number of lines done after each row.
 ///
 /// A row at the place of the one before makes no move. Rows of whole numbers like `1,5,2,5`, without a header, are refused
 /// where nothing in the text says whether the commas are decimal signs.

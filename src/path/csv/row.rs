@@ -117,7 +117,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// The columns that the first line tells of, and whether it is a header.
+    /// The columns that the first line names, and whether it is a header.
     fn columns_of(&mut self, text: &'a str) -> Result<(Columns, bool), Error> {
         let line = self.count;
         let named = |cell: &str| cell.trim_matches('"').chars().next().is_some_and(char::is_alphabetic);
@@ -146,7 +146,7 @@ impl<'a> Rows<'a> {
         })
     }
 
-    /// The error of a line with the wrong number of cells; a cell that is no number tells more than their count.
+    /// The error of a line with the wrong number of cells; a cell that is no number says more than their count.
     fn miscounted(&self, text: &str, count: usize, fault: Fault) -> Error {
         let of = |start: usize| position(self.count, text, start);
         let wrong = self.cells.iter().find(|(_, cell)| number(cell, true).is_none());

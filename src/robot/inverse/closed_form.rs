@@ -29,7 +29,7 @@ pub(super) fn each(
     take: &mut dyn FnMut(Solution),
 ) -> Result<(), Error> {
     let flange = tcp.compose(robot.flange());
-    let question = Question { robot, geometry, tcp, flange, near, serial: robot.serial(near), only };
+    let question = Question { robot, geometry, tcp, flange, near, serial: robot.to_serial(near), only };
     let [x, y, z] = question.wrist_centre();
     let beside = -geometry.sin_1 * geometry.lateral;
     let forward_reach = question.forward_reach((x, y), beside)?;
@@ -206,7 +206,7 @@ impl Question<'_> {
         let theta = [arm[0], arm[1], arm[2], wrist[0], wrist[1], wrist[2]];
         let links = self.robot.links();
         let q = Joints::from_fn(|i, _| math::nearest_turn(links[i].joint(theta[i]), self.serial[i]));
-        self.robot.told(&q)
+        self.robot.to_controller(&q)
     }
 }
 
