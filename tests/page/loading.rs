@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use crate::browser::{DESKTOP, Page, Result, visit};
 use crate::common::run;
-use crate::{current, shows, stale, text};
+use crate::{shows, stale, text};
 
 const LINE: &str = "G21 G90 G1 X600 Y0 Z100 F1200\nX640";
 

@@ -4,6 +4,7 @@
 // next one. A run that is invalid, cancelled or trapped therefore never takes the shown result away.
 
 import { compileCore, startWorker } from "./files.js";
+import { textOf } from "./job.js";
 
 const SUPERSEDE_MS = [400, 1500]; // a run older than this is cut off when a newer job arrives; a younger one may finish
 const LARGE = 100_000; // samples: a Worker that has held more is not used again, for its memory never shrinks
@@ -15,7 +16,8 @@ let spare = null; // Worker to compute in
 let since = null; // when the run in progress began
 let compiled; // promise of the core's module: every Worker starts from the same one
 let hello; // promise of what a form is built from
-let foreseen; // { json, result, since } of a speculative run
+let standard; // the default job, as JSON text
+let foreseen; // { json, result, since } of a speculative run; without `json` it is the default job's
 let lasted = 0; // how long the shown result took [ms]
 let next = null; // the job to compute next: only the latest counts
 let good = null; // the job of the shown result
@@ -23,10 +25,16 @@ let lost = false; // the shown result was lost to a trap and is being computed a
 
 /** Begins to load the core, and resolves with what a form is built from: version, default job, fields, presets, formats. */
 export function load() {
-  hello ??= (spare ??= spawn()).ask("hello").catch((error) => {
-    hello = undefined; // it may be asked for again
-    throw error;
-  });
+  hello ??= (spare ??= spawn()).ask("hello").then(
+    (answer) => {
+      standard = textOf(answer.job);
+      return answer;
+    },
+    (error) => {
+      hello = undefined; // it may be asked for again
+      throw error;
+    },
+  );
   return hello;
 }
 
@@ -36,11 +44,15 @@ export function start(handlers) {
   return load();
 }
 
-/** Begins to compute a job before the page is ready to ask for it. */
+/** Begins to compute a job, or without one the default job, before the page is ready to ask for it. */
 export function foresee(json) {
-  const result = spare.ask("run", json);
-  result.catch(() => {}); // reported when the run is asked for
-  foreseen = { json, result, since: performance.now() };
+  const early = { json, result: spare.ask("run", json) };
+  early.result.catch(() => {
+    if (foreseen === early) foreseen = undefined; // asked for, it runs again and says why it fails
+  });
+  const begin = () => (early.since = performance.now());
+  load().then(begin, begin); // the Worker answers this first
+  foreseen = early;
 }
 
 /** Computes `json`; what is being computed or waits is superseded. Events tell the rest. */
@@ -138,8 +150,9 @@ async function compute() {
 function foresaw(json) {
   const early = foreseen;
   foreseen = undefined;
-  if (early && early.json !== json) cutOff(CANCELLED);
-  return early?.json === json ? early : undefined;
+  if (!early || (early.json ?? standard) === json) return early;
+  cutOff(CANCELLED);
+  return undefined;
 }
 
 async function askShown(kind, ...args) {

@@ -12,8 +12,10 @@ const PATIENCE_MS = 100; // on a slow line the page does not wait for the core
 
 /** Has the job computed while the form is built. A link's is checked first, so it waits for the page. */
 async function begin() {
-  const [hello, state] = await Promise.all([core.load(), kept()]);
-  if (!holdsJob(location.hash)) core.foresee(textOf(state?.job ?? hello.job));
+  const hello = core.load();
+  const state = await kept();
+  if (!holdsJob(location.hash)) core.foresee(state && textOf(state.job));
+  await hello;
 }
 
 /** Settled when the Worker computes the first result: from then on the page is not in its way. */
