@@ -1,9 +1,9 @@
 //! From lines to moves: where the tool is, what each line does to it.
 
-use super::Options;
 use super::block::Block;
 use super::code::Group;
 use super::modal::Modal;
+use super::options::Options;
 use super::word::{self, Fault};
 use crate::path::draft::LONGEST_WAIT;
 use crate::path::program::{Dwell, Ignored, Program, Remark};
