@@ -1,8 +1,10 @@
-//! G-code (RS-274, ISO 6983) for three-axis milling, read as a control would run it, or refused by line and column.
+//! G-code (RS-274, ISO 6983) for three-axis milling, read as a control would run it, or refused by
+//! line and column.
 //!
-//! A word is a letter and a number; a block is a line of words; the modal codes stay in force from line to line;
-//! the interpreter turns lines into the moves of a [`Program`]. The rules are those of "The NIST RS274NGC Interpreter,
-//! Version 3" (Kramer, Proctor, Messina, NISTIR 6556, 2000); where controls differ, it is said here.
+//! A word is a letter and a number; a block is a line of words; the modal codes stay in force from
+//! line to line; the interpreter turns lines into the moves of a [`Program`]. The rules are those
+//! of "The NIST RS274NGC Interpreter, Version 3" (Kramer, Proctor, Messina, NISTIR 6556, 2000);
+//! where controls differ, it is said here.
 //!
 //! | Words | Meaning here |
 //! |---|---|
@@ -17,9 +19,10 @@
 //! | G4 P | waits in seconds |
 //! | M0 M1 M60, M2 M30, M3 M5, M6 T, M7 M8 M9, M48 M49, G61 G64, G15 G40 G50 G69 G97 | the end, the spindle, and words without effect on the path, which are listed |
 //!
-//! All else is an error: what it is and what to do stands in the message. Above all cutter compensation (G41, G42), scaling,
-//! rotation, polar coordinates, reference moves (G28, G30), G10, tapping, macros, sub-programs, expressions, rotary axes and M4.
-//! A lone `O` number in the first line names the program and is passed over.
+//! All else is an error: what it is and what to do stands in the message. Above all cutter
+//! compensation (G41, G42), scaling, rotation, polar coordinates, reference moves (G28, G30), G10,
+//! tapping, macros, sub-programs, expressions, rotary axes and M4. A lone `O` number in the first
+//! line names the program and is passed over.
 
 mod arc;
 mod block;
@@ -31,6 +34,7 @@ mod modal;
 mod motion;
 mod offset;
 mod options;
+pub(crate) mod token;
 mod word;
 
 pub use drill::PECK_CLEARANCE;
@@ -45,12 +49,12 @@ use word::Fault;
 
 /// Reads a program; `on_line` hears the number of lines done after each.
 ///
-/// Before X, Y and Z have all been given, G0 (or one G1, with a remark) only says where the path begins. A program without a move is
-/// no error here: it has no moves.
+/// Before X, Y and Z have all been given, G0 (or one G1, with a remark) only says where the path
+/// begins. A program without a move is no error here: it has no moves.
 ///
 /// # Errors
-/// [`Error::Text`] with line and column of the first word that is not understood, does not fit, or would change the path in a way
-/// that is not modelled.
+/// [`Error::Text`] with line and column of the first word that is not understood, does not fit, or
+/// would change the path in a way that is not modelled.
 pub fn program(text: &str, options: &Options, mut on_line: impl FnMut(usize)) -> Result<Program, Error> {
     let mut interpreter = Interpreter::new(options);
     let mut block = Block::default();
@@ -115,7 +119,8 @@ fn run_line<'t>(
     if block.is_empty() { Ok(()) } else { interpreter.run(block) }
 }
 
-/// The byte after the slash of a line marked for block delete (`/G1`, `/2 G1`, `N10 /G1`); 0 where there is none.
+/// The byte after the slash of a line marked for block delete (`/G1`, `/2 G1`, `N10 /G1`); 0 where
+/// there is none.
 fn after_slash(line: &str) -> usize {
     let blank = |text: &str| text.len() - text.trim_start().len();
     let mut at = blank(line);
