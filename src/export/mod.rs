@@ -1,4 +1,5 @@
-//! Files to take away: tables of numbers, and the compensated path as a program for a machine or a robot.
+//! Files to download: tables of numbers, and the compensated path as a program for a machine or a
+//! robot.
 
 pub mod thin;
 pub mod fillet;
@@ -7,12 +8,7 @@ pub mod orientation;
 pub mod command;
 pub mod header;
 pub mod csv;
-pub mod gcode;
-pub mod apt;
-pub mod krl;
-pub mod rapid;
-pub mod val3;
-pub mod fanuc;
+pub mod post;
 pub mod replay;
 pub mod rehearsal;
 
@@ -27,7 +23,8 @@ use rehearsal::rehearse;
 /// What a person may choose.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Options {
-    /// Thinning tolerance [m]; `None`: a tenth of the job's tolerance, from [`command::FINEST`] to [`command::COARSEST`].
+    /// Thinning tolerance [m]; `None`: a tenth of the job's tolerance, from [`command::FINEST`] to
+    /// [`command::COARSEST`].
     pub thinning: Option<f64>,
 }
 
@@ -40,7 +37,8 @@ pub struct Export {
     pub file_name: String,
     /// Number of points, or of samples where nothing is thinned.
     pub points: usize,
-    /// Largest distance of a commanded sample from the moves written [m], measured; 0 where nothing is thinned.
+    /// Largest distance of a commanded sample from the moves written [m], measured; 0 where nothing
+    /// is thinned.
     pub deviation: f64,
     /// Where it sends the tool at each of the report's samples.
     pub course: Course,
@@ -49,16 +47,10 @@ pub struct Export {
 /// Writes the file of the format `id`.
 ///
 /// # Errors
-/// [`Error::Invalid`] for a format that is not in [`FORMATS`] or cannot say the path; else see [`rehearse`].
+/// [`Error::Invalid`] for a format that is not in [`FORMATS`] or cannot say the path; else see
+/// [`rehearse`].
 pub fn export(report: &Report, id: &str, options: &Options) -> Result<Export, Error> {
-    let Some(format) = FORMATS.iter().find(|format| format.id == id) else {
-        let known: Vec<_> = FORMATS.iter().map(|format| format.id).collect();
-        return Err(Error::Invalid {
-            field: "format".into(),
-            value: format!("\"{id}\""),
-            expected: format!("there are {}", known.join(", ")),
-        });
-    };
+    let Some(format) = FORMATS.iter().find(|format| format.id == id) else { return Err(unknown_format(id)) };
     let file_name = format!("armill-{id}.{}", format.extension);
     let table = |text| {
         let (file_name, course) = (file_name.clone(), Course::of(report));
@@ -78,13 +70,17 @@ pub fn export(report: &Report, id: &str, options: &Options) -> Result<Export, Er
     };
     let (course, command) = rehearse(report, options.thinning, style)?;
     let text = match id {
-        "gcode" => gcode::program(report, &command)?,
-        "apt" => apt::program(report, &command),
-        "krl" => krl::program(report, &command),
-        "rapid" => rapid::program(report, &command),
-        "val3" => val3::program(report, &command),
-        "fanuc" => fanuc::program(report, &command),
-        _ => csv::path(report, &command),
+        "path-csv" => csv::path(report, &command),
+        _ => post::program(report, &command, id)?,
     };
     Ok(Export { text, file_name, points: command.points(), deviation: command.deviation, course })
+}
+
+fn unknown_format(id: &str) -> Error {
+    let known: Vec<_> = FORMATS.iter().map(|format| format.id).collect();
+    Error::Invalid {
+        field: "format".into(),
+        value: format!("\"{id}\""),
+        expected: format!("there are {}", known.join(", ")),
+    }
 }
