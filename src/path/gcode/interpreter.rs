@@ -20,7 +20,8 @@ pub(super) struct Interpreter<'o> {
     pub(super) options: &'o Options,
     pub(super) program: Program,
     pub(super) modal: Modal,
-    /// Where the program has the tip, in the workpiece frame [m]; only the axes that are `known` mean anything.
+    /// Where the program has the tip, in the workpiece frame [m]; only the axes that are `known`
+    /// mean anything.
     pub(super) position: Vector3<f64>,
     pub(super) known: [bool; 3],
     /// Where the last move ended: `position`, but for moves too short to keep.
