@@ -4,7 +4,7 @@
 mod common;
 
 use armill::Report;
-use armill::export::arc::Arc;
+use armill::export::arc::ArcMove;
 use armill::export::command::{Command, Course, Style};
 use armill::export::{Export, Options};
 use armill::math::{pow, sin, sin_cos};
@@ -186,8 +186,8 @@ fn arcs_keep_within_the_tolerance() {
             Command::new(&report, &export.course, Some(thinning), style).unwrap()
         };
         let (command, chords) = (command(true), command(false).points());
-        let arcs: Vec<Arc> =
-            command.blocks.iter().flat_map(|block| &block.steps).filter_map(|step| step.arc).collect();
+        let arcs: Vec<ArcMove> =
+            command.moves.iter().flat_map(|commanded| &commanded.steps).filter_map(|step| step.arc).collect();
         assert!(!arcs.is_empty() || chords < 4, "case {case}: {chords} chords\n{text}");
         assert!(command.points() <= chords, "case {case}");
         let turned: f64 = arcs.iter().map(|arc| arc.sweep).sum();

@@ -7,7 +7,7 @@ mod common;
 use armill::Report;
 use armill::export::Options;
 use armill::export::arc::Step;
-use armill::export::command::{Block, Command, Course, Style};
+use armill::export::command::{Command, CommandedMove, Course, Style};
 use armill::export::thin::LEVER;
 use armill::path::{Move, MovePace, Path, Program, Segment};
 use common::program::{example, examples, read_back, small_jobs};
@@ -63,17 +63,17 @@ fn is_the_compensated_path(name: &str, report: &Report, id: &str, thinning: f64)
     let command = Command::new(report, &export.course, Some(thinning), style).unwrap();
     assert_eq!(program.moves.len() + 1, command.points(), "{name}");
     let mut moves = program.moves.as_slice();
-    for (block, commanded) in command.blocks.iter().zip(samples(report, &export.course)) {
+    for (commanded, poses) in command.moves.iter().zip(samples(report, &export.course)) {
         let own;
-        (own, moves) = moves.split_at(block.steps.len());
-        let name = format!("{name}, line {}", block.line);
-        for (read, step) in own.iter().zip(&block.steps) {
-            said(&format!("{name}, read in line {}", read.line), read, block, step, id);
+        (own, moves) = moves.split_at(commanded.steps.len());
+        let name = format!("{name}, line {}", commanded.line);
+        for (read, step) in own.iter().zip(&commanded.steps) {
+            said(&format!("{name}, read in line {}", read.line), read, commanded, step, id);
         }
         // What was commanded is on what was read, tip and axis.
         let Some(path) = path_of(own) else { continue };
-        let on = follow(&name, commanded.iter().map(|(tip, _)| tip), &path);
-        for ((distance, s), (_, axis)) in on.iter().zip(&commanded) {
+        let on = follow(&name, poses.iter().map(|(tip, _)| tip), &path);
+        for ((distance, s), (_, axis)) in on.iter().zip(&poses) {
             let strayed = distance.max((path.axis(*s) - axis).norm() * LEVER);
             assert!(
                 strayed <= export.deviation + ROUNDING,
@@ -84,7 +84,7 @@ fn is_the_compensated_path(name: &str, report: &Report, id: &str, thinning: f64)
         // What was read is on what was commanded: no move goes elsewhere. Between two samples, 0.1 mm apart, an arc may
         // bulge from their chord; the sharpest that undo a slow shaper have radii of 0.3 mm.
         let ends = [path.point(0.0), path.point(path.length())];
-        let tips = commanded.iter().map(|(tip, _)| *tip);
+        let tips = poses.iter().map(|(tip, _)| *tip);
         let points: Vec<_> = [ends[0]].into_iter().chain(tips).chain([ends[1]]).collect();
         let lines = points.windows(2).map(|pair| Segment::Line { from: pair[0], to: pair[1] });
         let Some(chain) = Path::new(lines.collect()) else { continue };
@@ -98,21 +98,21 @@ fn is_the_compensated_path(name: &str, report: &Report, id: &str, thinning: f64)
 }
 
 /// A move says what it should: where it ends, how fast, whether it cuts, at which speed of the spindle.
-fn said(name: &str, read: &Move, block: &Block, step: &Step, id: &str) {
+fn said(name: &str, read: &Move, commanded: &CommandedMove, step: &Step, id: &str) {
     let end = read.segment.point(read.segment.length());
     assert!((end - step.to.position).norm() < ROUNDING, "{name}: {end}");
     assert!((read.axis_to - step.to.axis).norm() < 1e-8, "{name}");
     assert_eq!(matches!(read.segment, Segment::Arc { .. }), step.arc.is_some(), "{name}");
     match read.pace {
-        MovePace::Rapid => assert!(block.rapid, "{name}"),
+        MovePace::Rapid => assert!(commanded.rapid, "{name}"),
         MovePace::Feed(feed) => {
-            assert!(!block.rapid || id == "path-csv", "{name}");
-            assert!((feed - block.feed).abs() < 3e-8, "{name}: {feed} for {}", block.feed);
+            assert!(!commanded.rapid || id == "path-csv", "{name}");
+            assert!((feed - commanded.feed).abs() < 3e-8, "{name}: {feed} for {}", commanded.feed);
         }
         MovePace::JobFeed => panic!("{name}: no feed"),
     }
     if let Some(spindle) = read.spindle {
-        assert!((spindle - block.spindle).abs() < 2e-4, "{name}: {spindle} for {}", block.spindle);
+        assert!((spindle - commanded.spindle).abs() < 2e-4, "{name}: {spindle} for {}", commanded.spindle);
     }
 }
 

@@ -1,16 +1,20 @@
-//! Arcs through commanded points, as G2 and G3 say them: about one of the workpiece's axes, rising evenly.
+//! Arcs through commanded points, as G2 and G3 say them: about one of the workpiece's axes, rising
+//! evenly.
 //!
-//! From each point on, the longest arc and the longest straight move that stay within the tolerance are sought, by doubling and
-//! halving; whichever reaches further is taken. Both ends are kept as written, which leaves one unknown, how far the centre lies beside the
-//! chord: a linear least-squares problem (Kasa, "A circle fitting procedure and its error analysis", IEEE Transactions on
-//! Instrumentation and Measurement IM-25(1), 1976). How far the points are from the arc is then measured.
+//! From each point on, the longest arc and the longest straight move that stay within the tolerance
+//! are sought, by doubling and halving; whichever reaches further is taken. Both ends are kept as
+//! written, which leaves one unknown, how far the centre lies beside the chord: a linear
+//! least-squares problem (Kasa, "A circle fitting procedure and its error analysis", IEEE
+//! Transactions on Instrumentation and Measurement IM-25(1), 1976). How far the points are from the
+//! arc is then measured.
 
 use crate::export::thin::{LEVER, Point};
 use crate::math::{self, FRAC_PI_2, TAU};
 use crate::path::Segment;
 use nalgebra::{Matrix2, Vector2, Vector3};
 
-/// Ends of an arc are at least this far apart, or the same point: between, a control's rounding decides between nothing and a full turn [m].
+/// Ends of an arc are at least this far apart, or the same point: between, a control's rounding
+/// decides between nothing and a full turn [m].
 const APART: f64 = 5e-5;
 /// Larger radii are straight enough [m].
 const LARGEST: f64 = 100.0;
@@ -21,21 +25,22 @@ pub struct Step {
     /// Its end.
     pub to: Point,
     /// Along an arc, if not straight.
-    pub arc: Option<Arc>,
+    pub arc: Option<ArcMove>,
 }
 
 /// An arc about one of the workpiece's axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Arc {
+pub struct ArcMove {
     /// The axis: 0 is X (G19), 1 is Y (G18), 2 is Z (G17).
     pub normal: usize,
     /// Centre, at the height of the start [m].
     pub center: Vector3<f64>,
-    /// Angle swept [rad], positive if counter-clockwise seen from the axis's positive end (G3); a full turn where the ends are the same.
+    /// Angle swept [rad], positive if counter-clockwise seen from the axis's positive end (G3); a
+    /// full turn where the ends are the same.
     pub sweep: f64,
 }
 
-impl Arc {
+impl ArcMove {
     /// Number of turns begun: 1 for most arcs.
     pub fn turns(&self) -> f64 {
         // A full circle is a whole number of turns.
@@ -46,7 +51,7 @@ impl Arc {
 impl Step {
     /// The move from where the tool is.
     pub fn segment(&self, from: &Point) -> Segment {
-        let Some(Arc { normal, center, sweep }) = self.arc else {
+        let Some(ArcMove { normal, center, sweep }) = self.arc else {
             return Segment::Line { from: from.position, to: self.to.position };
         };
         let mut spoke = from.position - center;
@@ -64,7 +69,8 @@ pub(super) fn rounded(point: &Point, resolution: f64) -> Point {
     Point { position: point.position.map(|x| (x / resolution).round() * resolution), ..*point }
 }
 
-/// Straight moves and arcs from the first of `points`, which is as written, to the last, and how far the points are from them at most [m].
+/// Straight moves and arcs from the first of `points`, which is as written, to the last, and how
+/// far the points are from them at most [m].
 pub(super) fn steps(points: &[Point], normal: usize, tolerance: f64, resolution: f64) -> (Vec<Step>, f64) {
     let mut points = points.to_vec();
     let mut steps = Vec::new();
@@ -120,7 +126,8 @@ fn longest(last: usize, fits: impl Fn(usize) -> bool) -> usize {
     low
 }
 
-/// The arc from the first point to the last, and how far the points are from it at most [m]; `None` if that is more than `tolerance`.
+/// The arc from the first point to the last, and how far the points are from it at most [m]; `None`
+/// if that is more than `tolerance`.
 fn around(points: &[Point], normal: usize, tolerance: f64, resolution: f64) -> Option<(Step, f64)> {
     let [a, b] = [(normal + 1) % 3, (normal + 2) % 3];
     let start = points[0];
@@ -160,7 +167,8 @@ fn around(points: &[Point], normal: usize, tolerance: f64, resolution: f64) -> O
     for (point, angle) in points.iter().zip(&angles) {
         let part = (angle / sweep).clamp(0.0, 1.0);
         let (sin, cos) = math::sin_cos(part * sweep);
-        // Rounding may leave the ends at slightly different radii: the arc goes evenly from one to the other.
+        // Rounding may leave the ends at slightly different radii: the arc goes evenly from one to
+        // the other.
         let radius = at_start + (at_end - at_start) * part;
         let spoke =
             Vector2::new(first.x * cos - first.y * sin, first.x * sin + first.y * cos) * (radius / at_start);
@@ -175,10 +183,11 @@ fn around(points: &[Point], normal: usize, tolerance: f64, resolution: f64) -> O
     }
     let mut at = start.position;
     (at[a], at[b]) = (at[a] + center.x, at[b] + center.y);
-    Some((Step { to: end, arc: Some(Arc { normal, center: at, sweep }) }, worst))
+    Some((Step { to: end, arc: Some(ArcMove { normal, center: at, sweep }) }, worst))
 }
 
-/// Centre of the circle through the origin and the end of `chord` that is nearest to the points; through the origin alone where there is no chord.
+/// Centre of the circle through the origin and the end of `chord` that is nearest to the points;
+/// through the origin alone where there is no chord.
 fn center(points: impl Iterator<Item = Vector2<f64>>, chord: &Vector2<f64>) -> Option<Vector2<f64>> {
     let length = chord.norm();
     if length == 0.0 {

@@ -1,8 +1,11 @@
-//! The compensated path as a program: the commanded samples of each move, thinned, in the workpiece frame.
+//! The compensated path as a program: the commanded samples of each move, thinned, in the workpiece
+//! frame.
 //!
-//! A move becomes straight moves; where a language has arcs and the move is one about an axis of the workpiece frame, as few arcs as do.
-//! A sample belongs to the move that holds its arc length; a block ends where the correction at the move's own end puts it. Samples
-//! at rest in a corner belong to the move that follows: while the tool waits, the correction goes over from one direction of feed to the next.
+//! A move becomes straight moves; where a language has arcs and the move is one about an axis of
+//! the workpiece frame, as few arcs as do. A sample belongs to the move that holds its arc length;
+//! a commanded move ends where the correction at the move's own end puts it. Samples at rest in a
+//! corner belong to the move that follows: while the tool waits, the correction goes over from one
+//! direction of feed to the next.
 
 use crate::compensation::Compensation;
 use crate::error::Error;
@@ -15,7 +18,7 @@ use crate::path::program::Dwell;
 use crate::path::{Axes, Move, MovePace, Path, Program, Segment};
 use crate::report::{Report, millimetres};
 use crate::units::{INCH, MM, RPM};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 /// Finest thinning tolerance [m].
 pub const FINEST: f64 = 1e-7;
@@ -23,7 +26,8 @@ pub const FINEST: f64 = 1e-7;
 pub const COARSEST: f64 = 1e-2;
 /// A commanded move's feed is at most this many times the desired one's.
 const STRETCH: f64 = 2.0;
-/// A smooth move is written in straight moves that turn by at most this share of the angle at which the tool would stop.
+/// A smooth move is written in straight moves that turn by at most this share of the angle at which
+/// the tool would stop.
 const SMOOTH: f64 = 0.8;
 
 /// How a language says a path.
@@ -65,7 +69,8 @@ impl Style {
     }
 }
 
-/// Where the tool is sent at each of the report's samples: what is added to the desired positions [m], and the tool axis, base frame.
+/// Where the tool is sent at each of the report's samples: what is added to the desired positions
+/// [m], and the tool axis, base frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Course {
     /// Correction of the desired position [m].
@@ -93,7 +98,7 @@ pub struct Command {
     /// Where it starts.
     pub start: Point,
     /// One for each move of the path, in order.
-    pub blocks: Vec<Block>,
+    pub moves: Vec<CommandedMove>,
     /// Thinning tolerance [m].
     pub thinning: f64,
     /// Largest distance of a commanded sample from the moves as written [m], measured.
@@ -102,20 +107,22 @@ pub struct Command {
     pub samples: usize,
     /// How it is to be said.
     pub style: Style,
-    /// Largest contour error that comes out of it, run with its own timing [m], once it has been [rehearsed](super::rehearsal).
+    /// Largest contour error that comes out of it, run with its own timing [m], once it has been
+    /// [rehearsed](super::rehearsal).
     pub reached: Option<f64>,
     /// The desired path in the workpiece frame.
     path: Path,
 }
 
-/// One move of the path.
+/// One move of the path, as it is commanded.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Block {
+pub struct CommandedMove {
     /// Line of the original program, from 1; 0 if there is none.
     pub line: usize,
     /// Whether it positions without cutting.
     pub rapid: bool,
-    /// Speed along the commanded path [m/s]: while the command travels that, the tip travels the desired path at the feed asked for.
+    /// Speed along the commanded path [m/s]: while the command travels that, the tip travels the
+    /// desired path at the feed asked for.
     pub feed: f64,
     /// Spindle speed [1/s]: the program's where it has said one, otherwise the job's.
     pub spindle: f64,
@@ -123,16 +130,17 @@ pub struct Block {
     pub wait: f64,
     /// Whether the tool comes to rest at its end.
     pub stops: bool,
-    /// Its moves in order; none if the block moves less than can be written.
+    /// What it is written as, in order; nothing if it is shorter than can be written.
     pub steps: Vec<Step>,
 }
 
 impl Command {
-    /// A report's path as `course` has it, thinned to `thinning` [m]: a tenth of the job's tolerance, but not below [`FINEST`], if none is stated.
+    /// A report's path as `course` has it, thinned to `thinning` [m]: a tenth of the job's
+    /// tolerance, but not below [`FINEST`], if none is stated.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a tolerance that is not from [`FINEST`] to [`COARSEST`]; [`Error::Invalid`] if what is left strays
-    /// further from the samples than that.
+    /// [`Error::OutOfRange`] for a tolerance that is not from [`FINEST`] to [`COARSEST`];
+    /// [`Error::Invalid`] if what is left strays further from the samples than that.
     pub fn new(report: &Report, course: &Course, thinning: Option<f64>, style: Style) -> Result<Self, Error> {
         let thinning = thinning.unwrap_or((report.setup().goal.tolerance / 10.0).clamp(FINEST, COARSEST));
         if !(FINEST..=COARSEST).contains(&thinning) {
@@ -150,7 +158,7 @@ impl Command {
         let mut start = None;
         let mut end: Option<Point> = None;
         let mut deviation = 0.0_f64;
-        let mut blocks = Vec::with_capacity(path.moves().len());
+        let mut moves = Vec::with_capacity(path.moves().len());
         for (step, mut piece) in path.moves().iter().zip(pieces(report, course, &path, &back)) {
             // A move starts where the one before ends as written.
             let first = end.unwrap_or_else(|| rounded(&piece.points[0], style.resolution()));
@@ -164,7 +172,7 @@ impl Command {
                 MovePace::Feed(feed) => feed * piece.stretch,
                 MovePace::JobFeed => report.setup().limits.feed * piece.stretch,
             };
-            blocks.push(Block {
+            moves.push(CommandedMove {
                 line: step.line,
                 rapid: step.pace == MovePace::Rapid,
                 feed,
@@ -177,9 +185,9 @@ impl Command {
             });
         }
         let ends = path.moves().len();
-        for (index, block) in blocks.iter_mut().enumerate().take(ends - 1) {
+        for (index, commanded) in moves.iter_mut().enumerate().take(ends - 1) {
             let end = path.start(index + 1);
-            block.stops = report.plan.trajectory.stops.iter().any(|corner| corner.s == end);
+            commanded.stops = report.plan.trajectory.stops.iter().any(|corner| corner.s == end);
         }
         if deviation > thinning {
             return Err(Error::Invalid {
@@ -193,29 +201,30 @@ impl Command {
         }
         let start =
             start.unwrap_or(Point { position: path.point(0.0), axis: path.axis(0.0), spin: path.roll(0.0) });
-        Ok(Self { start, blocks, thinning, deviation, samples: report.samples(), style, reached: None, path })
+        Ok(Self { start, moves, thinning, deviation, samples: report.samples(), style, reached: None, path })
     }
 
     /// What a reader makes of it.
     pub fn program(&self) -> Program {
         let mut program = Program { unit: "mm", ..Program::default() };
         let mut at = self.start;
-        for block in &self.blocks {
-            if block.wait > 0.0 && !self.style.points_only {
-                program.dwells.push(Dwell { after: program.moves.len(), time: block.wait, line: block.line });
+        for commanded in &self.moves {
+            let CommandedMove { line, rapid, feed, spindle, wait, .. } = *commanded;
+            if wait > 0.0 && !self.style.points_only {
+                program.dwells.push(Dwell { after: program.moves.len(), time: wait, line });
             }
-            let pace = match block.rapid && !self.style.points_only {
+            let pace = match rapid && !self.style.points_only {
                 true => MovePace::Rapid,
-                false => MovePace::Feed(block.feed),
+                false => MovePace::Feed(feed),
             };
-            for step in &block.steps {
+            for step in &commanded.steps {
                 program.moves.push(Move {
                     segment: step.segment(&at),
                     axis_from: at.axis,
                     axis_to: step.to.axis,
                     pace,
-                    spindle: (!self.style.points_only).then_some(block.spindle),
-                    line: block.line,
+                    spindle: (!self.style.points_only).then_some(spindle),
+                    line,
                 });
                 at = step.to;
             }
@@ -225,23 +234,23 @@ impl Command {
 
     /// Number of points, the start included.
     pub fn points(&self) -> usize {
-        1 + self.blocks.iter().map(|block| block.steps.len()).sum::<usize>()
+        1 + self.moves.iter().map(|commanded| commanded.steps.len()).sum::<usize>()
     }
 
     /// Whether the tool axis is other than +Z of the workpiece frame anywhere.
     pub fn is_tilted(&self) -> bool {
         let tilted = |point: &Point| (point.axis - Vector3::z()).norm() > 1e-9;
-        tilted(&self.start) || self.blocks.iter().flat_map(Block::points).any(tilted)
+        tilted(&self.start) || self.moves.iter().flat_map(CommandedMove::points).any(tilted)
     }
 
-    /// Orientation of the TCP in the workpiece frame (see [`Path::orientation`]).
-    pub fn orientation(&self, point: &Point) -> Matrix3<f64> {
-        self.path.orientation(&point.axis, point.spin)
+    /// The TCP in the workpiece frame (see [`Path::orientation`]).
+    pub fn pose(&self, point: &Point) -> Pose {
+        Pose { rotation: self.path.orientation(&point.axis, point.spin), position: point.position }
     }
 }
 
-impl Block {
-    /// Ends of its moves, in order.
+impl CommandedMove {
+    /// Ends of its steps, in order.
     pub fn points(&self) -> impl DoubleEndedIterator<Item = &Point> + ExactSizeIterator {
         self.steps.iter().map(|step| &step.to)
     }
@@ -290,7 +299,8 @@ fn pieces(report: &Report, course: &Course, path: &Path, back: &Pose) -> Vec<Pie
             k += 1;
         }
         if !is_last && k > 0 && k <= last {
-            // Samples seldom fall on the end of a move: the correction there lies between those of its neighbours.
+            // Samples seldom fall on the end of a move: the correction there lies between those of
+            // its neighbours.
             let (before, after) = (arc_length[k - 1], arc_length[k]);
             let t = ((end - before) / (after - before)).clamp(0.0, 1.0);
             let turned = sample(k - 1).axis * (1.0 - t) + sample(k).axis * t;
@@ -307,7 +317,8 @@ fn pieces(report: &Report, course: &Course, path: &Path, back: &Pose) -> Vec<Pie
         let wait = if resting > 1 { resting as f64 * trajectory.sample_time } else { 0.0 };
         let travelled = resting.min(points.len() - 1);
         let commanded = length(points[travelled..].iter().map(|point| point.position));
-        // By the same samples, so that a move without a correction keeps its feed to the last digit.
+        // By the same samples, so that a move without a correction keeps its feed to the last
+        // digit.
         let desired = length(desired[travelled..].iter().copied()).max(f64::MIN_POSITIVE);
         // A move that is shorter than its correction changes along it says nothing about speed.
         let stretch = (commanded / desired).clamp(1.0 / STRETCH, STRETCH);
@@ -322,11 +333,13 @@ fn length(mut points: impl Iterator<Item = Vector3<f64>>) -> f64 {
     points.map(|point| (point - std::mem::replace(&mut last, point)).norm()).sum()
 }
 
-/// A move's samples as few moves that do not turn by more than `turn` [rad] without need, and how far they are from these at most [m].
+/// A move's samples as few moves that do not turn by more than `turn` [rad] without need, and how
+/// far they are from these at most [m].
 fn steps(piece: &Piece, segment: &Segment, (thinning, turn): (f64, f64), style: Style) -> (Vec<Step>, f64) {
     let points = piece.points.as_slice();
     let resolution = style.resolution();
-    // Rounding moves the ends of straight moves, and what a control makes of a rounded centre the arcs.
+    // Rounding moves the ends of straight moves, and what a control makes of a rounded centre the
+    // arcs.
     let tolerance = thinning - resolution;
     let thinned = |tolerance: f64, fillet: f64| {
         let kept = thin::smooth(points, tolerance, piece.resting, turn);
@@ -343,7 +356,8 @@ fn steps(piece: &Piece, segment: &Segment, (thinning, turn): (f64, f64), style: 
     };
     let (mut straight, mut deviation, _) = thinned(tolerance, 0.0);
     if stops(&points[0], &straight, turn) > 0 {
-        // The tool would stop in the middle of the move: half of the tolerance is for rounding that.
+        // The tool would stop in the middle of the move: half of the tolerance is for rounding
+        // that.
         let (filleted, strayed, corners) = thinned(tolerance / 2.0, tolerance / 2.0 - resolution);
         if corners && strayed <= tolerance {
             (straight, deviation) = (filleted, strayed);

@@ -1,8 +1,9 @@
-//! Columns as CSV: a header of keys, one row a sample, numbers in full precision, comma and decimal point; and the path to command as
-//! points, and as joint values at the sample time, behind lines that start with `#`.
+//! Columns as CSV: a header of keys, one row a sample, numbers in full precision, comma and decimal
+//! point; and the path to command as points, and as joint values at the sample time, behind lines
+//! that start with `#`.
 
 use crate::column::Column;
-use crate::export::command::{Block, Command};
+use crate::export::command::Command;
 use crate::export::header::{self, number};
 use crate::export::thin::Point;
 use crate::report::Report;
@@ -16,7 +17,8 @@ pub fn columns(report: &Report) -> String {
     rows(report, 0..report.samples())
 }
 
-/// Some samples of all columns, with the header above the first: a long run is a gigabyte of text, so it is written in parts.
+/// Some samples of all columns, with the header above the first: a long run is a gigabyte of text,
+/// so it is written in parts.
 pub fn rows(report: &Report, samples: Range<usize>) -> String {
     let part = |series: &Series| Column::new(series.key.as_str(), "", "", series.values(samples.clone()));
     let columns: Vec<_> = report.series().iter().map(part).collect();
@@ -32,8 +34,9 @@ pub fn compensated(report: &Report) -> String {
     table(&chosen(report, "compensated_"))
 }
 
-/// The path to command as points in the workpiece frame with the tool axis (tip to spindle) and the speed of the move that ends there;
-/// the first row is the start. Waits are left out: a reader stops at corners by its own rule.
+/// The path to command as points in the workpiece frame with the tool axis (tip to spindle) and the
+/// speed of the move that ends there; the first row is the start. Waits are left out: a reader
+/// stops at corners by its own rule.
 pub fn path(report: &Report, command: &Command) -> String {
     let mut text = remarks(&header::lines(report, Some(command)));
     text.push_str("x_mm,y_mm,z_mm,i,j,k,feed_mm_s\n");
@@ -43,13 +46,11 @@ pub fn path(report: &Report, command: &Command) -> String {
         text.push_str(&cells.collect::<Vec<_>>().join(","));
         text.push('\n');
     };
-    row(
-        &command.start,
-        command.blocks.first().map_or(report.setup().limits.feed, |block: &Block| block.feed),
-    );
-    for block in &command.blocks {
-        for point in block.points() {
-            row(point, block.feed);
+    let feed = command.moves.first().map_or(report.setup().limits.feed, |commanded| commanded.feed);
+    row(&command.start, feed);
+    for commanded in &command.moves {
+        for point in commanded.points() {
+            row(point, commanded.feed);
         }
     }
     text

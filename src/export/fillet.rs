@@ -1,18 +1,21 @@
 //! Corners of the commanded line where the tool is not to stop, rounded.
 //!
-//! Where a force follows the feed, the correction grows while the tool gains speed and stays once it has it: the commanded line has a corner in
-//! the middle of a smooth move. What travels it as written would stop there, and the force with it. An arc from one neighbouring
-//! move to the other, in chords that turn less than a stop takes, leaves out the corner.
+//! Where a force follows the feed, the correction grows while the tool gains speed and stays once
+//! it has it: the commanded line has a corner in the middle of a smooth move. What travels it as
+//! written would stop there, and the force with it. An arc from one neighbouring move to the other,
+//! in chords that turn less than a stop takes, leaves out the corner.
 
 use crate::export::thin::Point;
 use crate::math;
 
-/// A chord is at least this many steps of the resolution long, over the angle it turns [rad]: rounding turns it, too.
+/// A chord is at least this many steps of the resolution long, over the angle it turns [rad]:
+/// rounding turns it, too.
 const STEPS: f64 = 4.0;
 
-/// For each of `points` what is to stand for it: the ends of such chords, if the moves turn there by more than `limit` [rad] and it is not before
-/// the one numbered `first`; else the point itself. A corner is at most `tolerance` [m] from its chords, and stays if these were too short to be said in
-/// steps of `resolution` [m].
+/// For each of `points` what is to stand for it: the ends of such chords, if the moves turn there
+/// by more than `limit` [rad] and it is not before the one numbered `first`; else the point itself.
+/// A corner is at most `tolerance` [m] from its chords, and stays if these were too short to be
+/// said in steps of `resolution` [m].
 pub fn round(points: &[Point], first: usize, limit: f64, tolerance: f64, resolution: f64) -> Vec<Vec<Point>> {
     let standing = |(k, corner): (usize, &Point)| {
         let arc = match (points[..k].last(), points.get(k + 1)) {
@@ -38,8 +41,9 @@ fn chords(corner: [&Point; 3], limit: f64, tolerance: f64) -> Option<Vec<Point>>
     if turn <= limit || [before, after].iter().any(|point| point.axis != corner.axis) {
         return None;
     }
-    // Half a move is left to the corner at its other end. An arc that touches both moves at the distance d from the corner has the radius
-    // d / tan(turn / 2); the corner is d tan(turn / 4) from it, and no chord is further inside than half a move turns.
+    // Half a move is left to the corner at its other end. An arc that touches both moves at the
+    // distance d from the corner has the radius d / tan(turn / 2); the corner is d tan(turn / 4)
+    // from it, and no chord is further inside than half a move turns.
     let count = (turn / limit).ceil();
     let room = arriving.norm().min(leaving.norm()) / 2.0;
     let tan_half = math::tan(turn / 2.0);

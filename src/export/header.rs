@@ -1,4 +1,5 @@
-//! What stands at the top of every program: where it comes from, what it promises and what it does not.
+//! What stands at the top of every program: where it comes from, what it promises and what it does
+//! not.
 
 use crate::export::command::Command;
 use crate::export::orientation::roll_pitch_yaw;
@@ -6,7 +7,8 @@ use crate::math::Pose;
 use crate::report::{Report, millimetres};
 use crate::units::{DEG, MM};
 
-/// The lines of the header, plain ASCII without brackets, for any language's comments. No date: the same run gives the same text.
+/// The lines of the header, plain ASCII without brackets, for any language's comments. No date: the
+/// same run gives the same text.
 pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
     let setup = report.setup();
     let reached = report.after_max();
@@ -86,7 +88,8 @@ fn placed(frame: &Pose) -> String {
     )
 }
 
-/// A name as any controller reads it: umlauts lose their dots, what else is not a letter, a digit, a blank or `-_.,` becomes a blank.
+/// A name as any controller reads it: umlauts lose their dots, what else is not a letter, a digit,
+/// a blank or `-_.,` becomes a blank.
 fn ascii(name: &str) -> String {
     let plain = |c: char| match c {
         'ä' => 'a',
@@ -98,7 +101,8 @@ fn ascii(name: &str) -> String {
     name.chars().map(plain).collect()
 }
 
-/// A number with at most so many decimals and at least one: some controls read a number without a point in least increments.
+/// A number with at most so many decimals and at least one: some controls read a number without a
+/// point in least increments.
 pub fn number(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let text = text.trim_end_matches('0');

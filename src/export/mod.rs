@@ -1,4 +1,5 @@
-//! Files to take away: tables of numbers, and the compensated path as a program for a machine or a robot.
+//! Files to download: tables of numbers, and the compensated path as a program for a machine or a
+//! robot.
 
 pub mod thin;
 pub mod fillet;
@@ -7,29 +8,8 @@ pub mod orientation;
 pub mod command;
 pub mod header;
 pub mod csv;
-pub mod gcode;
-pub mod apt;
-pub mod krl;
-pub mod rapid;
-pub mod val3;
-pub mod fanuc;
+pub mod post;
 pub mod format;
-mod post {
-    use crate::error::Error;
-    use crate::export::command::Command;
-    use crate::export::{apt, fanuc, gcode, krl, rapid, val3};
-    use crate::report::Report;
-    pub(super) fn program(report: &Report, command: &Command, id: &str) -> Result<String, Error> {
-        Ok(match id {
-            "gcode" => gcode::program(report, command)?,
-            "apt" => apt::program(report, command),
-            "krl" => krl::program(report, command),
-            "rapid" => rapid::program(report, command),
-            "val3" => val3::program(report, command),
-            _ => fanuc::program(report, command),
-        })
-    }
-}
 
 pub use format::{FORMATS, Format};
 
@@ -40,7 +20,8 @@ use command::{Command, Course};
 /// What a person may choose.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Options {
-    /// Thinning tolerance [m]; `None`: a tenth of the job's tolerance, from [`command::FINEST`] to [`command::COARSEST`].
+    /// Thinning tolerance [m]; `None`: a tenth of the job's tolerance, from [`command::FINEST`] to
+    /// [`command::COARSEST`].
     pub thinning: Option<f64>,
 }
 
@@ -53,7 +34,8 @@ pub struct Export {
     pub file_name: String,
     /// Number of points, or of samples where nothing is thinned.
     pub points: usize,
-    /// Largest distance of a commanded sample from the moves written [m], measured; 0 where nothing is thinned.
+    /// Largest distance of a commanded sample from the moves written [m], measured; 0 where nothing
+    /// is thinned.
     pub deviation: f64,
     /// Where it sends the tool at each of the report's samples.
     pub course: Course,
@@ -64,10 +46,7 @@ pub struct Export {
 /// # Errors
 /// [`Error::Invalid`] if there is none.
 pub fn format(id: &str) -> Result<&'static Format, Error> {
-    FORMATS.iter().find(|format| format.id == id).ok_or_else(|| {
-        let known: Vec<_> = FORMATS.iter().map(|format| format.id).collect();
-        Error::invalid("format", format!("\"{id}\""), format!("there are {}", known.join(", ")))
-    })
+    FORMATS.iter().find(|format| format.id == id).ok_or_else(|| unknown_format(id))
 }
 
 /// A file of numbers, one row a sample.
@@ -101,4 +80,8 @@ pub fn program(
 
 fn file_name(format: &Format) -> String {
     format!("armill-{}.{}", format.id, format.extension)
+}
+
+fn unknown_format(id: &str) -> Error {
+    Error::unknown_name("format", id, "there are", FORMATS.iter().map(|format| format.id))
 }

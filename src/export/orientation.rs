@@ -3,11 +3,12 @@
 use crate::math;
 use nalgebra::Matrix3;
 
-/// Roll, pitch and yaw [rad] about the fixed x, y and z axes in this order: R = Rz(yaw) Ry(pitch) Rx(roll), as in
-/// [`Pose::from_xyz_rpy`](crate::math::Pose::from_xyz_rpy).
+/// Roll, pitch and yaw [rad] about the fixed x, y and z axes in this order: R = Rz(yaw) Ry(pitch)
+/// Rx(roll), as in [`Pose::from_xyz_rpy`](crate::math::Pose::from_xyz_rpy).
 ///
-/// FANUC's W, P, R are these; KUKA's C, B, A too, since turning about z, then the new y, then the new x is the same. Where pitch
-/// is +-90 deg and roll and yaw turn about the same line, any share between them is right; what comes out multiplies back to R.
+/// FANUC's W, P, R are these; KUKA's C, B, A too, since turning about z, then the new y, then the
+/// new x is the same. Where pitch is +-90 deg and roll and yaw turn about the same line, any share
+/// between them is right; what comes out multiplies back to R.
 pub fn roll_pitch_yaw(r: &Matrix3<f64>) -> [f64; 3] {
     let yaw = math::atan2(r[(1, 0)], r[(0, 0)]);
     let pitch = math::atan2(-r[(2, 0)], math::hypot(r[(0, 0)], r[(1, 0)]));
@@ -23,8 +24,9 @@ pub fn about_moving_xyz(r: &Matrix3<f64>) -> [f64; 3] {
     roll_pitch_yaw(&r.transpose()).map(|angle| -angle)
 }
 
-/// Unit quaternion, scalar first (ABB's q1 to q4), by the method of Shepperd ("Quaternion from rotation matrix", Journal of Guidance
-/// and Control 1(3), 1978): the largest component is taken by its root, the others by division.
+/// Unit quaternion, scalar first (ABB's q1 to q4), by the method of Shepperd ("Quaternion from
+/// rotation matrix", Journal of Guidance and Control 1(3), 1978): the largest component is taken by
+/// its root, the others by division.
 pub fn quaternion(r: &Matrix3<f64>) -> [f64; 4] {
     let trace = r.trace();
     let squares = [trace, r[(0, 0)], r[(1, 1)], r[(2, 2)]];

@@ -16,8 +16,8 @@ pub(super) enum Plane {
 }
 
 impl Plane {
-    /// Number of the plane's first axis, second axis and normal, right-handed: in G18 these are Z, X and Y, so that
-    /// counter-clockwise there is seen from +Y.
+    /// Number of the plane's first axis, second axis and normal, right-handed: in G18 these are Z,
+    /// X and Y, so that counter-clockwise there is seen from +Y.
     pub(super) fn axes(self) -> [usize; 3] {
         match self {
             Plane::Xy => [0, 1, 2],
@@ -70,9 +70,11 @@ impl Arc {
         end
     }
 
-    /// The centre of the arc with this radius [m]; a negative one takes the long way round (more than half a turn).
+    /// The centre of the arc with this radius [m]; a negative one takes the long way round (more
+    /// than half a turn).
     ///
-    /// A radius that is short of half the distance of the ends by no more than `tolerance(radius)` gives half a circle.
+    /// A radius that is short of half the distance of the ends by no more than `tolerance(radius)`
+    /// gives half a circle.
     pub(super) fn center_for(
         &self,
         radius: f64,
@@ -99,10 +101,11 @@ impl Arc {
 
     /// The arc about `center` [m].
     ///
-    /// The programmed ends are kept; the centre, which CAM systems round, moves along the chord until both radii are equal. Where
-    /// that would move the far side of the arc by more than the radii differ (nearly full circles), the arc becomes a spiral of
-    /// pieces of at most half a turn. Either way no point is farther from the programmed
-    /// circle than the radii differ, or than a micrometre.
+    /// The programmed ends are kept; the centre, which CAM systems round, moves along the chord
+    /// until both radii are equal. Where that would move the far side of the arc by more than the
+    /// radii differ (nearly full circles), the arc becomes a spiral of pieces of at most half a
+    /// turn. Either way no point is farther from the programmed circle than the radii differ, or
+    /// than a micrometre.
     pub(super) fn about(
         &self,
         center: &Vector3<f64>,
@@ -150,7 +153,8 @@ impl Arc {
         chain.collect()
     }
 
-    /// Whether the segments of this arc turn almost a full circle between ends that are no more than `apart` from each other [m].
+    /// Whether the segments of this arc turn almost a full circle between ends that are no more
+    /// than `apart` from each other [m].
     pub(super) fn is_nearly_full(&self, segments: &[Segment], apart: f64) -> bool {
         let turned = |segment: &Segment| if let Segment::Arc { sweep, .. } = segment { *sweep } else { 0.0 };
         !self.is_full() && self.chord() <= apart && segments.iter().map(turned).sum::<f64>() > PI
@@ -195,7 +199,8 @@ impl Arc {
         if angle > 0.0 { angle } else { angle + TAU }
     }
 
-    /// The centre moved along the chord until it is as far from the start as from the end, and by how much [m].
+    /// The centre moved along the chord until it is as far from the start as from the end, and by
+    /// how much [m].
     fn centred(&self, center: &Vector3<f64>, chord: f64) -> (Vector3<f64>, f64) {
         let [a, b, _] = self.plane.axes();
         let (along, across) = ((self.to[a] - self.from[a]) / chord, (self.to[b] - self.from[b]) / chord);

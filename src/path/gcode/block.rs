@@ -12,7 +12,8 @@ pub(super) struct Code {
     pub(super) word: Word,
 }
 
-/// One line, ready to be interpreted: whoever understands a word takes it, and a word that nobody took is an error.
+/// One line, ready to be interpreted: each handler takes the words it understands, and a word that
+/// is left over is an error.
 #[derive(Debug, Default)]
 pub(super) struct Block<'t> {
     /// The line.
@@ -132,7 +133,7 @@ impl<'t> Block<'t> {
         self.text.len() - self.text.trim_start().len()
     }
 
-    /// Fails on the first word that nobody took.
+    /// Fails on the first word that is left over.
     pub(super) fn finish(&self) -> Result<(), Fault> {
         let Some(word) = self.words.first() else { return Ok(()) };
         let expected = match word.letter {

@@ -1,11 +1,13 @@
-//! What each G and M number means here: which modal group it belongs to, that it changes nothing, or why it is refused.
+//! What each G and M number means here: which modal group it belongs to, that it changes nothing,
+//! or why it is refused.
 
 /// A set of codes of which a block may hold one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Group {
     /// G0 to G3.
     Motion,
-    /// G73, G80 to G83, G85, G89. A group of its own, as on most controls: `G0 G80` is a common first line.
+    /// G73, G80 to G83, G85, G89. A group of its own, as on most controls: `G0 G80` is a common
+    /// first line.
     Cycle,
     /// G17, G18, G19.
     Plane,

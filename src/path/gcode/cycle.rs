@@ -1,42 +1,32 @@
-//! Canned drilling cycles as the moves they stand for (NIST, "The NIST RS274NGC Interpreter", version 3, section 3.5.16).
+//! A canned drilling cycle: which one is in force, and the words that stay from hole to hole.
 
 use super::block::Block;
-use super::code::Group;
-use super::interpreter::{AXES, Interpreter};
-use super::modal::{FeedMode, Motion};
 use super::word::{Fault, Word};
-use nalgebra::Vector3;
-
-/// How far G73 lifts the tool to break a chip, and how far above the last depth G83 slows down from rapid [m]: 0.010 inch, as in LinuxCNC.
-pub const PECK_CLEARANCE: f64 = 0.254e-3;
-
-/// Most holes of one line, and most pecks of one hole: what is beyond is a slip of the decimal point.
-const MOST: u32 = 1000;
 
 /// A cycle in force, with the words that stay from hole to hole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cycle {
     /// Number of its G code in tenths.
-    tenths: u32,
+    pub(super) tenths: u32,
     /// Level along the plane's normal at which the series of cycles began [m].
-    start: Option<f64>,
+    pub(super) start: Option<f64>,
     /// R: clearance plane.
-    clearance: Option<Level>,
+    pub(super) clearance: Option<Level>,
     /// The word along the normal (Z in G17): bottom of the hole.
-    bottom: Option<Level>,
+    pub(super) bottom: Option<Level>,
     /// Q: depth of a peck [m].
-    peck: Option<f64>,
+    pub(super) peck: Option<f64>,
     /// P: dwell at the bottom [s].
-    dwell: Option<f64>,
+    pub(super) dwell: Option<f64>,
 }
 
 /// A height as programmed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Level {
+pub(super) struct Level {
     /// [m].
-    value: f64,
+    pub(super) value: f64,
     /// Programmed under G91.
-    incremental: bool,
+    pub(super) incremental: bool,
 }
 
 impl Cycle {
@@ -50,16 +40,24 @@ impl Cycle {
         if tenths == self.tenths { self } else { Self { start: self.start, ..Self::new(tenths) } }
     }
 
-    fn pecks(&self) -> bool {
+    /// Whether it drills in steps of Q.
+    pub(super) fn pecks(&self) -> bool {
         matches!(self.tenths, 730 | 830)
     }
 
-    fn dwells(&self) -> bool {
+    /// Whether it waits at the bottom for P.
+    pub(super) fn dwells(&self) -> bool {
         matches!(self.tenths, 820 | 890)
     }
 
     /// Takes the words of this cycle; those that are not there stay as they were.
-    fn update(&mut self, block: &mut Block, normal: char, unit: f64, incremental: bool) -> Result<(), Fault> {
+    pub(super) fn update(
+        &mut self,
+        block: &mut Block,
+        normal: char,
+        unit: f64,
+        incremental: bool,
+    ) -> Result<(), Fault> {
         let level = |word: Word| Level { value: word.value * unit, incremental };
         self.clearance = block.take('R').map(level).or(self.clearance);
         self.bottom = block.take(normal).map(level).or(self.bottom);
@@ -80,140 +78,5 @@ impl Cycle {
             self.dwell = Some(word.value);
         }
         Ok(())
-    }
-}
-
-/// The heights of one hole [m].
-#[derive(Debug, Clone, Copy)]
-struct Hole {
-    clearance: f64,
-    bottom: f64,
-    retract: f64,
-}
-
-impl Interpreter<'_> {
-    /// Drills the holes of a line.
-    ///
-    /// Under G91, R counts from the level at which the series began, the bottom from R, and L holes follow each other by the same step.
-    pub(super) fn drill(&mut self, mut cycle: Cycle, block: &mut Block) -> Result<(), Fault> {
-        let normal = self.modal.plane.axes()[2];
-        let letter = AXES[normal];
-        let place = block.code(Group::Cycle).map_or(block.start(), |code| code.word.start);
-        let fault = |found: String, expected: &str| Fault { at: place, found, expected: expected.into() };
-        let name = format!("G{}", cycle.tenths / 10);
-        if self.modal.feed_mode == FeedMode::InverseTime {
-            return Err(fault(
-                format!("{name} under G93"),
-                "a canned cycle needs a feed a minute (G94) or a revolution (G95)",
-            ));
-        }
-        if let Some(word) = block.peek('K') {
-            return Err(word.fault(block.text, "repeats of a canned cycle are written with L"));
-        }
-        cycle.update(block, letter, self.modal.unit, self.modal.incremental)?;
-        let repeats = match block.take('L') {
-            Some(word) => word.whole(block.text, 0, MOST)?,
-            None => 1,
-        };
-        let level = self.position[normal];
-        let start = *cycle.start.get_or_insert(level);
-        self.modal.motion = Some(Motion::Cycle(cycle));
-        let absolute = |level: Level| level.value + self.origin()[normal];
-        let (Some(clearance), Some(bottom)) = (cycle.clearance, cycle.bottom) else {
-            return Err(fault(
-                format!("{name} without {}", if cycle.clearance.is_none() { "R" } else { "a depth" }),
-                &format!("{name} needs R (clearance plane) and {letter} (bottom)"),
-            ));
-        };
-        let clearance = if clearance.incremental { start + clearance.value } else { absolute(clearance) };
-        let bottom = if bottom.incremental { clearance + bottom.value } else { absolute(bottom) };
-        if bottom > clearance {
-            return Err(fault(
-                format!("a hole whose bottom is {:.3} mm above R", (bottom - clearance) * 1e3),
-                "R lies above the bottom of the hole",
-            ));
-        }
-        let retract = if self.modal.returns_to_start { start.max(clearance) } else { clearance };
-        self.check_cycle(&cycle, clearance - bottom, &name, place)?;
-        for _ in 0..repeats {
-            let before = self.position;
-            let mut over = self.target(block, false)?;
-            over[normal] = before[normal];
-            if over[normal] < clearance {
-                self.rapid_to_level(normal, clearance)?;
-                over[normal] = clearance;
-            }
-            self.rapid(over)?;
-            self.hole(&cycle, normal, Hole { clearance, bottom, retract }, place)?;
-        }
-        for letter in AXES {
-            block.take(letter);
-        }
-        Ok(())
-    }
-
-    /// Fails where a cycle lacks a word of its own, or pecks too often.
-    fn check_cycle(&self, cycle: &Cycle, depth: f64, name: &str, at: usize) -> Result<(), Fault> {
-        if cycle.dwells() && cycle.dwell.is_none() {
-            let expected = format!("{name} waits at the bottom: give P in seconds");
-            return Err(Fault { at, found: format!("{name} without P"), expected });
-        }
-        if cycle.pecks() {
-            let Some(peck) = cycle.peck else {
-                let expected = format!("{name} drills in steps: give their depth Q");
-                return Err(Fault { at, found: format!("{name} without Q"), expected });
-            };
-            if depth / peck > f64::from(MOST) {
-                let least = depth / f64::from(MOST) * 1e3;
-                let found = format!("{:.0} pecks in one hole", depth / peck);
-                return Err(Fault {
-                    at,
-                    found,
-                    expected: format!("at most {MOST}: Q of at least {least:.4} mm"),
-                });
-            }
-        }
-        Ok(())
-    }
-
-    /// One hole, from above it.
-    fn hole(&mut self, cycle: &Cycle, normal: usize, hole: Hole, at: usize) -> Result<(), Fault> {
-        self.rapid_to_level(normal, hole.clearance)?;
-        if let Some(peck) = cycle.peck {
-            let lift = PECK_CLEARANCE.min(peck);
-            let mut step = 1.0;
-            while hole.clearance - peck * step > hole.bottom + super::arc::SAME {
-                let depth = hole.clearance - peck * step;
-                self.feed_to_level(normal, depth, at)?;
-                if cycle.tenths == 830 {
-                    self.rapid_to_level(normal, hole.clearance)?;
-                }
-                self.rapid_to_level(normal, depth + lift)?;
-                step += 1.0;
-            }
-        }
-        self.feed_to_level(normal, hole.bottom, at)?;
-        if let Some(time) = cycle.dwell {
-            self.wait(time);
-        }
-        if matches!(cycle.tenths, 850 | 890) {
-            // Up to R only, as controls do; LinuxCNC agrees in G85, but in G89 feeds up to the level of G98.
-            self.feed_to_level(normal, hole.clearance, at)?;
-        }
-        self.rapid_to_level(normal, hole.retract)
-    }
-
-    fn at_level(&self, normal: usize, level: f64) -> Vector3<f64> {
-        let mut point = self.position;
-        point[normal] = level;
-        point
-    }
-
-    fn rapid_to_level(&mut self, normal: usize, level: f64) -> Result<(), Fault> {
-        self.rapid(self.at_level(normal, level))
-    }
-
-    fn feed_to_level(&mut self, normal: usize, level: f64, at: usize) -> Result<(), Fault> {
-        self.feed(self.at_level(normal, level), at)
     }
 }

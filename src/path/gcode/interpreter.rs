@@ -1,9 +1,9 @@
 //! From lines to moves: where the tool is, what each line does to it.
 
-use super::Options;
 use super::block::Block;
 use super::code::Group;
 use super::modal::Modal;
+use super::options::Options;
 use super::word::{self, Fault};
 use crate::path::builder::LONGEST_WAIT;
 use crate::path::program::{Dwell, Ignored, Program, Remark};
@@ -20,7 +20,8 @@ pub(super) struct Interpreter<'o> {
     pub(super) options: &'o Options,
     pub(super) program: Program,
     pub(super) modal: Modal,
-    /// Where the program has the tip, in the workpiece frame [m]; only the axes that are `known` mean anything.
+    /// Where the program has the tip, in the workpiece frame [m]; only the axes that are `known`
+    /// mean anything.
     pub(super) position: Vector3<f64>,
     pub(super) known: [bool; 3],
     /// Where the last move ended: `position`, but for moves too short to keep.

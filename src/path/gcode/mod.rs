@@ -1,8 +1,10 @@
-//! G-code (RS-274, ISO 6983) for three-axis milling, read as a control would run it, or refused by line and column.
+//! G-code (RS-274, ISO 6983) for three-axis milling, read as a control would run it, or refused by
+//! line and column.
 //!
-//! A word is a letter and a number; a block is a line of words; the modal codes stay in force from line to line;
-//! the interpreter turns lines into the moves of a [`Program`]. The rules are those of "The NIST RS274NGC Interpreter,
-//! Version 3" (Kramer, Proctor, Messina, NISTIR 6556, 2000); where controls differ, it is said here.
+//! A word is a letter and a number; a block is a line of words; the modal codes stay in force from
+//! line to line; the interpreter turns lines into the moves of a [`Program`]. The rules are those
+//! of "The NIST RS274NGC Interpreter, Version 3" (Kramer, Proctor, Messina, NISTIR 6556, 2000);
+//! where controls differ, it is said here.
 //!
 //! | Words | Meaning here |
 //! |---|---|
@@ -17,74 +19,42 @@
 //! | G4 P | waits in seconds |
 //! | M0 M1 M60, M2 M30, M3 M5, M6 T, M7 M8 M9, M48 M49, G61 G64, G15 G40 G50 G69 G97 | the end, the spindle, and words without effect on the path, which are listed |
 //!
-//! All else is an error: what it is and what to do stands in the message. Above all cutter compensation (G41, G42), scaling,
-//! rotation, polar coordinates, reference moves (G28, G30), G10, tapping, macros, sub-programs, expressions, rotary axes and M4.
-//! A lone `O` number in the first line names the program and is passed over.
+//! All else is an error: what it is and what to do stands in the message. Above all cutter
+//! compensation (G41, G42), scaling, rotation, polar coordinates, reference moves (G28, G30), G10,
+//! tapping, macros, sub-programs, expressions, rotary axes and M4. A lone `O` number in the first
+//! line names the program and is passed over.
 
 mod arc;
 mod block;
 mod code;
 mod cycle;
+mod drill;
 mod interpreter;
 mod modal;
 mod motion;
 mod offset;
+mod options;
+pub(crate) mod token;
 mod word;
 
-pub use cycle::PECK_CLEARANCE;
+pub use drill::PECK_CLEARANCE;
+pub use options::{ARC_TOLERANCE_PART, Options};
 
 use crate::error::Error;
 use crate::path::program::Program;
 use crate::units::INCH;
 use block::Block;
 use interpreter::Interpreter;
-use nalgebra::Vector3;
-use std::collections::BTreeMap;
 use word::Fault;
-
-/// Part of an arc's radius by which the centre's distances from its two ends may differ, on top of [`Options::arc_tolerance`].
-pub const ARC_TOLERANCE_PART: f64 = 1e-3;
-
-/// What a control knows besides the program. Lengths in m, in the workpiece frame.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Options {
-    /// JSON path of the text, for errors.
-    pub field: String,
-    /// Offsets of G54 to G59, G59.1, G59.2 and G59.3 from the workpiece frame [m]. `None`: zero, with a remark where other than G54 is used.
-    pub work_offsets: [Option<Vector3<f64>>; 9],
-    /// Tool length offsets by their number H [m]: added to Z, so what the job's tool frame does not hold already. With an empty
-    /// table every offset is zero, with a remark.
-    pub tool_length_offsets: BTreeMap<u32, f64>,
-    /// Where the tool stands before the first line [m]. `None`: the path begins at the first position of which the program has given X, Y and Z.
-    pub start: Option<Vector3<f64>>,
-    /// How much the centre's distances from the two ends of an arc may differ [m], besides [`ARC_TOLERANCE_PART`] of the radius.
-    pub arc_tolerance: f64,
-    /// Whether lines with a slash are left out (block delete on).
-    pub block_delete: bool,
-}
-
-impl Default for Options {
-    /// No offsets, no start position, 0.005 mm, block delete on (as NIST's interpreter starts).
-    fn default() -> Self {
-        Self {
-            field: "path.text".into(),
-            work_offsets: [None; 9],
-            tool_length_offsets: BTreeMap::new(),
-            start: None,
-            arc_tolerance: 5e-6,
-            block_delete: true,
-        }
-    }
-}
 
 /// Reads a program; `on_line` hears the number of lines done after each.
 ///
-/// Before X, Y and Z have all been given, G0 (or one G1, with a remark) only says where the path begins. A program without a move is
-/// no error here: it has no moves.
+/// Before X, Y and Z have all been given, G0 (or one G1, with a remark) only says where the path
+/// begins. A program without a move is no error here: it has no moves.
 ///
 /// # Errors
-/// [`Error::Text`] with line and column of the first word that is not understood, does not fit, or would change the path in a way
-/// that is not modelled.
+/// [`Error::Text`] with line and column of the first word that is not understood, does not fit, or
+/// would change the path in a way that is not modelled.
 pub fn program(text: &str, options: &Options, mut on_line: impl FnMut(usize)) -> Result<Program, Error> {
     let mut interpreter = Interpreter::new(options);
     let mut block = Block::default();
@@ -149,7 +119,8 @@ fn run_line<'t>(
     if block.is_empty() { Ok(()) } else { interpreter.run(block) }
 }
 
-/// The byte after the slash of a line marked for block delete (`/G1`, `/2 G1`, `N10 /G1`); 0 where there is none.
+/// The byte after the slash of a line marked for block delete (`/G1`, `/2 G1`, `N10 /G1`); 0 where
+/// there is none.
 fn after_slash(line: &str) -> usize {
     let blank = |text: &str| text.len() - text.trim_start().len();
     let mut at = blank(line);

@@ -92,7 +92,8 @@ impl Modal {
         self.spindle_off || self.speed == Some(0.0)
     }
 
-    /// Applies the codes that set a state, then F and S, which count in the unit and feed mode of their own line.
+    /// Applies the codes that set a state, then F and S, which count in the unit and feed mode of
+    /// their own line.
     pub(super) fn set(&mut self, block: &mut Block) -> Result<(), Fault> {
         if let Some(code) = block.code(Group::Unit) {
             self.unit = if matches!(code.tenths, 200 | 700) { INCH } else { MM };

@@ -1,11 +1,11 @@
 //! G0 to G3: from the words of a line to segments, each with its pace.
 
-use super::ARC_TOLERANCE_PART;
 use super::arc::{Arc, Misfit, SAME};
 use super::block::Block;
 use super::code::Group;
 use super::interpreter::{AXES, Interpreter};
 use super::modal::{FeedMode, Motion};
+use super::options::ARC_TOLERANCE_PART;
 use super::word::{Fault, Word};
 use crate::path::Segment;
 use crate::path::builder;
@@ -34,9 +34,11 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The point that the axis words name; with `machine` they count from machine zero (G53), whatever G91 says.
+    /// The point that the axis words name; with `machine` they count from machine zero (G53),
+    /// whatever G91 says.
     ///
-    /// An axis without a word stays where it is. The words are not taken, so that a repeated cycle reads them again.
+    /// An axis without a word stays where it is. The words are not taken, so that a repeated cycle
+    /// reads them again.
     pub(super) fn target(&mut self, block: &Block, machine: bool) -> Result<Vector3<f64>, Fault> {
         self.note_unit();
         let mut target = self.position;
@@ -117,7 +119,9 @@ impl Interpreter<'_> {
             }),
         }
     }
-    /// G0 and G1. What leads to the first full position is not part of the path: nobody knows where the machine stood before.
+
+    /// G0 and G1. What leads to the first full position is not part of the path: where the machine
+    /// stood before is not known.
     fn straight(&mut self, block: &mut Block, machine: bool) -> Result<(), Fault> {
         let rapid = self.modal.motion == Some(Motion::Rapid);
         let to = self.target(block, machine)?;

@@ -1,4 +1,5 @@
-//! What lies between the numbers of a program and the workpiece frame: work offsets, G52, G92 and tool lengths.
+//! What lies between the numbers of a program and the workpiece frame: work offsets, G52, G92 and
+//! tool lengths.
 
 use super::block::Block;
 use super::code::Group;
@@ -96,7 +97,8 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// G92: the place where the tool is gets these coordinates. Before the place is known, the coordinates tell it.
+    /// G92: the place where the tool is gets these coordinates; where the place is not known yet,
+    /// they give it.
     fn set_shift(&mut self, code: Word, block: &mut Block) -> Result<(), Fault> {
         if self.local != Vector3::zeros() {
             return Err(code.fault(

@@ -1,4 +1,6 @@
-//! A line of G-code as words: a letter and a number, each with its place.
+//! The words that a control would understand: a letter and a number, each with its place.
+
+use super::token::{Kind, Token, tokens};
 
 /// One letter with its number.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,11 +22,12 @@ pub(super) struct Fault {
     pub(super) at: usize,
     /// What stands there.
     pub(super) found: String,
-    /// What would be legal.
+    /// What would be accepted.
     pub(super) expected: String,
 }
 
-/// Largest magnitude of a number: beyond it no machine has travel, and doubles no longer resolve a micrometre of what is added up.
+/// Largest magnitude of a number: beyond it no machine has travel, and doubles no longer resolve a
+/// micrometre of what is added up.
 pub(super) const LARGEST: f64 = 1e9;
 
 impl Word {
@@ -51,23 +54,21 @@ impl Word {
 
 /// Collects the words of `line` from the byte `from` on, comments left out.
 pub(super) fn words(line: &str, from: usize, words: &mut Vec<Word>) -> Result<(), Fault> {
-    let bytes = line.as_bytes();
-    let mut at = from;
-    while let Some(&byte) = bytes.get(at) {
-        match byte {
-            _ if byte.is_ascii_whitespace() => at += 1,
-            b';' => break,
-            b'(' => at = comment_end(line, at)?,
-            b'o' | b'O' if !words.is_empty() || !numbers_program(&line[at + 1..]) => {
-                let found = format!("\"{}\"", line[at..].trim_end());
-                return Err(Fault { at, found, expected: SUBPROGRAM.into() });
+    for token in tokens(line, from) {
+        match token.kind {
+            Kind::LineComment => {}
+            Kind::Comment => check_comment(line, &token)?,
+            Kind::Word if !token.text.starts_with(|sign: char| sign.is_ascii_alphabetic()) => {
+                return Err(stray(line, token.start));
             }
-            _ if byte.is_ascii_alphabetic() => {
-                let word = word(line, at)?;
-                at = word.end;
-                words.push(word);
+            Kind::Word
+                if token.text.starts_with(['o', 'O'])
+                    && !(words.is_empty() && numbers_program(&line[token.start + 1..])) =>
+            {
+                let found = format!("\"{}\"", line[token.start..].trim_end());
+                return Err(Fault { at: token.start, found, expected: SUBPROGRAM.into() });
             }
-            _ => return Err(stray(line, at)),
+            Kind::Word => words.push(word(line, &token)?),
         }
     }
     Ok(())
@@ -80,19 +81,19 @@ const MACRO: &str = "variables and macros are not followed; have the CAM system 
 const EXPRESSION: &str =
     "expressions are not computed; have the CAM system post plain numbers (comments stand in round brackets)";
 
-/// The byte after the comment that opens at `open`.
-fn comment_end(line: &str, open: usize) -> Result<usize, Fault> {
-    let inside = open + 1;
-    match line[inside..].find(['(', ')']) {
-        Some(length) if line[inside + length..].starts_with(')') => Ok(inside + length + 1),
-        Some(length) => Err(Fault {
-            at: inside + length,
+/// Fails unless a comment opens and closes once.
+fn check_comment(line: &str, comment: &Token) -> Result<(), Fault> {
+    let Some(inside) = comment.text.strip_prefix('(') else { return Err(stray(line, comment.start)) };
+    match inside.find(['(', ')']) {
+        Some(at) if inside[at..].starts_with(')') => Ok(()),
+        Some(at) => Err(Fault {
+            at: comment.start + 1 + at,
             found: "a bracket that opens inside a comment".into(),
             expected: "controls end a comment at its first closing bracket: take the inner brackets out"
                 .into(),
         }),
         None => Err(Fault {
-            at: open,
+            at: comment.start,
             found: "a comment without its closing bracket".into(),
             expected:
                 "a comment closes with ) on its own line; a comment to the end of the line starts with ;"
@@ -101,42 +102,36 @@ fn comment_end(line: &str, open: usize) -> Result<usize, Fault> {
     }
 }
 
-/// Whether what follows an O is a number and no other word, as where a program is numbered (`O1000`).
+/// Whether what follows an O is a number and no other word, as where a program is numbered
+/// (`O1000`).
 fn numbers_program(rest: &str) -> bool {
     let rest = rest.trim_start();
     let after = rest.trim_start_matches(|c: char| c.is_ascii_digit());
     after.len() < rest.len() && (after.trim().is_empty() || after.trim_start().starts_with(['(', ';']))
 }
 
-/// The word that starts at the letter at `start`. Blanks may stand between the letter and its number, not inside the number.
-fn word(line: &str, start: usize) -> Result<Word, Fault> {
-    let bytes = line.as_bytes();
-    let letter = char::from(bytes[start].to_ascii_uppercase());
-    let skip = |mut at: usize, wanted: fn(&u8) -> bool| {
-        while bytes.get(at).is_some_and(wanted) {
-            at += 1;
-        }
-        at
-    };
-    let first = skip(start + 1, u8::is_ascii_whitespace);
-    let unsigned = first + usize::from(matches!(bytes.get(first), Some(b'+' | b'-')));
-    let whole = skip(unsigned, u8::is_ascii_digit);
-    let end = if bytes.get(whole) == Some(&b'.') { skip(whole + 1, u8::is_ascii_digit) } else { whole };
-    match line[first..end].parse::<f64>() {
+/// The word of a token that starts with a letter.
+fn word(line: &str, token: &Token) -> Result<Word, Fault> {
+    let letter = char::from(token.text.as_bytes()[0].to_ascii_uppercase());
+    let number = token.text[1..].trim_ascii_start();
+    let (start, end) = (token.start, token.end());
+    match number.parse::<f64>() {
         Ok(value) if value.abs() <= LARGEST => {
             // Adding zero turns -0 into 0.
             Ok(Word { letter, value: value + 0.0, start, end })
         }
         Ok(_) => Err(Fault {
             at: start,
-            found: format!("\"{}\"", &line[start..end]),
+            found: format!("\"{}\"", token.text),
             expected: format!("numbers lie within -{LARGEST:e} and {LARGEST:e}"),
         }),
         // `#5`, `[1+2]`, `<name>`: the stray sign says more than the letter before it.
-        Err(_) if matches!(bytes.get(unsigned), Some(b'#' | b'[' | b'<')) => Err(stray(line, unsigned)),
+        Err(_) if matches!(number, "" | "+" | "-") && line[end..].starts_with(['#', '[', '<']) => {
+            Err(stray(line, end))
+        }
         Err(_) => Err(Fault {
             at: start,
-            found: format!("\"{}\" without a number", line[start..end].trim_end()),
+            found: format!("\"{}\" without a number", token.text.trim_end()),
             expected: format!("a number follows {letter}, such as {letter}12.5"),
         }),
     }
