@@ -5,8 +5,10 @@ mod common;
 
 use armill::Report;
 use armill::export::arc::ArcMove;
-use armill::export::command::{Command, Course, Style};
-use armill::export::{Export, Options};
+use armill::export::command::Command;
+use armill::export::commanded_path::CommandedPath;
+use armill::export::style::PostStyle;
+use armill::export::{Export, ExportOptions};
 use armill::math::{pow, sin, sin_cos};
 use armill::path::{Program, Segment};
 use common::program::{example, examples, read_back, written};
@@ -54,7 +56,7 @@ N23 M30
 #[test]
 fn an_arc_that_is_still_an_arc_stays_one_block() {
     let report = uncompensated(EVERY);
-    let (export, read) = read_back(&report, "gcode", &Options::default());
+    let (export, read) = read_back(&report, "gcode", &ExportOptions::default());
     stays(&report, &export, &read);
     let lines: Vec<&str> = export.text.lines().collect();
     for line in [
@@ -75,7 +77,7 @@ fn an_arc_that_is_still_an_arc_stays_one_block() {
     let inches =
         "G20 G90\nG0 X23 Y0 Z4\nN1 G3 X23.5 Y0.5 I0 J0.5 F40\nN2 G2 I0.25\nN3 G18 G2 X24.5 Z4 R0.5\n";
     let report = uncompensated(inches);
-    let (export, read) = read_back(&report, "gcode", &Options::default());
+    let (export, read) = read_back(&report, "gcode", &ExportOptions::default());
     stays(&report, &export, &read);
     assert!(export.text.contains("\nN2 G2 X23.5 Y0.5 Z4.0 I0.25 J0.0\n"), "{}", export.text);
     assert!(export.text.contains("\nG20 G17 "));
@@ -87,7 +89,7 @@ fn examples_that_are_not_compensated_keep_their_arcs() {
         let mut changes = example(&file, &kind);
         changes.push(("compensation.sources", json!([])));
         let report = run(&changes);
-        let (export, read) = read_back(&report, "gcode", &Options::default());
+        let (export, read) = read_back(&report, "gcode", &ExportOptions::default());
         stays(&report, &export, &read);
     }
 }
@@ -138,12 +140,13 @@ fn an_arc_that_bends_becomes_few_arcs() {
     // An oval: 0.3 mm longer along X than along Y. No circle fits it within a micrometre, a few arcs do.
     let oval = corrected(CIRCLE, |p| Vector3::new((p.x - 0.6) * 0.01, 0.0, 0.0));
     for thinning in [1e-6, 5e-6] {
-        let (export, read) = read_back(&oval, "gcode", &Options { thinning: Some(thinning) });
+        let (export, read) = read_back(&oval, "gcode", &ExportOptions { thinning: Some(thinning) });
         assert!(export.deviation <= thinning);
         assert!(export.text.contains("\nN2 (was: N2 G3 I-30 J0)\nG3 X"), "{}", export.text);
         let arcs = read.moves.iter().filter(|step| matches!(step.segment, Segment::Arc { .. })).count();
-        let chords =
-            Command::new(&oval, &Course::of(&oval), Some(thinning), Style::default()).unwrap().points();
+        let chords = Command::new(&oval, &CommandedPath::of(&oval), Some(thinning), PostStyle::default())
+            .unwrap()
+            .points();
         // A chord of a radius r strays by r a^2 / 8 over the angle a, an arc of an oval by the oval's share of that.
         assert!(arcs > 1 && arcs * 5 < chords, "{arcs} arcs, {chords} chords");
         let lines = read.moves.len() - arcs;
@@ -179,11 +182,11 @@ fn arcs_keep_within_the_tolerance() {
         let report =
             corrected(&text, |p| Vector3::new(sin(p.y * wave), sin(p.z * wave), sin(p.x * wave)) * bend);
         let thinning = pow(10.0, number(-6.5, -4.5));
-        let (export, _) = read_back(&report, "gcode", &Options { thinning: Some(thinning) });
+        let (export, _) = read_back(&report, "gcode", &ExportOptions { thinning: Some(thinning) });
         assert!(export.deviation <= thinning, "case {case}: {} of {thinning}\n{text}", export.deviation);
         let command = |arcs| {
-            let style = Style { arcs, ..Style::default() };
-            Command::new(&report, &export.course, Some(thinning), style).unwrap()
+            let style = PostStyle { arcs, ..PostStyle::default() };
+            Command::new(&report, &export.commanded_path, Some(thinning), style).unwrap()
         };
         let (command, chords) = (command(true), command(false).points());
         let arcs: Vec<ArcMove> =

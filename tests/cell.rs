@@ -6,7 +6,7 @@
 mod common;
 
 use armill::Report;
-use armill::export::Options;
+use armill::export::ExportOptions;
 use armill::verification::export;
 use common::{column, run};
 use nalgebra::Vector3;
@@ -218,7 +218,7 @@ fn krl(line: &str) -> Placed {
 fn a_robot_program_holds_frames_that_lead_back_to_the_joints() {
     // Without compensation the program commands the path itself.
     let report = angled(&[("compensation.max_passes", json!(0))]);
-    let text = export(&report, "krl", &Options::default()).unwrap().text;
+    let text = export(&report, "krl", &ExportOptions::default()).unwrap().text;
     let line = |start: &str| text.lines().find(|line| line.starts_with(start)).unwrap();
     let (base, tool) = (krl(line("$BASE=")), krl(line("$TOOL=")));
     let arrives = |line: &str, q: &[f64; 6]| {

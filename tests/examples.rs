@@ -134,7 +134,7 @@ const KNOWN: [Known; 9] = [
         multi_axis: true,
         ..PLAIN
     },
-    // An ellipse of 80 by 56 in 120 pieces, quarter circles of radius 12 in 12 pieces before and after.
+    // An ellipse of 80 by 56 in 120 sampled_moves, quarter circles of radius 12 in 12 sampled_moves before and after.
     Known {
         file: "rim.csv",
         lines: 146,

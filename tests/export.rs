@@ -8,7 +8,7 @@ use armill::export::command::{COARSEST, FINEST};
 use armill::export::fillet;
 use armill::export::orientation::{about_moving_xyz, quaternion, roll_pitch_yaw};
 use armill::export::thin::{LEVER, Point, deviation, thin};
-use armill::export::{FORMATS, Options};
+use armill::export::{ExportOptions, FORMATS};
 use armill::math::{Pose, angle_between, rotation_about, sin_cos};
 use armill::path::gcode;
 use armill::units::MM;
@@ -222,10 +222,10 @@ fn every_program_says_where_it_comes_from_and_what_it_does_not_promise() {
         assert!(longest < 256, "{}: a line of {longest}", format.id);
         assert_eq!(export, written(&report, format.id), "the same run gives the same text");
     }
-    let error = export(&report, "dxf", &Options::default()).unwrap_err();
+    let error = export(&report, "dxf", &ExportOptions::default()).unwrap_err();
     assert_eq!((error.code(), error.field()), ("invalid", Some("format")));
     for thinning in [0.0, FINEST / 2.0, COARSEST * 2.0, f64::NAN] {
-        let error = export(&report, "krl", &Options { thinning: Some(thinning) }).unwrap_err();
+        let error = export(&report, "krl", &ExportOptions { thinning: Some(thinning) }).unwrap_err();
         assert_eq!((error.code(), error.field()), ("out-of-range", Some("thinning_mm")), "{thinning}");
     }
 }

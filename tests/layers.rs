@@ -81,3 +81,48 @@ fn files_stay_readable_in_one_sitting() {
         assert!(lines <= 450, "{} has {lines} lines", file.display());
     }
 }
+
+/// Types that mirror a section of the job's JSON keep its name and are read as `job::Tool`; so are the
+/// options of the three readers.
+const READ_WITH_THEIR_MODULE: [&str; 12] = [
+    "Branch",
+    "Compensation",
+    "Frame",
+    "Material",
+    "Motion",
+    "Opw",
+    "Options",
+    "Path",
+    "Robot",
+    "Shaper",
+    "Tool",
+    "Identified",
+];
+
+/// Names of the types that a file defines; associated types are none.
+fn types(text: &str) -> impl Iterator<Item = String> {
+    text.lines().filter_map(|line| {
+        let code = line.trim_start_matches("pub(crate) ").trim_start_matches("pub(super) ");
+        let code = code.trim_start_matches("pub ");
+        let rest = ["struct ", "enum ", "trait ", "type "].iter().find_map(|word| code.strip_prefix(word))?;
+        let end = rest.find(|c: char| !c.is_alphanumeric()).unwrap_or(rest.len());
+        Some(rest[..end].to_owned())
+    })
+}
+
+#[test]
+fn a_type_name_has_one_meaning() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut found = Vec::new();
+    files(&source, &mut found);
+    let mut owners = std::collections::BTreeMap::<String, Vec<String>>::new();
+    for file in found {
+        for name in types(&std::fs::read_to_string(&file).unwrap()) {
+            owners.entry(name).or_default().push(file.display().to_string());
+        }
+    }
+    assert!(owners.len() > 150, "the walk finds the types");
+    for (name, files) in owners.iter().filter(|(name, _)| !READ_WITH_THEIR_MODULE.contains(&name.as_str())) {
+        assert!(files.len() == 1, "{name} stands in {files:?}");
+    }
+}

@@ -498,7 +498,8 @@ fn programs_come_in_and_go_out() -> Result {
         for (id, file) in [("gcode", "armill-gcode.nc"), ("krl", "armill-krl.src")] {
             page.choose("#export-format", id).await?;
             page.click("#download-program").await?;
-            let native = armill::verification::export(&report, id, &armill::export::Options::default())?;
+            let native =
+                armill::verification::export(&report, id, &armill::export::ExportOptions::default())?;
             assert_eq!(page.downloaded(file).await?, native.text, "{id}");
         }
         // The figure after a download is that file's: robot programs wait and move at rapid speed.

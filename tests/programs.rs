@@ -4,7 +4,7 @@
 mod common;
 
 use armill::Report;
-use armill::export::Options;
+use armill::export::ExportOptions;
 use armill::math::rotation_about;
 use armill::path::{Axes, Move, MovePace, Path, Program, Segment, SourceProgram};
 use armill::verification::export;
@@ -95,7 +95,7 @@ fn a_program_keeps_its_lines() {
     assert_eq!(lines[find("(was: / N45")], "(was: / N45 M7)", "what a switch decides is not run");
     assert!(find("N20 ") < find("N30 ") && find("N30 ") < find("N40 ") && find("N50 ") < find("N60 M30"));
     // Read back, it is the compensated path; the rapids are where they were.
-    let (export, read) = read_back(&report, "gcode", &Options::default());
+    let (export, read) = read_back(&report, "gcode", &ExportOptions::default());
     assert!(largest_distance(&commanded(&report, &export), &chain(&read)) <= 1e-6);
     for step in &read.moves {
         let cuts = (find("N30 ")..find("N50 ")).contains(&(step.line - 1));
@@ -110,7 +110,7 @@ fn a_program_keeps_its_lines() {
     assert!(text.contains("\nN30 G1 X60.1 Y0.0 Z0.0 F6000.0 (side)\n"), "{text}");
     assert!(text.contains("\nN50 G0 X80.1 Y60.0 Z20.0 M9\n"), "{text}");
 
-    let (inches, read) = read_back(&from_gcode(text_in_inches(), "inch"), "gcode", &Options::default());
+    let (inches, read) = read_back(&from_gcode(text_in_inches(), "inch"), "gcode", &ExportOptions::default());
     assert!(inches.text.contains("\nG20 G17") && inches.text.contains(" F23"), "{}", inches.text);
     assert!(largest_distance(&commanded(&report, &inches), &chain(&read)) <= 1e-6);
 }
@@ -125,7 +125,7 @@ fn a_tilted_axis_goes_to_apt_not_to_gcode() {
     let tilt = rotation_about(&Vector3::x(), 0.1);
     let tilted: Vec<_> = (0..report.samples()).map(|k| tilt * report.compensation.axis.at(k)).collect();
     report.compensation.axis = Axes::Each(tilted.clone());
-    let error = export(&report, "gcode", &Options::default()).unwrap_err();
+    let error = export(&report, "gcode", &ExportOptions::default()).unwrap_err();
     assert!(error.to_string().contains("use apt"), "{error}");
     let export = written(&report, "apt");
     let apt = &export.text;
@@ -154,7 +154,7 @@ fn a_tilted_axis_goes_to_apt_not_to_gcode() {
 /// path first desired, with the place on it. The distance is sought over the whole path, not near an expected place.
 fn simulated_again(changes: &[(&'static str, Value)]) -> Vec<(f64, Vector3<f64>)> {
     let report = run(changes);
-    let (_, program) = read_back(&report, "gcode", &Options::default());
+    let (_, program) = read_back(&report, "gcode", &ExportOptions::default());
     let points: Vec<_> = chain(&program).iter().map(|p| [p.x, p.y, p.z].map(|x| x * 1e3)).collect();
     let mut again = changes.to_vec();
     again.retain(|(key, _)| *key != "path");

@@ -3,8 +3,8 @@
 
 mod common;
 
-use armill::export::Options;
-use armill::export::command::Course;
+use armill::export::ExportOptions;
+use armill::export::commanded_path::CommandedPath;
 use armill::math::Pose;
 use armill::motion::Trajectory;
 use armill::path::{Path, gcode};
@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 /// A report's program, read back and run.
 fn back(report: &Report, format: &str) -> Result<Replay, Error> {
-    read_back(report, &Programs::default(), format, &Options::default())
+    read_back(report, &Programs::default(), format, &ExportOptions::default())
 }
 
 /// Jobs that promise their tolerance: name and changes of the default job.
@@ -93,7 +93,7 @@ fn what_no_program_keeps_is_not_promised() {
         assert!(report.summary().after_mm.max <= tolerance, "{name}");
         let promise = Programs::default().accuracy(&report, "gcode").unwrap();
         assert!(!promise.met && promise.sentence.contains("beyond"), "{name}: {promise:?}");
-        let text = export(&report, "gcode", &Options::default()).unwrap().text;
+        let text = export(&report, "gcode", &ExportOptions::default()).unwrap().text;
         let outcome = back(&report, "gcode").unwrap();
         let read_back = outcome.statistics().max;
         assert!(read_back <= promise.max_mm * 1.02, "{name}: {promise:?}, read back {read_back}");
@@ -112,7 +112,7 @@ fn the_header_says_what_comes_out_of_the_program() {
     let following = ("cutting.feed_per_tooth_mm", json!("from_feed"));
     for (changes, met) in [(arc.clone(), true), ([arc, vec![following]].concat(), false), (sharp, false)] {
         let report = run(&changes);
-        let text = export(&report, "gcode", &Options::default()).unwrap().text;
+        let text = export(&report, "gcode", &ExportOptions::default()).unwrap().text;
         let line = text.lines().find(|line| line.contains("Run from this file")).unwrap();
         let (_, figure) = line.split_once("largest contour error ").unwrap();
         let said: f64 = figure.split(' ').next().unwrap().parse().unwrap();
@@ -151,7 +151,7 @@ fn a_robot_program_is_judged_by_its_own_timing() {
     ] {
         let accuracy = programs.accuracy(&report, id).unwrap();
         assert!(accuracy.sentence.starts_with(&format!("As {name} program")), "{accuracy:?}");
-        let header = stated(&programs.export(&report, id, &Options::default()).unwrap().text);
+        let header = stated(&programs.export(&report, id, &ExportOptions::default()).unwrap().text);
         assert!(accuracy.sentence.contains(&format!(" {header} mm")), "{id}: {header}, {accuracy:?}");
         assert!((accuracy.max_mm - points).abs() > 0.05 * points, "{id}: {accuracy:?}, points {points}");
     }
@@ -171,8 +171,8 @@ fn a_rehearsal_only_improves() {
             back(&report, "gcode").unwrap().largest()
         };
         let rehearsed = back(&report, "gcode").unwrap().largest();
-        let course = export(&report, "gcode", &Options::default()).unwrap().course;
-        assert_eq!(course != Course::of(&report), passes);
+        let commanded_path = export(&report, "gcode", &ExportOptions::default()).unwrap().commanded_path;
+        assert_eq!(commanded_path != CommandedPath::of(&report), passes);
         assert!(if passes { rehearsed < 0.5 * unrehearsed } else { rehearsed == unrehearsed });
     }
 }
@@ -180,7 +180,7 @@ fn a_rehearsal_only_improves() {
 #[test]
 fn a_program_that_is_wrong_is_seen_to_be() {
     let report = run(&small_jobs()[0].1);
-    let written = export(&report, "gcode", &Options::default()).unwrap();
+    let written = export(&report, "gcode", &ExportOptions::default()).unwrap();
     let read = gcode::program(&written.text, &gcode::Options::default(), |_| {}).unwrap();
     let outcome = |shift: f64| {
         let mut program = read.clone();
@@ -188,7 +188,7 @@ fn a_program_that_is_wrong_is_seen_to_be() {
         for step in &mut program.moves {
             step.segment = step.segment.placed(&higher);
         }
-        replay::run(&report, &written.course, &program).unwrap().statistics().max
+        replay::run(&report, &written.commanded_path, &program).unwrap().statistics().max
     };
     // A program 0.1 mm too high cuts 0.1 mm too high, give or take what is left of the error.
     assert!((outcome(1e-4) - 0.1).abs() < 0.02, "{}", outcome(1e-4));
@@ -211,7 +211,7 @@ fn a_program_opened_as_a_job_of_its_own_keeps_it_too_where_the_path_is_wide() {
     for (name, changes) in jobs().into_iter().filter(|(name, _)| WIDE.contains(name)) {
         let report = run(&changes);
         for (format, kind) in [("gcode", "gcode"), ("apt", "apt"), ("path-csv", "csv")] {
-            let text = export(&report, format, &Options::default()).unwrap().text;
+            let text = export(&report, format, &ExportOptions::default()).unwrap().text;
             let mut again: Vec<_> = changes.iter().filter(|(key, _)| *key != "path").cloned().collect();
             again.push(("path", json!({ "kind": kind, "text": text })));
             again.push(("compensation.sources", json!([])));

@@ -5,9 +5,11 @@
 mod common;
 
 use armill::Report;
-use armill::export::Options;
+use armill::export::ExportOptions;
 use armill::export::arc::Step;
-use armill::export::command::{Command, CommandedMove, Course, Style};
+use armill::export::command::{Command, CommandedMove};
+use armill::export::commanded_path::CommandedPath;
+use armill::export::style::PostStyle;
 use armill::export::thin::LEVER;
 use armill::path::{Move, MovePace, Path, Program, Segment};
 use common::program::{example, examples, read_back, small_jobs};
@@ -36,10 +38,10 @@ fn follow<'a>(name: &str, points: impl Iterator<Item = &'a Vector3<f64>>, path: 
 }
 
 /// Commanded poses in the workpiece frame, as many lists as the path has moves.
-fn samples(report: &Report, course: &Course) -> Vec<Vec<Pose>> {
+fn samples(report: &Report, commanded_path: &CommandedPath) -> Vec<Vec<Pose>> {
     let back = report.setup().workpiece.inverse();
-    let axes = (0..report.samples()).map(|k| back.direction(course.axis.at(k)));
-    let mut samples = course.positions(report).into_iter().map(|p| back.point(&p)).zip(axes);
+    let axes = (0..report.samples()).map(|k| back.direction(commanded_path.axis.at(k)));
+    let mut samples = commanded_path.positions(report).into_iter().map(|p| back.point(&p)).zip(axes);
     let arc_length = &report.plan.trajectory.timing.arc_length;
     let path = &report.plan.path;
     let moves = path.moves().len();
@@ -56,14 +58,15 @@ fn path_of(moves: &[Move]) -> Option<Path> {
 }
 
 fn is_the_compensated_path(name: &str, report: &Report, id: &str, thinning: f64) {
-    let (export, program) = read_back(report, id, &Options { thinning: Some(thinning) });
+    let (export, program) = read_back(report, id, &ExportOptions { thinning: Some(thinning) });
     let name = format!("{name} as {id}, thinned to {thinning}");
     assert!(export.deviation <= thinning, "{name}: {}", export.deviation);
-    let style = Style { arcs: id == "gcode", inch: program.unit == "inch", points_only: id == "path-csv" };
-    let command = Command::new(report, &export.course, Some(thinning), style).unwrap();
+    let style =
+        PostStyle { arcs: id == "gcode", inch: program.unit == "inch", points_only: id == "path-csv" };
+    let command = Command::new(report, &export.commanded_path, Some(thinning), style).unwrap();
     assert_eq!(program.moves.len() + 1, command.points(), "{name}");
     let mut moves = program.moves.as_slice();
-    for (commanded, poses) in command.moves.iter().zip(samples(report, &export.course)) {
+    for (commanded, poses) in command.moves.iter().zip(samples(report, &export.commanded_path)) {
         let own;
         (own, moves) = moves.split_at(commanded.steps.len());
         let name = format!("{name}, line {}", commanded.line);

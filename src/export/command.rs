@@ -7,17 +7,17 @@
 //! corner belong to the move that follows: while the tool waits, the correction goes over from one
 //! direction of feed to the next.
 
-use crate::compensation::Compensation;
 use crate::error::Error;
-use crate::export::Format;
 use crate::export::arc::{self, Step, rounded};
+use crate::export::commanded_path::CommandedPath;
 use crate::export::fillet;
+use crate::export::style::PostStyle;
 use crate::export::thin::{self, Point};
 use crate::math::{self, Pose};
 use crate::path::program::Dwell;
-use crate::path::{Axes, Move, MovePace, Path, Program, Segment};
+use crate::path::{Move, MovePace, Path, Program, Segment};
 use crate::report::{Report, millimetres};
-use crate::units::{INCH, MM, RPM};
+use crate::units::{MM, RPM};
 use nalgebra::Vector3;
 
 /// Finest thinning tolerance [m].
@@ -29,68 +29,6 @@ const STRETCH: f64 = 2.0;
 /// A smooth move is written in straight moves that turn by at most this share of the angle at which
 /// the tool would stop.
 const SMOOTH: f64 = 0.8;
-
-/// How a language says a path.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Style {
-    /// Whether it has arcs.
-    pub arcs: bool,
-    /// Whether lengths are in inches, with six decimals, instead of in mm with five.
-    pub inch: bool,
-    /// Whether it says no more than points and feeds: no waits, no rapids.
-    pub points_only: bool,
-}
-
-impl Style {
-    /// How many there are of [`Style::index`].
-    pub const COUNT: usize = 8;
-
-    /// How a format says the path of a report; `None` for a table of samples.
-    pub fn of(format: &Format, report: &Report) -> Option<Self> {
-        let inches = report.setup().program.as_ref().is_some_and(|source| source.program.unit == "inch");
-        match format.id {
-            "columns-csv" | "compensated-csv" | "joints-csv" => None,
-            id => Some(Self {
-                arcs: id == "gcode",
-                inch: inches && ["gcode", "apt"].contains(&id),
-                points_only: id == "path-csv",
-            }),
-        }
-    }
-
-    /// Its number among all styles.
-    pub fn index(self) -> usize {
-        usize::from(self.arcs) + 2 * usize::from(self.inch) + 4 * usize::from(self.points_only)
-    }
-
-    /// Positions are written in steps of this size [m].
-    pub fn resolution(self) -> f64 {
-        if self.inch { INCH * 1e-6 } else { MM * 1e-5 }
-    }
-}
-
-/// Where the tool is sent at each of the report's samples: what is added to the desired positions
-/// [m], and the tool axis, base frame.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Course {
-    /// Correction of the desired position [m].
-    pub correction: Vec<Vector3<f64>>,
-    /// Tool axis from tip to spindle.
-    pub axis: Axes,
-}
-
-impl Course {
-    /// The one that the report found.
-    pub fn of(report: &Report) -> Self {
-        let Compensation { correction, axis, .. } = &report.compensation;
-        Self { correction: correction.clone(), axis: axis.clone() }
-    }
-
-    /// Its positions, base frame [m].
-    pub fn positions(&self, report: &Report) -> Vec<Vector3<f64>> {
-        report.plan.trajectory.position.iter().zip(&self.correction).map(|(p, c)| p + c).collect()
-    }
-}
 
 /// The compensated path as moves of a program.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,7 +44,7 @@ pub struct Command {
     /// Number of commanded samples.
     pub samples: usize,
     /// How it is to be said.
-    pub style: Style,
+    pub style: PostStyle,
     /// Largest contour error that comes out of it, run with its own timing [m], once it has been
     /// [rehearsed](super::rehearsal).
     pub reached: Option<f64>,
@@ -135,13 +73,18 @@ pub struct CommandedMove {
 }
 
 impl Command {
-    /// A report's path as `course` has it, thinned to `thinning` [m]: a tenth of the job's
+    /// A report's path as `commanded_path` has it, thinned to `thinning` [m]: a tenth of the job's
     /// tolerance, but not below [`FINEST`], if none is stated.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a tolerance that is not from [`FINEST`] to [`COARSEST`];
     /// [`Error::Invalid`] if what is left strays further from the samples than that.
-    pub fn new(report: &Report, course: &Course, thinning: Option<f64>, style: Style) -> Result<Self, Error> {
+    pub fn new(
+        report: &Report,
+        commanded_path: &CommandedPath,
+        thinning: Option<f64>,
+        style: PostStyle,
+    ) -> Result<Self, Error> {
         let thinning = thinning.unwrap_or((report.setup().goal.tolerance / 10.0).clamp(FINEST, COARSEST));
         if !(FINEST..=COARSEST).contains(&thinning) {
             return Err(Error::OutOfRange {
@@ -159,18 +102,20 @@ impl Command {
         let mut end: Option<Point> = None;
         let mut deviation = 0.0_f64;
         let mut moves = Vec::with_capacity(path.moves().len());
-        for (step, mut piece) in path.moves().iter().zip(pieces(report, course, &path, &back)) {
+        for (step, mut sampled) in
+            path.moves().iter().zip(sampled_moves(report, commanded_path, &path, &back))
+        {
             // A move starts where the one before ends as written.
-            let first = end.unwrap_or_else(|| rounded(&piece.points[0], style.resolution()));
-            piece.points[0] = first;
+            let first = end.unwrap_or_else(|| rounded(&sampled.points[0], style.resolution()));
+            sampled.points[0] = first;
             start.get_or_insert(first);
-            let (steps, strayed) = steps(&piece, &step.segment, (thinning, turn), style);
+            let (steps, strayed) = steps(&sampled, &step.segment, (thinning, turn), style);
             end = Some(steps.last().map_or(first, |last| last.to));
             deviation = deviation.max(strayed);
             let feed = match step.pace {
                 MovePace::Rapid => report.setup().limits.rapid,
-                MovePace::Feed(feed) => feed * piece.stretch,
-                MovePace::JobFeed => report.setup().limits.feed * piece.stretch,
+                MovePace::Feed(feed) => feed * sampled.stretch,
+                MovePace::JobFeed => report.setup().limits.feed * sampled.stretch,
             };
             moves.push(CommandedMove {
                 line: step.line,
@@ -179,7 +124,7 @@ impl Command {
                 spindle: step
                     .spindle
                     .unwrap_or(report.setup().teeth_per_second / f64::from(report.setup().cut.flutes)),
-                wait: piece.wait,
+                wait: sampled.wait,
                 stops: true,
                 steps,
             });
@@ -262,7 +207,7 @@ impl CommandedMove {
 }
 
 /// The commanded samples of one move, from its start to its end, and the rest before it [s].
-struct Piece {
+struct MoveSamples {
     points: Vec<Point>,
     wait: f64,
     /// How many of them are at rest in a corner.
@@ -271,19 +216,24 @@ struct Piece {
     stretch: f64,
 }
 
-fn pieces(report: &Report, course: &Course, path: &Path, back: &Pose) -> Vec<Piece> {
+fn sampled_moves(
+    report: &Report,
+    commanded_path: &CommandedPath,
+    path: &Path,
+    back: &Pose,
+) -> Vec<MoveSamples> {
     let trajectory = &report.plan.trajectory;
     let arc_length = &trajectory.timing.arc_length;
-    let correction = &course.correction;
+    let correction = &commanded_path.correction;
     let sample = |k: usize| Point {
         position: back.point(&(trajectory.position[k] + correction[k])),
-        axis: back.direction(course.axis.at(k)),
+        axis: back.direction(commanded_path.axis.at(k)),
         spin: path.roll(arc_length[k]),
     };
     let last = arc_length.len() - 1;
     let mut k = 0;
     let mut previous_end = None;
-    let mut pieces = Vec::with_capacity(path.moves().len());
+    let mut sampled_moves = Vec::with_capacity(path.moves().len());
     for index in 0..path.moves().len() {
         let (start, end) = (path.start(index), path.start(index + 1));
         let is_last = index + 1 == path.moves().len();
@@ -322,9 +272,9 @@ fn pieces(report: &Report, course: &Course, path: &Path, back: &Pose) -> Vec<Pie
         let desired = length(desired[travelled..].iter().copied()).max(f64::MIN_POSITIVE);
         // A move that is shorter than its correction changes along it says nothing about speed.
         let stretch = (commanded / desired).clamp(1.0 / STRETCH, STRETCH);
-        pieces.push(Piece { points, wait, resting: travelled, stretch });
+        sampled_moves.push(MoveSamples { points, wait, resting: travelled, stretch });
     }
-    pieces
+    sampled_moves
 }
 
 /// Length of the straight moves between points [m].
@@ -335,16 +285,21 @@ fn length(mut points: impl Iterator<Item = Vector3<f64>>) -> f64 {
 
 /// A move's samples as few moves that do not turn by more than `turn` [rad] without need, and how
 /// far they are from these at most [m].
-fn steps(piece: &Piece, segment: &Segment, (thinning, turn): (f64, f64), style: Style) -> (Vec<Step>, f64) {
-    let points = piece.points.as_slice();
+fn steps(
+    sampled: &MoveSamples,
+    segment: &Segment,
+    (thinning, turn): (f64, f64),
+    style: PostStyle,
+) -> (Vec<Step>, f64) {
+    let points = sampled.points.as_slice();
     let resolution = style.resolution();
     // Rounding moves the ends of straight moves, and what a control makes of a rounded centre the
     // arcs.
     let tolerance = thinning - resolution;
     let thinned = |tolerance: f64, fillet: f64| {
-        let kept = thin::smooth(points, tolerance, piece.resting, turn);
+        let kept = thin::smooth(points, tolerance, sampled.resting, turn);
         let ends: Vec<Point> = kept.iter().map(|&k| rounded(&points[k], resolution)).collect();
-        let first = 1 + kept.iter().filter(|&&k| k < piece.resting).count();
+        let first = 1 + kept.iter().filter(|&&k| k < sampled.resting).count();
         let mut ends = fillet::round(&ends, first, turn, fillet, resolution);
         ends.iter_mut().flatten().for_each(|end| *end = rounded(end, resolution));
         let corners = ends.iter().any(|standing| standing.len() > 1);

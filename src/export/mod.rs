@@ -5,6 +5,8 @@ pub mod thin;
 pub mod fillet;
 pub mod arc;
 pub mod orientation;
+pub mod style;
+pub mod commanded_path;
 pub mod command;
 pub mod header;
 pub mod csv;
@@ -15,11 +17,12 @@ pub use format::{FORMATS, Format};
 
 use crate::error::Error;
 use crate::report::Report;
-use command::{Command, Course};
+use command::Command;
+use commanded_path::CommandedPath;
 
 /// What a person may choose.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Options {
+pub struct ExportOptions {
     /// Thinning tolerance [m]; `None`: a tenth of the job's tolerance, from [`command::FINEST`] to
     /// [`command::COARSEST`].
     pub thinning: Option<f64>,
@@ -38,7 +41,7 @@ pub struct Export {
     /// is thinned.
     pub deviation: f64,
     /// Where it sends the tool at each of the report's samples.
-    pub course: Course,
+    pub commanded_path: CommandedPath,
 }
 
 /// The format `id`.
@@ -56,18 +59,18 @@ pub fn table(report: &Report, format: &Format) -> Export {
         "joints-csv" => csv::joints(report),
         _ => csv::columns(report),
     };
-    let (points, course) = (report.samples(), Course::of(report));
-    Export { text, file_name: file_name(format), points, deviation: 0.0, course }
+    let (points, commanded_path) = (report.samples(), CommandedPath::of(report));
+    Export { text, file_name: file_name(format), points, deviation: 0.0, commanded_path }
 }
 
-/// A file that says a command, made to follow `course`.
+/// A file that says a command, made to follow `commanded_path`.
 ///
 /// # Errors
 /// [`Error::Invalid`] if the format cannot say it.
 pub fn program(
     report: &Report,
     format: &Format,
-    course: &Course,
+    commanded_path: &CommandedPath,
     command: &Command,
 ) -> Result<Export, Error> {
     let text = match format.id {
@@ -75,7 +78,13 @@ pub fn program(
         _ => post::program(report, command, format.id)?,
     };
     let (points, deviation) = (command.points(), command.deviation);
-    Ok(Export { text, file_name: file_name(format), points, deviation, course: course.clone() })
+    Ok(Export {
+        text,
+        file_name: file_name(format),
+        points,
+        deviation,
+        commanded_path: commanded_path.clone(),
+    })
 }
 
 fn file_name(format: &Format) -> String {

@@ -103,7 +103,7 @@ enum Quantity {
 
 /// A column and the value in SI of one of its unit.
 #[derive(Debug, Clone, Copy)]
-struct Column {
+struct MeasuredColumn {
     quantity: Quantity,
     component: usize,
     unit: f64,
@@ -172,14 +172,15 @@ pub fn read(text: &str, convention: Convention) -> Result<Measurements, Error> {
     Ok(Measurements { rows, remarks })
 }
 
-fn columns(table: &Table) -> Result<Vec<Column>, Error> {
+fn columns(table: &Table) -> Result<Vec<MeasuredColumn>, Error> {
     if table.names.is_empty() {
         return unnamed(table);
     }
-    let mut columns: Vec<Column> = Vec::with_capacity(table.width);
+    let mut columns: Vec<MeasuredColumn> = Vec::with_capacity(table.width);
     for (index, words) in table.names.iter().enumerate() {
         let column = named(words).map_err(|expected| table.name_error(index, expected))?;
-        let same = |other: &Column| (other.quantity, other.component) == (column.quantity, column.component);
+        let same =
+            |other: &MeasuredColumn| (other.quantity, other.component) == (column.quantity, column.component);
         if columns.iter().any(same) {
             return Err(table.name_error(index, "each column stands once"));
         }
@@ -201,7 +202,7 @@ fn columns(table: &Table) -> Result<Vec<Column>, Error> {
 }
 
 /// What the columns are without a header.
-fn unnamed(table: &Table) -> Result<Vec<Column>, Error> {
+fn unnamed(table: &Table) -> Result<Vec<MeasuredColumn>, Error> {
     let moments = match table.width {
         0 => return Ok(vec![]),
         12 => 0,
@@ -218,7 +219,7 @@ fn unnamed(table: &Table) -> Result<Vec<Column>, Error> {
         (Quantity::Displacement, 3, MM),
     ];
     let column = |(quantity, count, unit)| {
-        (0..count).map(move |component| Column { quantity, component, unit, said: false })
+        (0..count).map(move |component| MeasuredColumn { quantity, component, unit, said: false })
     };
     Ok(groups.into_iter().flat_map(column).collect())
 }
@@ -232,7 +233,7 @@ const NAMES: [(Quantity, &[&str]); 4] = [
 ];
 
 /// What a name says: quantity, component, unit.
-fn named(words: &[String]) -> Result<Column, &'static str> {
+fn named(words: &[String]) -> Result<MeasuredColumn, &'static str> {
     const UNKNOWN: &str = "the columns are q1 to q6, fx, fy, fz, mx, my, mz, dx, dy, dz, with or without a unit: q1_deg, fx_n, dx_mm";
     let part = |name: &str| {
         let component = name.chars().last()?;
@@ -269,5 +270,5 @@ fn named(words: &[String]) -> Result<Column, &'static str> {
         (Quantity::Moment, _) => return Err("moments are in Nm, in the base frame"),
         (Quantity::Displacement, _) => return Err("displacements are in mm, um, m or in, in the base frame"),
     };
-    Ok(Column { quantity, component, unit, said })
+    Ok(MeasuredColumn { quantity, component, unit, said })
 }

@@ -9,7 +9,7 @@ const FLAT: f64 = 1e-12;
 
 /// The least squares solution that is nowhere negative.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Solution {
+pub struct NnlsSolution {
     /// The unknowns, zero or positive.
     pub x: Vector6<f64>,
     /// Which of them are free; the others are held at zero.
@@ -21,7 +21,7 @@ pub struct Solution {
 /// Active set method of C. Lawson, R. Hanson, Solving Least Squares Problems (1974), chapter 23, algorithm NNLS, on the normal
 /// equations as R. Bro, S. de Jong, J. Chemometrics 11 (1997) do; six columns of unit length keep enough digits for it. A column that
 /// depends on those already free stays at zero.
-pub fn solve(g: &Matrix6<f64>, h: &Vector6<f64>) -> Solution {
+pub fn solve(g: &Matrix6<f64>, h: &Vector6<f64>) -> NnlsSolution {
     let length = Vector6::from_fn(|i, _| g[(i, i)].sqrt());
     let inverse = length.map(|length| if length > 0.0 { 1.0 / length } else { 0.0 });
     let scale = Matrix6::from_diagonal(&inverse);
@@ -51,7 +51,7 @@ pub fn solve(g: &Matrix6<f64>, h: &Vector6<f64>) -> Solution {
         x = candidate;
         refused = length.map(|length| length == 0.0);
     }
-    Solution { x: x.component_mul(&inverse), free }
+    NnlsSolution { x: x.component_mul(&inverse), free }
 }
 
 /// Least squares over the free unknowns; the others are zero. None if a column depends on the others.

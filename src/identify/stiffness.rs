@@ -278,7 +278,7 @@ impl Poses {
     }
 
     /// `reach` is the standard deviation of a component times Student's t.
-    fn joint(&self, i: usize, solution: &nnls::Solution, h: &Vector6<f64>, reach: f64) -> Joint {
+    fn joint(&self, i: usize, solution: &nnls::NnlsSolution, h: &Vector6<f64>, reach: f64) -> Joint {
         let compliance = solution.x[i];
         let mixed_with = self.mixed(i);
         let confounded = self.confounded[i];

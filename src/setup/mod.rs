@@ -98,7 +98,7 @@ impl Setup {
             return Err(Error::invalid("version", job.version, "this Armill reads version 1"));
         }
         fields::check_ranges(job)?;
-        let robot::Arm { robot, stiffness_note, stiffness_assumed } = robot::arm(&job.robot)?;
+        let robot::BareArm { robot, stiffness_note, stiffness_assumed } = robot::arm(&job.robot)?;
         let robot = robot.with_tool(frame(&job.tool_frame));
         let base = frame(&job.base_frame);
         let statics = statics::of(&job.robot, robot.compliance(), &base)?;

@@ -6,7 +6,7 @@ use crate::robot::{Elbow, Link, Opw, Robot, library};
 use crate::units::{DEG, MM};
 
 /// An arm without its tool.
-pub(super) struct Arm {
+pub(super) struct BareArm {
     /// The arm.
     pub(super) robot: Robot,
     /// Where its compliance comes from and how far to trust it.
@@ -24,7 +24,7 @@ pub fn robot(job: &Job) -> Result<Robot, Error> {
 }
 
 /// The arm that the section `robot` describes.
-pub(super) fn arm(given: &job::Robot) -> Result<Arm, Error> {
+pub(super) fn arm(given: &job::Robot) -> Result<BareArm, Error> {
     let forms = [given.preset.is_some(), given.modified_dh.is_some(), given.opw.is_some()];
     if forms.into_iter().filter(|form| *form).count() > 1 {
         let field = if forms[0] { "robot.preset" } else { "robot.opw" };
@@ -71,7 +71,7 @@ pub(super) fn arm(given: &job::Robot) -> Result<Arm, Error> {
         Some(Joint3::Parallelogram) => Elbow::Parallelogram,
         None => elbow,
     };
-    Ok(Arm { robot: robot.with_elbow(elbow)?, stiffness_note, stiffness_assumed })
+    Ok(BareArm { robot: robot.with_elbow(elbow)?, stiffness_note, stiffness_assumed })
 }
 
 /// The parameters, checked for what a table of links could not name.

@@ -1,8 +1,8 @@
 //! The programs of a report: each is rehearsed once, for its accuracy, its header and its file.
 
 use crate::error::Error;
-use crate::export::command::Style;
-use crate::export::{self, Export, Format, Options};
+use crate::export::style::PostStyle;
+use crate::export::{self, Export, ExportOptions, Format};
 use crate::report::{Report, millimetres};
 use crate::units::MM;
 use crate::verification::rehearsal::{Rehearsal, rehearse};
@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 /// share one.
 #[derive(Debug, Default)]
 pub struct Programs {
-    rehearsed: [OnceLock<Result<Rehearsal, Error>>; Style::COUNT],
+    rehearsed: [OnceLock<Result<Rehearsal, Error>>; PostStyle::COUNT],
 }
 
 /// What the report's path is worth as a program. Programs hold no times, so a controller times them
@@ -32,7 +32,7 @@ pub struct ProgramAccuracy {
 ///
 /// # Errors
 /// See [`Programs::export`].
-pub fn export(report: &Report, id: &str, options: &Options) -> Result<Export, Error> {
+pub fn export(report: &Report, id: &str, options: &ExportOptions) -> Result<Export, Error> {
     Programs::default().export(report, id, options)
 }
 
@@ -42,18 +42,18 @@ impl Programs {
     /// # Errors
     /// [`Error::Invalid`] for a format that is not in [`export::FORMATS`] or cannot say the path; else see
     /// [`rehearse`].
-    pub fn export(&self, report: &Report, id: &str, options: &Options) -> Result<Export, Error> {
+    pub fn export(&self, report: &Report, id: &str, options: &ExportOptions) -> Result<Export, Error> {
         let format = export::format(id)?;
-        let Some(style) = Style::of(format, report) else { return Ok(export::table(report, format)) };
+        let Some(style) = PostStyle::of(format, report) else { return Ok(export::table(report, format)) };
         let own;
-        let Rehearsal { course, command, .. } = match options.thinning {
+        let Rehearsal { commanded_path, command, .. } = match options.thinning {
             None => self.rehearsal(report, style)?,
             thinning => {
                 own = rehearse(report, thinning, style)?;
                 &own
             }
         };
-        export::program(report, format, course, command)
+        export::program(report, format, commanded_path, command)
     }
 
     /// What the path is worth as a program of the format `id` with the usual thinning.
@@ -62,7 +62,7 @@ impl Programs {
     /// [`Error::Invalid`] for a format that is no program; else see [`rehearse`].
     pub fn accuracy(&self, report: &Report, id: &str) -> Result<ProgramAccuracy, Error> {
         let format = export::format(id)?;
-        let style = Style::of(format, report)
+        let style = PostStyle::of(format, report)
             .ok_or_else(|| Error::invalid("format", format!("\"{id}\""), "a program, not a table"))?;
         let reached = self.rehearsal(report, style)?.reached;
         let tolerance = report.setup().goal.tolerance;
@@ -78,7 +78,7 @@ impl Programs {
         Ok(ProgramAccuracy { max_mm: reached / MM, met, sentence })
     }
 
-    fn rehearsal(&self, report: &Report, style: Style) -> Result<&Rehearsal, Error> {
+    fn rehearsal(&self, report: &Report, style: PostStyle) -> Result<&Rehearsal, Error> {
         let rehearsed = self.rehearsed[style.index()].get_or_init(|| rehearse(report, None, style));
         rehearsed.as_ref().map_err(Clone::clone)
     }

@@ -1,4 +1,4 @@
-//! The course of a program, tuned to the program's own timing.
+//! The commanded_path of a program, tuned to the program's own timing.
 //!
 //! The report's correction belongs to the clock of the desired path. A program tells positions and feeds; what runs it plans the
 //! motion anew along the commanded path, which bends and is longer, so it comes a little earlier or later to each place, and a shaper or a force
@@ -8,7 +8,9 @@
 use crate::compensation;
 use crate::cutting::along::ChipLoad;
 use crate::error::Error;
-use crate::export::command::{Command, Course, Style};
+use crate::export::command::Command;
+use crate::export::commanded_path::CommandedPath;
+use crate::export::style::PostStyle;
 use crate::motion::Trajectory;
 use crate::report::Report;
 use crate::verification::replay::{self, Replay};
@@ -24,36 +26,36 @@ const SMOOTHING: f64 = 0.01;
 #[derive(Debug, Clone)]
 pub struct Rehearsal {
     /// Where the tool is sent at each of the report's samples.
-    pub course: Course,
+    pub commanded_path: CommandedPath,
     /// The moves as written.
     pub command: Command,
     /// Largest contour error that comes out of them, run with their own timing [m].
     pub reached: f64,
 }
 
-/// The course and what is written for it, with the largest contour error it reaches: the report's own, if that keeps the job's tolerance as a
+/// The commanded_path and what is written for it, with the largest contour error it reaches: the report's own, if that keeps the job's tolerance as a
 /// program or nothing was compensated; else the best of as many passes as the job allows.
 ///
 /// # Errors
 /// See [`Command::new`] and [`replay::run`].
-pub fn rehearse(report: &Report, thinning: Option<f64>, style: Style) -> Result<Rehearsal, Error> {
-    let attempt = |course: Course| {
-        let mut command = Command::new(report, &course, thinning, style)?;
-        let outcome = replay::run(report, &course, &command.program())?;
+pub fn rehearse(report: &Report, thinning: Option<f64>, style: PostStyle) -> Result<Rehearsal, Error> {
+    let attempt = |commanded_path: CommandedPath| {
+        let mut command = Command::new(report, &commanded_path, thinning, style)?;
+        let outcome = replay::run(report, &commanded_path, &command.program())?;
         let reached = outcome.largest();
         command.reached = Some(reached);
-        Ok::<_, Error>((Rehearsal { course, command, reached }, outcome))
+        Ok::<_, Error>((Rehearsal { commanded_path, command, reached }, outcome))
     };
-    let mut best = attempt(Course::of(report))?;
+    let mut best = attempt(CommandedPath::of(report))?;
     let goal = report.setup().goal;
     let passes = if report.compensation.passes > 0 { goal.max_passes } else { 0 };
     for _ in 0..passes {
-        let (Rehearsal { course, reached: least, .. }, outcome) = &best;
+        let (Rehearsal { commanded_path, reached: least, .. }, outcome) = &best;
         if *least <= goal.tolerance {
             break;
         }
         // A pass that bends the path too far to be reached or written is no improvement either.
-        let Ok(next) = attempt(corrected(report, course, outcome)) else { break };
+        let Ok(next) = attempt(corrected(report, commanded_path, outcome)) else { break };
         if next.0.reached >= least * IMPROVEMENT {
             break;
         }
@@ -62,8 +64,8 @@ pub fn rehearse(report: &Report, thinning: Option<f64>, style: Style) -> Result<
     Ok(best.0)
 }
 
-/// The course with what was missing when its program was run.
-fn corrected(report: &Report, course: &Course, outcome: &Replay) -> Course {
+/// The commanded_path with what was missing when its program was run.
+fn corrected(report: &Report, commanded_path: &CommandedPath, outcome: &Replay) -> CommandedPath {
     let Trajectory { sample_time, moving, .. } = *outcome.trajectory;
     let undone = |missing: Vec<Vector3<f64>>| {
         let change = report.plan.shaper().undo(&missing, sample_time, moving);
@@ -73,11 +75,11 @@ fn corrected(report: &Report, course: &Course, outcome: &Replay) -> Course {
         };
         filed(&change, &outcome.instants, report)
     };
-    let known = (course.correction.as_slice(), &course.axis);
+    let known = (commanded_path.correction.as_slice(), &commanded_path.axis);
     let Replay { target, axis, deviation, .. } = outcome;
     let path = &report.plan.path;
     let (correction, axis) = compensation::corrected(path, (target, axis), deviation, known, undone);
-    Course { correction, axis }
+    CommandedPath { correction, axis }
 }
 
 /// Values that follow the given ones with a lag of so many samples, forwards and then backwards, so that none is late.

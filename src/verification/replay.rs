@@ -8,8 +8,8 @@
 use crate::cutting::along;
 use crate::deviation::{Deviation, Reference, Sources, simulate};
 use crate::error::Error;
-use crate::export::command::Course;
-use crate::export::{Export, Options};
+use crate::export::commanded_path::CommandedPath;
+use crate::export::{Export, ExportOptions};
 use crate::motion::joints::{Targets, joint_trajectory};
 use crate::motion::{TimingLaw, Trajectory, trajectory};
 use crate::path::unit::{FeedUnit, LengthUnit};
@@ -53,13 +53,18 @@ impl Replay {
 /// # Errors
 /// [`Error::Invalid`] for a format that has no reader; else see [`Programs::export`], the readers and
 /// [`run`].
-pub fn read_back(report: &Report, programs: &Programs, id: &str, options: &Options) -> Result<Replay, Error> {
+pub fn read_back(
+    report: &Report,
+    programs: &Programs,
+    id: &str,
+    options: &ExportOptions,
+) -> Result<Replay, Error> {
     if !["gcode", "apt", "path-csv"].contains(&id) {
         let expected = "gcode, apt and path-csv can be read back";
         return Err(Error::invalid("format", format!("\"{id}\""), expected));
     }
-    let Export { text, course, .. } = programs.export(report, id, options)?;
-    run(report, &course, &read(id, &text)?)
+    let Export { text, commanded_path, .. } = programs.export(report, id, options)?;
+    run(report, &commanded_path, &read(id, &text)?)
 }
 
 /// Reads a program that was written in the format `id`.
@@ -77,11 +82,11 @@ fn read(id: &str, text: &str) -> Result<Program, Error> {
     }
 }
 
-/// Runs a program that sends the tool along `course`.
+/// Runs a program that sends the tool along `commanded_path`.
 ///
 /// # Errors
 /// [`Error::Missing`] for a program without a move; [`Error::Unreachable`] where it is out of reach.
-pub fn run(report: &Report, course: &Course, program: &Program) -> Result<Replay, Error> {
+pub fn run(report: &Report, commanded_path: &CommandedPath, program: &Program) -> Result<Replay, Error> {
     let empty = || Error::Missing { field: "program".into(), expected: "a move".into() };
     let commanded = Path::of_program(program).ok_or_else(empty)?.placed(&report.setup().workpiece);
     // A program of points says nothing about the roll: the run's own is taken, at the same share of the way.
@@ -90,7 +95,7 @@ pub fn run(report: &Report, course: &Course, program: &Program) -> Result<Replay
     let targets = Targets::desired(&commanded, &own);
     let start = report.setup().start;
     let q = joint_trajectory(&report.plan.robot, &targets, start, &mut Progress::none())?.q;
-    let instants = instants(&course.positions(report), &own).ok_or_else(empty)?;
+    let instants = instants(&commanded_path.positions(report), &own).ok_or_else(empty)?;
     let (trajectory, share) = standing_for(report, &own, &instants);
     let plan = Plan { trajectory: trajectory.into(), ..report.plan.clone() };
     let timing = plan.timing(Sources::ALL).into_owned();

@@ -1,6 +1,6 @@
 //! Files of a run, and how accurate its programs are.
 
-use crate::export::{self, Options};
+use crate::export::{self, ExportOptions};
 use crate::units::MM;
 use crate::verification;
 use crate::wasm::error::thrown;
@@ -18,7 +18,7 @@ impl Run {
     /// The file in one of [`formats`](super::formats); `thinning_mm` is how far its points may stray from
     /// the samples (a tenth of the tolerance unless given).
     pub fn export(&self, format: &str, thinning_mm: Option<f64>) -> Result<String, JsValue> {
-        let options = Options { thinning: thinning_mm.map(|thinning| thinning * MM) };
+        let options = ExportOptions { thinning: thinning_mm.map(|thinning| thinning * MM) };
         let file = self.programs.export(&self.report, format, &options);
         file.map(|file| file.text).map_err(|error| thrown(&error))
     }
@@ -40,7 +40,8 @@ impl Run {
     /// model.
     #[wasm_bindgen(unchecked_return_type = "Statistics")]
     pub fn replay(&self, format: &str) -> Result<JsValue, JsValue> {
-        let outcome = verification::read_back(&self.report, &self.programs, format, &Options::default());
+        let outcome =
+            verification::read_back(&self.report, &self.programs, format, &ExportOptions::default());
         object(&outcome.map_err(|error| thrown(&error))?.statistics())
     }
 }

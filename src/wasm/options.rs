@@ -39,14 +39,14 @@ enum Force {
 #[derive(Deserialize)]
 #[serde(default)]
 #[derive(Default)]
-struct ChartUnits {
+struct Reading {
     length: Length,
     force: Force,
 }
 
 /// How to draw a chart.
 #[derive(Deserialize)]
-struct ChartOptions {
+struct Drawing {
     width: f64,
     height: f64,
     x_range: Option<(f64, f64)>,
@@ -61,12 +61,12 @@ struct ChartOptions {
 
 /// Reads `ChartUnits`.
 pub(super) fn units(options: JsValue) -> Result<Units, JsValue> {
-    read(options).map(|ChartUnits { length, force }| chosen(length, force))
+    read(options).map(|Reading { length, force }| chosen(length, force))
 }
 
 /// Reads `ChartOptions`.
 pub(super) fn chart(options: JsValue) -> Result<chart::ChartOptions, JsValue> {
-    let ChartOptions { width, height, x_range, y_range, hidden, length, force } = read(options)?;
+    let Drawing { width, height, x_range, y_range, hidden, length, force } = read(options)?;
     Ok(chart::ChartOptions { width, height, x_range, y_range, hidden, units: chosen(length, force) })
 }
 

@@ -1,7 +1,7 @@
 //! What the tests of exports share: jobs, programs, and the readers for what is written.
 
 use armill::Report;
-use armill::export::{Export, Options};
+use armill::export::{Export, ExportOptions};
 use armill::path::unit::{FeedUnit, LengthUnit};
 use armill::path::{Program, Segment, apt, csv, gcode};
 use armill::verification::export;
@@ -44,13 +44,13 @@ pub(crate) fn small_jobs() -> [(&'static str, Vec<(&'static str, Value)>); 3] {
 }
 
 pub(crate) fn written(report: &Report, id: &str) -> Export {
-    export(report, id, &Options::default()).unwrap()
+    export(report, id, &ExportOptions::default()).unwrap()
 }
 
 /// Tips in the workpiece frame [m] that a file sends the tool to.
 pub(crate) fn commanded(report: &Report, export: &Export) -> Vec<Vector3<f64>> {
     let back = report.setup().workpiece.inverse();
-    export.course.positions(report).iter().map(|p| back.point(p)).collect()
+    export.commanded_path.positions(report).iter().map(|p| back.point(p)).collect()
 }
 
 /// Distance [m] of a point from a chain of straight moves.
@@ -69,7 +69,7 @@ pub(crate) fn largest_distance(points: &[Vector3<f64>], chain: &[Vector3<f64>]) 
 }
 
 /// What the crate's own reader makes of an export.
-pub(crate) fn read_back(report: &Report, id: &str, options: &Options) -> (Export, Program) {
+pub(crate) fn read_back(report: &Report, id: &str, options: &ExportOptions) -> (Export, Program) {
     let export = export(report, id, options).unwrap();
     let program = match id {
         "gcode" => gcode::program(&export.text, &gcode::Options::default(), |_| {}),
@@ -90,12 +90,14 @@ pub(crate) fn read_back(report: &Report, id: &str, options: &Options) -> (Export
 /// Points along the moves of a program [m]: the start, then ends, and between the ends of arcs so many that chords are within 0.1 um.
 pub(crate) fn chain(program: &Program) -> Vec<Vector3<f64>> {
     let along = |segment: &Segment| {
-        let pieces = match segment {
+        let sampled_moves = match segment {
             Segment::Line { .. } => 1,
             Segment::Arc { radius, sweep, .. } => (sweep * (radius / 8e-7).sqrt()).ceil() as usize,
         };
         let length = segment.length();
-        (1..=pieces).map(|i| segment.point(length * i as f64 / pieces as f64)).collect::<Vec<_>>()
+        (1..=sampled_moves)
+            .map(|i| segment.point(length * i as f64 / sampled_moves as f64))
+            .collect::<Vec<_>>()
     };
     let start = program.moves.first().map(|step| step.segment.point(0.0));
     start.into_iter().chain(program.moves.iter().flat_map(|step| along(&step.segment))).collect()

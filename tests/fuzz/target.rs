@@ -1,7 +1,7 @@
 //! What must hold for any text: nothing panics or hangs, no number is NaN, what is refused has a place and words, what is written is read.
 
 use armill::chart::{self, CATALOG};
-use armill::export::{Export, FORMATS, Options};
+use armill::export::{Export, ExportOptions, FORMATS};
 use armill::path::program::{MovePace, Program};
 use armill::path::unit::{FeedUnit, LengthUnit};
 use armill::path::{Path, Segment, apt, csv, gcode};
@@ -268,7 +268,7 @@ fn check_charts(report: &Report) {
 
 fn check_exports(report: &Report) {
     for format in FORMATS {
-        match armill::verification::export(report, format.id, &Options::default()) {
+        match armill::verification::export(report, format.id, &ExportOptions::default()) {
             Ok(export) => {
                 assert!(!export.text.contains("NaN"), "{}", format.id);
                 check_written(report, format.id, &export);
@@ -294,7 +294,7 @@ fn check_written(report: &Report, id: &str, export: &Export) {
     let program = read.unwrap_or_else(|error| panic!("{id}: {error}\n{text}"));
     check_program(&program);
     let back = report.setup().workpiece.inverse();
-    for tip in export.course.positions(report).iter().map(|tip| back.point(tip)) {
+    for tip in export.commanded_path.positions(report).iter().map(|tip| back.point(tip)) {
         let distance =
             |segment: &Segment| (segment.point(segment.closest(&tip, 0.0, segment.length())) - tip).norm();
         let distances = program.moves.iter().map(|step| distance(&step.segment));

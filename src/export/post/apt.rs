@@ -4,7 +4,7 @@
 //! for, `FEDRAT` where it changes, `DELAY` in seconds, `GOTO` with x, y, z and, where the axis is
 //! not +Z all along, i, j, k. Comments start with `$$`.
 
-use super::{Dialect, Target};
+use super::{Dialect, PostedStep};
 use crate::export::command::{Command, CommandedMove};
 use crate::export::header::{self, number};
 use crate::export::thin::Point;
@@ -70,7 +70,7 @@ impl Dialect for Apt {
         (!commanded.rapid && !commanded.steps.is_empty()).then(|| format!("FEDRAT/{feed},{unit}"))
     }
 
-    fn step(&mut self, target: &Target) -> String {
+    fn step(&mut self, target: &PostedStep) -> String {
         let rapid = if target.commanded.rapid { "RAPID\n" } else { "" };
         format!("{rapid}{}", self.goto(&target.step.to))
     }

@@ -9,7 +9,7 @@
 //! The layout follows listings in the open; it was not tried on a controller. Long programs may
 //! exceed the controller's memory or its number of lines: state a coarser thinning, or split them.
 
-use super::{Dialect, Target};
+use super::{Dialect, PostedStep};
 use crate::export::command::Command;
 use crate::export::header::{self, number};
 use crate::export::orientation::roll_pitch_yaw;
@@ -55,7 +55,7 @@ impl Dialect for Fanuc {
         format!("  WAIT   {}(sec) ;", number(time, 2))
     }
 
-    fn step(&mut self, target: &Target) -> String {
+    fn step(&mut self, target: &PostedStep) -> String {
         self.points.push(target.pose);
         let speed = number(target.commanded.feed / MM, 3);
         let speed = speed.trim_end_matches(".0");

@@ -4,7 +4,7 @@
 //! and tool lengths are in them already. I, J and K count from the start of the arc (G91.1); P
 //! counts turns where an arc has more than one.
 
-use super::{Dialect, Target};
+use super::{Dialect, PostedStep};
 use crate::error::Error;
 use crate::export::arc::Step;
 use crate::export::command::{Command, CommandedMove};
@@ -50,7 +50,7 @@ impl Dialect for Gcode {
         wait(time)
     }
 
-    fn step(&mut self, target: &Target) -> String {
+    fn step(&mut self, target: &PostedStep) -> String {
         self.words.step(target.step, target.commanded)
     }
 

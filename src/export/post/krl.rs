@@ -8,7 +8,7 @@
 //! The language was followed from programs and post-processors in the open (`BAS(#INITMOV,0)`,
 //! FRAME aggregates, `WAIT SEC`), not tried on a controller.
 
-use super::{Dialect, Target};
+use super::{Dialect, PostedStep};
 use crate::export::command::{Command, CommandedMove};
 use crate::export::header::number;
 use crate::export::orientation::roll_pitch_yaw;
@@ -52,7 +52,7 @@ impl Dialect for Krl {
         Some(format!("$VEL.CP={}", number(commanded.feed, 7)))
     }
 
-    fn step(&mut self, target: &Target) -> String {
+    fn step(&mut self, target: &PostedStep) -> String {
         format!("LIN {}", frame("", &target.pose))
     }
 

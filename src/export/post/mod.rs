@@ -67,7 +67,7 @@ trait Dialect {
     }
 
     /// A step, from where the tool is.
-    fn step(&mut self, target: &Target) -> String;
+    fn step(&mut self, target: &PostedStep) -> String;
 
     /// Everything after the last move.
     fn closing(&self) -> Vec<String>;
@@ -79,7 +79,7 @@ trait Dialect {
 }
 
 /// A step of a move, as a dialect is asked to write it.
-struct Target<'a> {
+struct PostedStep<'a> {
     /// Its end, and the arc to it if it is not straight.
     step: &'a Step,
     /// The move that it belongs to.
@@ -114,7 +114,7 @@ fn write(report: &Report, command: &Command, dialect: &mut dyn Dialect) -> Strin
         }
         for (index, step) in commanded.steps.iter().enumerate() {
             let stops = commanded.stops && index + 1 == commanded.steps.len();
-            lines.push(dialect.step(&Target { step, commanded, pose: command.pose(&step.to), stops }));
+            lines.push(dialect.step(&PostedStep { step, commanded, pose: command.pose(&step.to), stops }));
         }
     }
     lines.extend(dialect.closing());

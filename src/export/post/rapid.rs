@@ -8,7 +8,7 @@
 //! The layout of robtarget, tooldata, wobjdata and speeddata follows ABB's published data types; it
 //! was not tried on a controller.
 
-use super::{Dialect, Target};
+use super::{Dialect, PostedStep};
 use crate::export::command::Command;
 use crate::export::header::number;
 use crate::export::orientation::quaternion;
@@ -76,7 +76,7 @@ impl Dialect for Rapid {
         format!("    WaitTime \\InPos,{};", number(time, 4))
     }
 
-    fn step(&mut self, Target { commanded, pose, stops, .. }: &Target) -> String {
+    fn step(&mut self, PostedStep { commanded, pose, stops, .. }: &PostedStep) -> String {
         let zone = if *stops { "fine" } else { "z0" };
         format!("    MoveL {},{},{zone},tMill\\WObj:=wPart;", target(pose), self.speed(commanded.feed))
     }

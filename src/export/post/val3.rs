@@ -9,7 +9,7 @@
 //! memory, and nothing was tried on a controller. Project and data files are not written: their
 //! version is the controller's.
 
-use super::{Dialect, Target};
+use super::{Dialect, PostedStep};
 use crate::export::command::{Command, CommandedMove};
 use crate::export::header::number;
 use crate::export::orientation::about_moving_xyz;
@@ -62,7 +62,7 @@ impl Dialect for Val3 {
         Some(format!("  mPath.tvel={}", number(commanded.feed / MM, 4)))
     }
 
-    fn step(&mut self, target: &Target) -> String {
+    fn step(&mut self, target: &PostedStep) -> String {
         format!("  pPath.trsf={}\n  movel(pPath,tMill,mPath)", trsf(&target.pose))
     }
 

@@ -1,7 +1,7 @@
 //! Arcs the way CATIA V5 writes them: a direction, then the circle that the tool runs on up to a line.
 
 use super::reader::Reader;
-use super::statement::{Statement, Token};
+use super::statement::{AptToken, Statement};
 use crate::error::Error;
 use crate::path::builder::{self, Circle};
 use nalgebra::Vector3;
@@ -64,7 +64,7 @@ impl<'a> Reader<'a> {
             .map_err(|fault| fault.at(self.field, place.position()))
     }
 
-    fn point_of(&mut self, tokens: &[Token<'a>; 3]) -> Result<Vector3<f64>, Error> {
+    fn point_of(&mut self, tokens: &[AptToken<'a>; 3]) -> Result<Vector3<f64>, Error> {
         let [x, y, z] = tokens;
         let numbers = [self.number(x)?, self.number(y)?, self.number(z)?];
         self.point(&numbers, tokens)

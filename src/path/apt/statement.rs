@@ -25,12 +25,12 @@ impl TextPlace<'_> {
 
 /// What stands between two commas.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Token<'a> {
+pub(super) struct AptToken<'a> {
     pub(super) text: &'a str,
     pub(super) place: TextPlace<'a>,
 }
 
-impl<'a> Token<'a> {
+impl<'a> AptToken<'a> {
     /// What follows `(WORD/`, if it starts so.
     pub(super) fn opened(&self, word: &str) -> Option<Self> {
         let inner = self.text.strip_prefix('(')?.trim_start();
@@ -74,8 +74,8 @@ impl<'a> Statement<'a> {
     ///
     /// # Errors
     /// The place of a continued line that has no comma before it.
-    pub(super) fn tokens(&self) -> Result<Vec<Token<'a>>, TextPlace<'a>> {
-        let mut tokens: Vec<Token<'a>> = Vec::with_capacity(6);
+    pub(super) fn tokens(&self) -> Result<Vec<AptToken<'a>>, TextPlace<'a>> {
+        let mut tokens: Vec<AptToken<'a>> = Vec::with_capacity(6);
         let mut wanted = self.slash;
         for place in &self.rest {
             let mut byte = place.byte;
@@ -92,12 +92,12 @@ impl<'a> Statement<'a> {
                 if !wanted {
                     return Err(token);
                 }
-                tokens.push(Token { text: trimmed, place: token });
+                tokens.push(AptToken { text: trimmed, place: token });
                 wanted = comma;
             }
         }
         if wanted {
-            tokens.push(Token { text: "", place: self.end() });
+            tokens.push(AptToken { text: "", place: self.end() });
         }
         Ok(tokens)
     }

@@ -1,7 +1,7 @@
 //! What follows a statement's slash: words, numbers, points and axes.
 
 use super::reader::Reader;
-use super::statement::{Statement, TextPlace, Token};
+use super::statement::{AptToken, Statement, TextPlace};
 use crate::error::Error;
 use crate::path::builder::{self, Fault};
 use nalgebra::Vector3;
@@ -16,7 +16,7 @@ impl<'a> Reader<'a> {
         Fault::new(found, expected).at(self.field, place.position())
     }
 
-    pub(super) fn tokens(&self, statement: &Statement<'a>) -> Result<Vec<Token<'a>>, Error> {
+    pub(super) fn tokens(&self, statement: &Statement<'a>) -> Result<Vec<AptToken<'a>>, Error> {
         let tokens = statement.tokens().map_err(|place| {
             self.error(
                 &place,
@@ -54,7 +54,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    pub(super) fn number(&self, token: &Token<'_>) -> Result<f64, Error> {
+    pub(super) fn number(&self, token: &AptToken<'_>) -> Result<f64, Error> {
         token.number().ok_or_else(|| {
             self.error(
                 &token.place,
@@ -69,7 +69,7 @@ impl<'a> Reader<'a> {
         &self,
         statement: &Statement<'a>,
         counts: &[usize],
-    ) -> Result<(Vec<f64>, Vec<Token<'a>>), Error> {
+    ) -> Result<(Vec<f64>, Vec<AptToken<'a>>), Error> {
         let tokens = self.tokens(statement)?;
         let numbers: Vec<f64> = tokens.iter().map(|token| self.number(token)).collect::<Result<_, _>>()?;
         if counts.contains(&numbers.len()) {
@@ -86,7 +86,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A radius in m.
-    pub(super) fn radius(&self, token: &Token<'_>) -> Result<f64, Error> {
+    pub(super) fn radius(&self, token: &AptToken<'_>) -> Result<f64, Error> {
         let number = self.number(token)?;
         if number <= 0.0 {
             return Err(self.error(
@@ -100,7 +100,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Three coordinates in m.
-    pub(super) fn point(&mut self, numbers: &[f64], tokens: &[Token<'_>]) -> Result<Vector3<f64>, Error> {
+    pub(super) fn point(&mut self, numbers: &[f64], tokens: &[AptToken<'_>]) -> Result<Vector3<f64>, Error> {
         let mut point = Vector3::zeros();
         for ((value, number), token) in point.iter_mut().zip(numbers).zip(tokens) {
             *value = builder::coordinate(number * self.unit.in_m())

@@ -1,7 +1,7 @@
 //! One line of a program: its codes by modal group and its other words, each used once.
 
 use super::code::{self, GROUPS, Group, Meaning};
-use super::word::{self, Fault, Word};
+use super::word::{self, Word, WordFault};
 
 /// A G or M code.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,7 +27,7 @@ pub(super) struct Block<'t> {
 
 impl<'t> Block<'t> {
     /// Reads a line from the byte `from` on; the block's storage is used again.
-    pub(super) fn read(&mut self, text: &'t str, from: usize) -> Result<(), Fault> {
+    pub(super) fn read(&mut self, text: &'t str, from: usize) -> Result<(), WordFault> {
         self.text = text;
         self.codes = [None; GROUPS];
         self.words.clear();
@@ -37,7 +37,7 @@ impl<'t> Block<'t> {
     }
 
     /// Moves the codes to their groups and drops the line number.
-    fn sort(&mut self) -> Result<(), Fault> {
+    fn sort(&mut self) -> Result<(), WordFault> {
         let text = self.text;
         let mut words = std::mem::take(&mut self.words);
         let mut seen = 0_u32;
@@ -68,7 +68,7 @@ impl<'t> Block<'t> {
         Ok(())
     }
 
-    fn add_code(&mut self, word: Word) -> Result<(), Fault> {
+    fn add_code(&mut self, word: Word) -> Result<(), WordFault> {
         let exact = word.value * 10.0;
         let tenths = exact.round();
         let known = (exact - tenths).abs() < 1e-6 && (0.0..10_000.0).contains(&tenths);
@@ -134,7 +134,7 @@ impl<'t> Block<'t> {
     }
 
     /// Fails on the first word that is left over.
-    pub(super) fn finish(&self) -> Result<(), Fault> {
+    pub(super) fn finish(&self) -> Result<(), WordFault> {
         let Some(word) = self.words.first() else { return Ok(()) };
         let expected = match word.letter {
             'A' | 'B' | 'C' => {

@@ -1,7 +1,7 @@
 //! A canned drilling cycle: which one is in force, and the words that stay from hole to hole.
 
 use super::block::Block;
-use super::word::{Fault, Word};
+use super::word::{Word, WordFault};
 
 /// A cycle in force, with the words that stay from hole to hole.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,7 +57,7 @@ impl Cycle {
         normal: char,
         unit: f64,
         incremental: bool,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), WordFault> {
         let level = |word: Word| Level { value: word.value * unit, incremental };
         self.clearance = block.take('R').map(level).or(self.clearance);
         self.bottom = block.take(normal).map(level).or(self.bottom);

@@ -7,7 +7,7 @@ use super::code::Group;
 use super::cycle::{Cycle, Level};
 use super::interpreter::{AXES, Interpreter};
 use super::modal::{FeedMode, Motion};
-use super::word::Fault;
+use super::word::WordFault;
 use nalgebra::Vector3;
 
 /// How far G73 lifts the tool to break a chip, and how far above the last depth G83 slows down from
@@ -31,11 +31,11 @@ impl Interpreter<'_> {
     ///
     /// Under G91, R counts from the level at which the series began, the bottom from R, and L holes
     /// follow each other by the same step.
-    pub(super) fn drill(&mut self, mut cycle: Cycle, block: &mut Block) -> Result<(), Fault> {
+    pub(super) fn drill(&mut self, mut cycle: Cycle, block: &mut Block) -> Result<(), WordFault> {
         let normal = self.modal.plane.axes()[2];
         let letter = AXES[normal];
         let place = block.code(Group::Cycle).map_or(block.start(), |code| code.word.start);
-        let fault = |found: String, expected: &str| Fault { at: place, found, expected: expected.into() };
+        let fault = |found: String, expected: &str| WordFault { at: place, found, expected: expected.into() };
         let name = format!("G{}", cycle.tenths / 10);
         if self.modal.feed_mode == FeedMode::InverseTime {
             return Err(fault(
@@ -89,20 +89,20 @@ impl Interpreter<'_> {
     }
 
     /// Fails where a cycle lacks a word of its own, or pecks too often.
-    fn check_cycle(&self, cycle: &Cycle, depth: f64, name: &str, at: usize) -> Result<(), Fault> {
+    fn check_cycle(&self, cycle: &Cycle, depth: f64, name: &str, at: usize) -> Result<(), WordFault> {
         if cycle.dwells() && cycle.dwell.is_none() {
             let expected = format!("{name} waits at the bottom: give P in seconds");
-            return Err(Fault { at, found: format!("{name} without P"), expected });
+            return Err(WordFault { at, found: format!("{name} without P"), expected });
         }
         if cycle.pecks() {
             let Some(peck) = cycle.peck else {
                 let expected = format!("{name} drills in steps: give their depth Q");
-                return Err(Fault { at, found: format!("{name} without Q"), expected });
+                return Err(WordFault { at, found: format!("{name} without Q"), expected });
             };
             if depth / peck > f64::from(MOST) {
                 let least = depth / f64::from(MOST) * 1e3;
                 let found = format!("{:.0} pecks in one hole", depth / peck);
-                return Err(Fault {
+                return Err(WordFault {
                     at,
                     found,
                     expected: format!("at most {MOST}: Q of at least {least:.4} mm"),
@@ -113,7 +113,7 @@ impl Interpreter<'_> {
     }
 
     /// One hole, from above it.
-    fn hole(&mut self, cycle: &Cycle, normal: usize, hole: Hole, at: usize) -> Result<(), Fault> {
+    fn hole(&mut self, cycle: &Cycle, normal: usize, hole: Hole, at: usize) -> Result<(), WordFault> {
         self.rapid_to_level(normal, hole.clearance)?;
         if let Some(peck) = cycle.peck {
             let lift = PECK_CLEARANCE.min(peck);
@@ -146,11 +146,11 @@ impl Interpreter<'_> {
         point
     }
 
-    fn rapid_to_level(&mut self, normal: usize, level: f64) -> Result<(), Fault> {
+    fn rapid_to_level(&mut self, normal: usize, level: f64) -> Result<(), WordFault> {
         self.rapid(self.at_level(normal, level))
     }
 
-    fn feed_to_level(&mut self, normal: usize, level: f64, at: usize) -> Result<(), Fault> {
+    fn feed_to_level(&mut self, normal: usize, level: f64, at: usize) -> Result<(), WordFault> {
         self.feed(self.at_level(normal, level), at)
     }
 }

@@ -4,7 +4,7 @@ use super::block::Block;
 use super::code::Group;
 use super::modal::Modal;
 use super::options::Options;
-use super::word::{self, Fault};
+use super::word::{self, WordFault};
 use crate::path::builder::LONGEST_WAIT;
 use crate::path::program::{Dwell, Ignored, Program, Remark};
 use nalgebra::Vector3;
@@ -89,7 +89,7 @@ impl<'o> Interpreter<'o> {
     }
 
     /// Does what a line says, in the order of the standard: states, offsets, waits, motion, end.
-    pub(super) fn run(&mut self, block: &mut Block) -> Result<(), Fault> {
+    pub(super) fn run(&mut self, block: &mut Block) -> Result<(), WordFault> {
         self.pass_over(block)?;
         self.modal.set(block)?;
         self.set_offsets(block)?;
@@ -107,7 +107,7 @@ impl<'o> Interpreter<'o> {
     }
 
     /// Tool changes and words without effect.
-    fn pass_over(&mut self, block: &mut Block) -> Result<(), Fault> {
+    fn pass_over(&mut self, block: &mut Block) -> Result<(), WordFault> {
         for word in std::mem::take(&mut block.harmless) {
             self.ignore(word.text(block.text));
         }
@@ -133,7 +133,7 @@ impl<'o> Interpreter<'o> {
         Ok(())
     }
 
-    fn dwell(&mut self, block: &mut Block) -> Result<(), Fault> {
+    fn dwell(&mut self, block: &mut Block) -> Result<(), WordFault> {
         let Some(code) = block.code(Group::NonModal).filter(|code| code.tenths == 40) else { return Ok(()) };
         let expected = "the time of G4 is P in seconds (G4 P0.5)";
         let moves = block.code(Group::Motion).is_some();

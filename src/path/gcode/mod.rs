@@ -45,7 +45,7 @@ use crate::path::program::Program;
 use crate::units::INCH;
 use block::Block;
 use interpreter::Interpreter;
-use word::Fault;
+use word::WordFault;
 
 /// Reads a program; `on_line` hears the number of lines done after each.
 ///
@@ -85,7 +85,7 @@ fn run_line<'t>(
     interpreter: &mut Interpreter,
     block: &mut Block<'t>,
     opened: &mut bool,
-) -> Result<(), Fault> {
+) -> Result<(), WordFault> {
     let content = line.trim_start();
     let start = line.len() - content.len();
     if content.is_empty() {
@@ -101,7 +101,7 @@ fn run_line<'t>(
         let rest = rest.trim();
         if !rest.is_empty() && !rest.starts_with(['(', ';']) {
             let expected = "a percent sign stands alone on its line".into();
-            return Err(Fault { at: start, found: format!("\"{}\"", content.trim_end()), expected });
+            return Err(WordFault { at: start, found: format!("\"{}\"", content.trim_end()), expected });
         }
         if *opened || interpreter.started() {
             interpreter.end();

@@ -4,7 +4,7 @@ use super::arc::Plane;
 use super::block::Block;
 use super::code::Group;
 use super::cycle::Cycle;
-use super::word::Fault;
+use super::word::WordFault;
 use crate::path::builder::{self, SPINDLE};
 use crate::units::{INCH, MM, RPM};
 
@@ -94,7 +94,7 @@ impl Modal {
 
     /// Applies the codes that set a state, then F and S, which count in the unit and feed mode of
     /// their own line.
-    pub(super) fn set(&mut self, block: &mut Block) -> Result<(), Fault> {
+    pub(super) fn set(&mut self, block: &mut Block) -> Result<(), WordFault> {
         if let Some(code) = block.code(Group::Unit) {
             self.unit = if matches!(code.tenths, 200 | 700) { INCH } else { MM };
             self.unit_said = true;
@@ -135,7 +135,7 @@ impl Modal {
         self.set_speed(block)
     }
 
-    fn set_motion(&mut self, block: &Block) -> Result<(), Fault> {
+    fn set_motion(&mut self, block: &Block) -> Result<(), WordFault> {
         let motion = block.code(Group::Motion);
         let cycle = block.code(Group::Cycle);
         if let (Some(_), Some(cycle)) = (motion, cycle)
@@ -160,7 +160,7 @@ impl Modal {
         Ok(())
     }
 
-    fn set_feed(&mut self, block: &mut Block) -> Result<(), Fault> {
+    fn set_feed(&mut self, block: &mut Block) -> Result<(), WordFault> {
         if self.feed_mode == FeedMode::InverseTime {
             self.feed = None;
         }
@@ -177,7 +177,7 @@ impl Modal {
         Ok(())
     }
 
-    fn set_speed(&mut self, block: &mut Block) -> Result<(), Fault> {
+    fn set_speed(&mut self, block: &mut Block) -> Result<(), WordFault> {
         let Some(word) = block.take('S') else { return Ok(()) };
         if !(word.value == 0.0 || SPINDLE.contains(&word.value)) {
             let expected = "a spindle speed is 0, or 1 to 1000000 revolutions a minute";

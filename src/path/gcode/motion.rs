@@ -6,7 +6,7 @@ use super::code::Group;
 use super::interpreter::{AXES, Interpreter};
 use super::modal::{FeedMode, Motion};
 use super::options::ARC_TOLERANCE_PART;
-use super::word::{Fault, Word};
+use super::word::{Word, WordFault};
 use crate::path::Segment;
 use crate::path::builder;
 use crate::path::program::{Move, MovePace};
@@ -39,7 +39,7 @@ impl Interpreter<'_> {
     ///
     /// An axis without a word stays where it is. The words are not taken, so that a repeated cycle
     /// reads them again.
-    pub(super) fn target(&mut self, block: &Block, machine: bool) -> Result<Vector3<f64>, Fault> {
+    pub(super) fn target(&mut self, block: &Block, machine: bool) -> Result<Vector3<f64>, WordFault> {
         self.note_unit();
         let mut target = self.position;
         for (axis, letter) in AXES.into_iter().enumerate() {
@@ -62,7 +62,7 @@ impl Interpreter<'_> {
     }
 
     /// Makes the motion in force, where the line has words for one.
-    pub(super) fn motion(&mut self, block: &mut Block) -> Result<(), Fault> {
+    pub(super) fn motion(&mut self, block: &mut Block) -> Result<(), WordFault> {
         let machine = block.has(Group::NonModal, 530);
         let axis_word = block.first_of(&AXES);
         if machine
@@ -70,7 +70,7 @@ impl Interpreter<'_> {
         {
             let expected = "G53 goes with axis words and G0 or G1";
             let found = block.code(Group::NonModal).map_or("G53", |code| code.word.text(block.text));
-            return Err(Fault {
+            return Err(WordFault {
                 at: block.start(),
                 found: format!("\"{found}\""),
                 expected: expected.into(),
@@ -107,10 +107,10 @@ impl Interpreter<'_> {
     }
 
     /// Fails before the tool's place is known.
-    fn all_known(&self, block: &Block) -> Result<(), Fault> {
+    fn all_known(&self, block: &Block) -> Result<(), WordFault> {
         match AXES.iter().zip(self.known).find(|(_, known)| !known) {
             None => Ok(()),
-            Some((axis, _)) => Err(Fault {
+            Some((axis, _)) => Err(WordFault {
                 at: block.start(),
                 found: format!("a move that starts at an unknown {axis}"),
                 expected: format!(
@@ -122,7 +122,7 @@ impl Interpreter<'_> {
 
     /// G0 and G1. What leads to the first full position is not part of the path: where the machine
     /// stood before is not known.
-    fn straight(&mut self, block: &mut Block, machine: bool) -> Result<(), Fault> {
+    fn straight(&mut self, block: &mut Block, machine: bool) -> Result<(), WordFault> {
         let rapid = self.modal.motion == Some(Motion::Rapid);
         let to = self.target(block, machine)?;
         let begins = self.known.contains(&false);
@@ -147,17 +147,17 @@ impl Interpreter<'_> {
     }
 
     /// Moves straight without cutting.
-    pub(super) fn rapid(&mut self, to: Vector3<f64>) -> Result<(), Fault> {
+    pub(super) fn rapid(&mut self, to: Vector3<f64>) -> Result<(), WordFault> {
         self.line_to(to, MovePace::Rapid)
     }
 
     /// Cuts straight; `at` is the place of an error about the feed.
-    pub(super) fn feed(&mut self, to: Vector3<f64>, at: usize) -> Result<(), Fault> {
+    pub(super) fn feed(&mut self, to: Vector3<f64>, at: usize) -> Result<(), WordFault> {
         let pace = self.pace((to - self.tip).norm(), at)?;
         self.line_to(to, pace)
     }
 
-    fn line_to(&mut self, to: Vector3<f64>, pace: MovePace) -> Result<(), Fault> {
+    fn line_to(&mut self, to: Vector3<f64>, pace: MovePace) -> Result<(), WordFault> {
         self.position = to;
         if (to - self.tip).norm() > SAME {
             self.push(Segment::Line { from: self.tip, to }, pace)?;
@@ -166,10 +166,10 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    fn push(&mut self, segment: Segment, pace: MovePace) -> Result<(), Fault> {
+    fn push(&mut self, segment: Segment, pace: MovePace) -> Result<(), WordFault> {
         if self.program.moves.len() >= MOST_MOVES {
             let expected = "a longer program does not fit a browser's memory: read it in parts".into();
-            return Err(Fault { at: 0, found: format!("more than {MOST_MOVES} moves"), expected });
+            return Err(WordFault { at: 0, found: format!("more than {MOST_MOVES} moves"), expected });
         }
         self.program.moves.push(Move {
             segment,
@@ -183,7 +183,7 @@ impl Interpreter<'_> {
     }
 
     /// The feed of a cutting move of this length [m].
-    fn pace(&mut self, length: f64, at: usize) -> Result<MovePace, Fault> {
+    fn pace(&mut self, length: f64, at: usize) -> Result<MovePace, WordFault> {
         if self.modal.spindle_stopped() {
             self.remark("spindle-stopped", || "a feed move while the spindle stands still".into());
         }
@@ -191,7 +191,7 @@ impl Interpreter<'_> {
             // No move comes of it.
             (FeedMode::InverseTime, Some(_)) if length <= SAME => Ok(MovePace::JobFeed),
             (FeedMode::InverseTime, Some(rate)) => believed(length * rate, at),
-            (FeedMode::InverseTime, None) => Err(Fault {
+            (FeedMode::InverseTime, None) => Err(WordFault {
                 at,
                 found: "a feed move without F under G93".into(),
                 expected: "under G93 every line that cuts needs its own F, one over its minutes".into(),
@@ -205,7 +205,7 @@ impl Interpreter<'_> {
             (FeedMode::PerMinute, Some(feed)) => Ok(MovePace::Feed(feed)),
             (FeedMode::PerRevolution, Some(feed)) => match self.modal.spindle() {
                 Some(speed) => believed(feed * speed, at),
-                None => Err(Fault {
+                None => Err(WordFault {
                     at,
                     found: "a feed a revolution (G95) without spindle speed".into(),
                     expected: "give S above 0 before, or the feed a minute (G94)".into(),
@@ -215,7 +215,7 @@ impl Interpreter<'_> {
     }
 
     /// G2 and G3.
-    fn arc(&mut self, counter_clockwise: bool, block: &mut Block) -> Result<(), Fault> {
+    fn arc(&mut self, counter_clockwise: bool, block: &mut Block) -> Result<(), WordFault> {
         let plane = self.modal.plane;
         let [a, b, n] = plane.axes();
         let offsets = ['I', 'J', 'K'];
@@ -242,7 +242,7 @@ impl Interpreter<'_> {
                 return Err(radius.fault(block.text, "an arc has either a centre or a radius R, not both"));
             }
             (None, None) => {
-                return Err(Fault {
+                return Err(WordFault {
                     at: block.start(),
                     found: "an arc without centre and radius".into(),
                     expected: format!("give {} and {} (centre) or R (radius)", offsets[a], offsets[b]),
@@ -270,7 +270,7 @@ impl Interpreter<'_> {
         words: [(usize, Option<Word>); 2],
         given: Word,
         block: &Block,
-    ) -> Result<Vector3<f64>, Fault> {
+    ) -> Result<Vector3<f64>, WordFault> {
         let mut center = self.position;
         for (axis, word) in words {
             match word {
@@ -289,7 +289,7 @@ impl Interpreter<'_> {
         Ok(center)
     }
 
-    fn misfit(&self, misfit: Misfit, word: Word, block: &Block) -> Fault {
+    fn misfit(&self, misfit: Misfit, word: Word, block: &Block) -> WordFault {
         let (found, expected) = match misfit {
             Misfit::NoRadius => {
                 ("a centre that is the start of the arc".into(), "the centre lies apart from the arc".into())
@@ -318,12 +318,12 @@ impl Interpreter<'_> {
                 ),
             ),
         };
-        Fault { at: word.start, found: format!("\"{}\": {found}", word.text(block.text)), expected }
+        WordFault { at: word.start, found: format!("\"{}\": {found}", word.text(block.text)), expected }
     }
 }
 
 /// A feed [m/s] that comes out of other numbers.
-fn believed(feed: f64, at: usize) -> Result<MovePace, Fault> {
-    let fault = |fault: builder::Fault| Fault { at, found: fault.found, expected: fault.expected };
+fn believed(feed: f64, at: usize) -> Result<MovePace, WordFault> {
+    let fault = |fault: builder::Fault| WordFault { at, found: fault.found, expected: fault.expected };
     builder::feed(feed).map(MovePace::Feed).map_err(fault)
 }

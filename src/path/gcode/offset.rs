@@ -4,7 +4,7 @@
 use super::block::Block;
 use super::code::Group;
 use super::interpreter::{AXES, Interpreter};
-use super::word::{Fault, Word};
+use super::word::{Word, WordFault};
 use nalgebra::Vector3;
 
 impl Interpreter<'_> {
@@ -14,7 +14,7 @@ impl Interpreter<'_> {
     }
 
     /// Applies G43, G44, G49, G54 to G59.3, G52, G92 and G92.1.
-    pub(super) fn set_offsets(&mut self, block: &mut Block) -> Result<(), Fault> {
+    pub(super) fn set_offsets(&mut self, block: &mut Block) -> Result<(), WordFault> {
         if let Some(code) = block.code(Group::ToolLength) {
             self.set_tool_length(code.tenths, code.word, block)?;
         }
@@ -53,7 +53,7 @@ impl Interpreter<'_> {
         }
     }
 
-    fn set_tool_length(&mut self, tenths: u32, code: Word, block: &mut Block) -> Result<(), Fault> {
+    fn set_tool_length(&mut self, tenths: u32, code: Word, block: &mut Block) -> Result<(), WordFault> {
         if tenths == 490 {
             self.tool_length = 0.0;
             return Ok(());
@@ -82,7 +82,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    fn set_local(&mut self, code: Word, block: &mut Block) -> Result<(), Fault> {
+    fn set_local(&mut self, code: Word, block: &mut Block) -> Result<(), WordFault> {
         if self.shift != Vector3::zeros() {
             return Err(code.fault(
                 block.text,
@@ -99,7 +99,7 @@ impl Interpreter<'_> {
 
     /// G92: the place where the tool is gets these coordinates; where the place is not known yet,
     /// they give it.
-    fn set_shift(&mut self, code: Word, block: &mut Block) -> Result<(), Fault> {
+    fn set_shift(&mut self, code: Word, block: &mut Block) -> Result<(), WordFault> {
         if self.local != Vector3::zeros() {
             return Err(code.fault(
                 block.text,

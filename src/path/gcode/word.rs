@@ -17,7 +17,7 @@ pub(super) struct Word {
 
 /// What is wrong with a line, and where; the reader adds the line's number.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Fault {
+pub(super) struct WordFault {
     /// Byte of the line.
     pub(super) at: usize,
     /// What stands there.
@@ -37,12 +37,12 @@ impl Word {
     }
 
     /// This word is wrong here.
-    pub(super) fn fault(&self, line: &str, expected: impl Into<String>) -> Fault {
-        Fault { at: self.start, found: format!("\"{}\"", self.text(line)), expected: expected.into() }
+    pub(super) fn fault(&self, line: &str, expected: impl Into<String>) -> WordFault {
+        WordFault { at: self.start, found: format!("\"{}\"", self.text(line)), expected: expected.into() }
     }
 
     /// The number as a whole one from `least` to `most`.
-    pub(super) fn whole(&self, line: &str, least: u32, most: u32) -> Result<u32, Fault> {
+    pub(super) fn whole(&self, line: &str, least: u32, most: u32) -> Result<u32, WordFault> {
         if self.value.fract() == 0.0 && self.value >= f64::from(least) && self.value <= f64::from(most) {
             Ok(self.value as u32)
         } else {
@@ -53,7 +53,7 @@ impl Word {
 }
 
 /// Collects the words of `line` from the byte `from` on, comments left out.
-pub(super) fn words(line: &str, from: usize, words: &mut Vec<Word>) -> Result<(), Fault> {
+pub(super) fn words(line: &str, from: usize, words: &mut Vec<Word>) -> Result<(), WordFault> {
     for token in tokens(line, from) {
         match token.kind {
             Kind::LineComment => {}
@@ -66,7 +66,7 @@ pub(super) fn words(line: &str, from: usize, words: &mut Vec<Word>) -> Result<()
                     && !(words.is_empty() && numbers_program(&line[token.start + 1..])) =>
             {
                 let found = format!("\"{}\"", line[token.start..].trim_end());
-                return Err(Fault { at: token.start, found, expected: SUBPROGRAM.into() });
+                return Err(WordFault { at: token.start, found, expected: SUBPROGRAM.into() });
             }
             Kind::Word => words.push(word(line, &token)?),
         }
@@ -82,17 +82,17 @@ const EXPRESSION: &str =
     "expressions are not computed; have the CAM system post plain numbers (comments stand in round brackets)";
 
 /// Fails unless a comment opens and closes once.
-fn check_comment(line: &str, comment: &Token) -> Result<(), Fault> {
+fn check_comment(line: &str, comment: &Token) -> Result<(), WordFault> {
     let Some(inside) = comment.text.strip_prefix('(') else { return Err(stray(line, comment.start)) };
     match inside.find(['(', ')']) {
         Some(at) if inside[at..].starts_with(')') => Ok(()),
-        Some(at) => Err(Fault {
+        Some(at) => Err(WordFault {
             at: comment.start + 1 + at,
             found: "a bracket that opens inside a comment".into(),
             expected: "controls end a comment at its first closing bracket: take the inner brackets out"
                 .into(),
         }),
-        None => Err(Fault {
+        None => Err(WordFault {
             at: comment.start,
             found: "a comment without its closing bracket".into(),
             expected:
@@ -111,7 +111,7 @@ fn numbers_program(rest: &str) -> bool {
 }
 
 /// The word of a token that starts with a letter.
-fn word(line: &str, token: &Token) -> Result<Word, Fault> {
+fn word(line: &str, token: &Token) -> Result<Word, WordFault> {
     let letter = char::from(token.text.as_bytes()[0].to_ascii_uppercase());
     let number = token.text[1..].trim_ascii_start();
     let (start, end) = (token.start, token.end());
@@ -120,7 +120,7 @@ fn word(line: &str, token: &Token) -> Result<Word, Fault> {
             // Adding zero turns -0 into 0.
             Ok(Word { letter, value: value + 0.0, start, end })
         }
-        Ok(_) => Err(Fault {
+        Ok(_) => Err(WordFault {
             at: start,
             found: format!("\"{}\"", token.text),
             expected: format!("numbers lie within -{LARGEST:e} and {LARGEST:e}"),
@@ -129,7 +129,7 @@ fn word(line: &str, token: &Token) -> Result<Word, Fault> {
         Err(_) if matches!(number, "" | "+" | "-") && line[end..].starts_with(['#', '[', '<']) => {
             Err(stray(line, end))
         }
-        Err(_) => Err(Fault {
+        Err(_) => Err(WordFault {
             at: start,
             found: format!("\"{}\" without a number", token.text.trim_end()),
             expected: format!("a number follows {letter}, such as {letter}12.5"),
@@ -138,7 +138,7 @@ fn word(line: &str, token: &Token) -> Result<Word, Fault> {
 }
 
 /// A sign that starts no word.
-fn stray(line: &str, at: usize) -> Fault {
+fn stray(line: &str, at: usize) -> WordFault {
     let found = line[at..].chars().next().map_or_else(String::new, |sign| sign.to_string());
     let expected = match found.as_str() {
         "#" | "=" | "<" | ">" => MACRO,
@@ -149,7 +149,7 @@ fn stray(line: &str, at: usize) -> Fault {
         ")" => "a comment opens with ( before it closes",
         _ => "a word is a letter and a number, such as X12.5; comments stand in ( ) or after ;",
     };
-    Fault { at, found: format!("\"{found}\""), expected: expected.into() }
+    WordFault { at, found: format!("\"{found}\""), expected: expected.into() }
 }
 
 #[cfg(test)]

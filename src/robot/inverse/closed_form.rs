@@ -29,7 +29,7 @@ pub(super) fn each(
     take: &mut dyn FnMut(Solution),
 ) -> Result<(), Error> {
     let flange = tcp.compose(robot.flange());
-    let question = Question { robot, geometry, tcp, flange, near, serial: robot.to_serial(near), only };
+    let question = PoseProblem { robot, geometry, tcp, flange, near, serial: robot.to_serial(near), only };
     let [x, y, z] = question.wrist_centre();
     let beside = -geometry.sin_1 * geometry.lateral;
     let forward_reach = question.forward_reach((x, y), beside)?;
@@ -67,7 +67,7 @@ pub(super) fn each(
 }
 
 /// The pose asked for, and the arm that is to take it.
-struct Question<'a> {
+struct PoseProblem<'a> {
     robot: &'a Robot,
     geometry: &'a Geometry,
     tcp: &'a Pose,
@@ -93,7 +93,7 @@ struct Shoulder {
 }
 
 /// Upper arm and forearm on their way to the wrist centre.
-struct Arm {
+struct ShoulderAndElbow {
     front: bool,
     elbow_positive: bool,
     /// Theta_1, theta_2, theta_3.
@@ -104,7 +104,7 @@ struct Arm {
     margins: (f64, f64),
 }
 
-impl Question<'_> {
+impl PoseProblem<'_> {
     /// Wrist centre (eq. 3.9), in frame 0 turned by alpha_0 and moved to axis 1.
     fn wrist_centre(&self) -> [f64; 3] {
         let links = self.robot.links();
@@ -163,13 +163,13 @@ impl Question<'_> {
             let turns = [theta_1, theta_2, theta_3];
             let angles = [angle_1, theta_2.angle(), theta_3.angle()];
             let margins = (forward_reach, sin_elbow.abs());
-            self.wrists(&Arm { front, elbow_positive, turns, angles, margins }, take);
+            self.wrists(&ShoulderAndElbow { front, elbow_positive, turns, angles, margins }, take);
         }
     }
 
     /// Theta_4, theta_5 and theta_6 (eqs. 3.16-3.21) of both wrists, put back into the forward
     /// model.
-    fn wrists(&self, arm: &Arm, take: &mut dyn FnMut(Solution)) {
+    fn wrists(&self, arm: &ShoulderAndElbow, take: &mut dyn FnMut(Solution)) {
         let robot = self.robot;
         let frame_3 = chain(robot, 0, Pose::identity(), arm.turns);
         // Frame 3 turned by alpha_3, so that joint 4 turns about its z axis (eqs. 3.16-3.18, left

@@ -1,0 +1,29 @@
+//! The path to command, sample by sample.
+
+use crate::compensation::Compensation;
+use crate::path::Axes;
+use crate::report::Report;
+use nalgebra::Vector3;
+
+/// Where the tool is sent at each of the report's samples: what is added to the desired positions
+/// [m], and the tool axis, base frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CommandedPath {
+    /// Correction of the desired position [m].
+    pub correction: Vec<Vector3<f64>>,
+    /// Tool axis from tip to spindle.
+    pub axis: Axes,
+}
+
+impl CommandedPath {
+    /// The one that the report found.
+    pub fn of(report: &Report) -> Self {
+        let Compensation { correction, axis, .. } = &report.compensation;
+        Self { correction: correction.clone(), axis: axis.clone() }
+    }
+
+    /// Its positions, base frame [m].
+    pub fn positions(&self, report: &Report) -> Vec<Vector3<f64>> {
+        report.plan.trajectory.position.iter().zip(&self.correction).map(|(p, c)| p + c).collect()
+    }
+}
