@@ -121,11 +121,11 @@ fn charts_come_as_svg_with_their_scales() {
 fn what_charts_show_comes_as_columns_in_the_units_asked_for() {
     let run = wasm::run(&wasm::default_job(), None).unwrap();
     let data = |options: &str| run.chart_data("before-after", js_sys::JSON::parse(options).unwrap());
-    let metric: JsValue = data("{}").unwrap().into();
+    let metric = data("{}").unwrap();
     assert_eq!((text(&metric, "1.key").as_str(), text(&metric, "1.unit").as_str()), ("before_mm", "mm"));
     let values = |object: &JsValue| get(object, "1.values").unchecked_into::<Float64Array>().to_vec();
     assert_eq!(values(&metric), run.column("contour_error_mm").unwrap().to_vec());
-    let imperial: JsValue = data(r#"{"length":"inch"}"#).unwrap().into();
+    let imperial = data(r#"{"length":"inch"}"#).unwrap();
     assert_eq!(text(&imperial, "1.key"), "before_inch");
     assert!((values(&imperial)[0] * 25.4 - values(&metric)[0]).abs() < 1e-12);
     assert_eq!(text(&data(r#"{"length":"yard"}"#).unwrap_err(), "field"), "length");

@@ -36,7 +36,7 @@ impl Poses {
     /// # Errors
     /// If there is no such robot.
     pub fn new() -> Result<Self, Error> {
-        let robot = Job::default().robot()?.with_tool(Pose::identity());
+        let robot = armill::setup::robot(&Job::default())?.with_tool(Pose::identity());
         // Evenly spread over a cube of joint values by the roots of primes; two turns to and fro are enough for any branch.
         let spread = |k: usize, root: f64| ((k as f64 + 0.5) * root).fract() * 5.0 - 2.5;
         let roots = [2.0_f64, 3.0, 5.0, 7.0, 11.0, 13.0].map(f64::sqrt);

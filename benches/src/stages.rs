@@ -3,13 +3,14 @@
 use std::hint::black_box;
 use std::sync::Arc;
 
-use armill::compensation::compensate;
+use armill::compensation::{Question, compensate};
 use armill::cutting::along;
-use armill::deviation::{Deviation, Passage, Plan, Sources, contour, deviate};
-use armill::job::Setup;
-use armill::motion::joints::{JointTrajectory, joint_trajectory};
-use armill::motion::{Pace, Trajectory};
-use armill::{Error, Job, Report};
+use armill::deviation::{Deviation, Reference, Sources, contour, simulate};
+use armill::motion::joints::JointTrajectory;
+use armill::motion::{TimingLaw, Trajectory};
+use armill::plan::Plan;
+use armill::setup::Setup;
+use armill::{Error, Job, Progress, Report};
 
 use crate::Work;
 
@@ -23,10 +24,9 @@ pub fn job(samples: usize) -> String {
 /// A job, and what each of its stages starts from.
 pub struct Stages {
     text: String,
-    setup: Setup,
     plan: Plan,
     joints: JointTrajectory,
-    pace: Pace,
+    timing: TimingLaw,
     before: Arc<Deviation>,
     report: Report,
 }
@@ -34,31 +34,36 @@ pub struct Stages {
 /// The stages in the order of the work. Deviation contains shaper, force and contour error, as the job does; the passes contain all of them.
 pub const STAGES: [Work<Stages>; 9] = [
     ("reading the job", |s| drop(black_box(read(&s.text)))),
-    ("path: sampling", |s| drop(black_box(Trajectory::new(&s.setup.path, &s.setup.tempo)))),
-    ("motion: joint commands", |s| drop(black_box(joints(&s.setup, &s.plan)))),
+    ("path: sampling", |s| drop(black_box(Trajectory::new(&s.plan.path, &s.plan.setup.limits)))),
+    ("motion: joint commands", |s| drop(black_box(s.plan.joints(&mut Progress::none())))),
     ("motion: shaper", |s| {
         drop(black_box((
-            s.plan.shaper.apply(&s.joints.q, s.plan.trajectory.sample_time),
-            s.plan.pace(Sources::ALL),
+            s.plan.shaper().apply(&s.joints.q, s.plan.trajectory.sample_time),
+            s.plan.timing(Sources::ALL),
         )));
     }),
     ("cutting: force", |s| {
-        drop(black_box(along::forces(&s.plan.path, &s.pace, &s.plan.mean_force, &s.plan.chip)));
+        let Setup { mean_force, chip, .. } = &*s.plan.setup;
+        drop(black_box(along::forces(&s.plan.path, &s.timing, mean_force, chip)));
     }),
     ("deviation: contour error", |s| {
-        let passage = s.passage();
-        let places = passage.arc_length.iter().copied().zip(passage.target.iter());
+        let reference = s.reference();
+        let places = reference.arc_length.iter().copied().zip(reference.target.iter());
         let errors = places.zip(&s.before.actual);
         drop(black_box(
             errors.map(|(at, tip)| contour::contour_error(&s.plan.path, at, tip)).collect::<Vec<_>>(),
         ));
     }),
-    ("deviation: whole", |s| drop(black_box(deviate(&s.plan, &s.passage(), &s.joints.q)))),
-    ("compensation: all passes", |s| {
-        let Setup { start, goal, .. } = s.setup;
-        drop(black_box(compensate(&s.plan, &s.passage(), start, &s.joints.q, &s.before, goal, &mut |_| {})));
+    ("deviation: whole", |s| {
+        drop(black_box(simulate(&s.plan, &s.reference(), &s.joints.q, &mut Progress::none())));
     }),
-    ("report: summary", |s| drop(black_box(s.report.summary()))),
+    ("compensation: all passes", |s| {
+        let (reference, goal) = (&s.reference(), s.plan.setup.goal);
+        let question = Question { reference, q: &s.joints.q, before: &s.before, goal };
+        drop(black_box(compensate(&s.plan, &question, &mut Progress::none())));
+    }),
+    // A report keeps its fingerprint, so that is computed apart.
+    ("report: summary", |s| drop(black_box((s.report.hash(), s.report.summary())))),
 ];
 
 /// A whole job: from its text to the figures that a person reads first.
@@ -79,15 +84,15 @@ impl Stages {
     pub fn new(samples: usize) -> Result<Self, Error> {
         let text = job(samples);
         let report = whole(&text)?;
-        let (setup, plan) = (report.setup().clone(), report.plan.clone());
-        let joints = joints(&setup, &plan)?;
-        let (before, pace) = (report.before.clone(), plan.pace(Sources::ALL).into_owned());
-        Ok(Self { text, setup, plan, joints, pace, before, report })
+        let plan = report.plan.clone();
+        let joints = plan.joints(&mut Progress::none())?;
+        let (before, timing) = (report.before.clone(), plan.timing(Sources::ALL).into_owned());
+        Ok(Self { text, plan, joints, timing, before, report })
     }
 
     /// Where the tool is, and the force on it.
-    fn passage(&self) -> Passage<'_> {
-        Passage::new(&self.plan, self.pace.clone(), Sources::ALL)
+    fn reference(&self) -> Reference<'_> {
+        Reference::by(&self.plan, self.timing.clone(), Sources::ALL)
     }
 
     /// The number of samples.
@@ -102,10 +107,5 @@ impl Stages {
 }
 
 fn read(text: &str) -> Result<Setup, Error> {
-    Job::from_json(text)?.setup()
-}
-
-fn joints(setup: &Setup, plan: &Plan) -> Result<JointTrajectory, Error> {
-    let desired = (plan.trajectory.position.as_slice(), &plan.trajectory.axis);
-    joint_trajectory(&plan.robot, &plan.path, &plan.trajectory, desired, setup.start)
+    Setup::of(&Job::from_json(text)?, &mut Progress::none())
 }

@@ -120,7 +120,8 @@ impl Report {
         self.fingerprint.get_or_init(|| self.hash()).clone()
     }
 
-    fn hash(&self) -> String {
+    /// The fingerprint, computed at every call.
+    pub fn hash(&self) -> String {
         let mut hash = Xxh3::new();
         let mut bytes = [0; 8 * HASHED];
         for series in self.series() {

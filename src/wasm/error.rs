@@ -2,7 +2,6 @@
 
 use crate::error::Error;
 use js_sys::Object;
-use serde::Serialize;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -11,24 +10,10 @@ const TYPES: &'static str = r#"
 export interface ArmillError extends Error { code: string; field?: string; line?: number; column?: number; }
 "#;
 
-/// What an `Error` object carries besides its message.
-#[derive(Serialize)]
-struct Data<'a> {
-    code: &'a str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    field: Option<&'a str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    line: Option<usize>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    column: Option<usize>,
-}
-
-/// The value to throw for an error.
+/// The value to throw for an error: an `Error` with its code and, where they apply, field and place.
 pub(super) fn thrown(error: &Error) -> JsValue {
-    let (line, column) = error.place().unzip();
-    let data = Data { code: error.code(), field: error.field(), line, column };
     let object = js_sys::Error::new(&error.to_string());
-    match super::object(&data) {
+    match super::object(error) {
         Ok(data) => Object::assign(&object, &data.into()).into(),
         Err(failure) => failure,
     }
