@@ -6,8 +6,8 @@
 /// What a token is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// A letter with its number, if one follows. Any sign that is no part of a number or a comment
-    /// starts a word, too.
+    /// A letter with its number, if one follows. Any other sign that stands in a letter's place is
+    /// taken for one.
     Word,
     /// A comment with its round brackets, one of which may be missing.
     Comment,
@@ -84,7 +84,7 @@ mod tests {
         let words = |line| read(line).into_iter().map(|(_, text)| text).collect::<Vec<_>>();
         assert_eq!(words("N10g1X-1.5 y .5M05"), ["N10", "g1", "X-1.5", "y .5", "M05"]);
         assert_eq!(words("X 1 . 5"), ["X 1", ". 5"]);
-        assert_eq!(words("X1..2 +-3"), ["X1.", ".2", "+", "-3"]);
+        assert_eq!(words("X1..2 +-3"), ["X1.", ".2", "+-3"]);
         assert_eq!(words("%"), ["%"]);
         assert_eq!(words("/2 G1"), ["/2", "G1"]);
         assert_eq!(words("\u{feff}X#5 \u{e4}7\u{a0}"), ["\u{feff}", "X", "#5", "\u{e4}7", "\u{a0}"]);
