@@ -44,10 +44,9 @@ enum Members<'a> {
 impl<'a> Node<'a> {
     /// The whole of a text, which is an object.
     pub(super) fn of(text: &'a str) -> Result<Self, Error> {
-        let raw = text.trim_matches([' ', '\t', '\r', '\n']);
-        let whole = Node { text, raw, parent: None, members: None };
-        let members = whole.members(OBJECT)?;
-        Ok(Node { members: Some(members), ..whole })
+        let whole = Node { text, raw: text, parent: None, members: None };
+        let members = Some(whole.members(OBJECT)?);
+        Ok(Node { raw: text.trim_matches([' ', '\t', '\r', '\n']), members, ..whole })
     }
 
     /// The member of an object with this key, if it has one.
@@ -180,10 +179,15 @@ impl<'a> Node<'a> {
             .max_by(|a, b| a.0.total_cmp(&b.0))
             .filter(|(similarity, _)| *similarity > 0.4)
             .map(|(_, known)| join(&parent, known));
-        // The key stands before the colon. One that is written with escapes is longer than what it means.
+        // The key stands before the colon, in quotes; one within it has a backslash before it.
         let before =
             self.text.get(..self.start()).unwrap_or_default().trim_end_matches([' ', '\t', '\r', '\n', ':']);
-        let quoted = before.len().saturating_sub(key.len() + 2);
+        let inside = &before[..before.len().saturating_sub(1)];
+        let escaped = |at: usize| {
+            let backslashes = inside[..at].bytes().rev().take_while(|byte| *byte == b'\\').count();
+            backslashes % 2 == 1
+        };
+        let quoted = inside.rmatch_indices('"').map(|(at, _)| at).find(|at| !escaped(*at)).unwrap_or(0);
         let (line, column) = self.place(quoted + 1);
         Error::UnknownKey { field: join(&parent, key), nearest, line, column }
     }

@@ -75,6 +75,9 @@ mod tests {
         };
         assert_eq!(at("{\"motion\":\n {\"feed\": 3}}"), ("unknown-key", Some("motion.feed".into()), (2, 3)));
         assert_eq!(at("{\"motoin\": {}}"), ("unknown-key", Some("motoin".into()), (1, 2)));
+        // Written with escapes, a key is longer than what it means.
+        assert_eq!(at("{\"m\\u006ftoin\": 1}"), ("unknown-key", Some("motoin".into()), (1, 2)));
+        assert_eq!(at("{\"tool\": {\"a\\\"b\": 1}}"), ("unknown-key", Some("tool.a\"b".into()), (1, 11)));
         assert_eq!(
             at("{\"motion\": {\"feed_mm_s\": \"fast\"}}"),
             ("json", Some("motion.feed_mm_s".into()), (1, 31))

@@ -48,7 +48,7 @@ fn the_measured_example_becomes_the_job_and_undo_takes_it_back() -> Result {
         page.wait_for("document.querySelectorAll('#identified tbody tr').length === 6", 30.0).await?;
         page.wait_for("document.querySelector('#chart-stiffness svg.plot')", 10.0).await?;
         page.screenshot("identify-stiffness.png").await?;
-        let robot = Job::from_json(ROBOT)?.robot()?;
+        let robot = armill::setup::robot(&Job::from_json(ROBOT)?)?;
         let native = stiffness::fit(&robot, &measurement::read(LOADS, Convention::CoupledJ3)?.rows)?;
         let explained = format!("explain {:.1} %", 100.0 * native.explained);
         assert!(page.text("#identify .found").await?.contains(&explained));

@@ -63,7 +63,7 @@ fn a_visit_fetches_the_core_once_and_computes_one_run() -> Result {
         page.wait_for("document.querySelector('#panel-joints svg .series')", 20.0).await?;
         page.click("#download-columns").await?;
         let file = page.downloaded("armill-columns.csv").await?;
-        let native = armill::export::export(&run(&[]), "columns-csv", &Default::default())?;
+        let native = armill::verification::export(&run(&[]), "columns-csv", &Default::default())?;
         assert!(file == native.text, "the columns differ from the native ones");
         page.click("#tab-identify").await?;
         page.js("document.querySelector('#identify-loads-example').click()").await?;

@@ -3,7 +3,7 @@
 use crate::browser::{DESKTOP, Result, visit};
 use crate::current;
 use armill::Job;
-use armill::placement::{Mark, Survey};
+use armill::placement::{PlacementMap, PlacementStatus};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 
@@ -36,20 +36,20 @@ fn the_map_shows_what_the_core_says_of_each_place() -> Result {
         let cells = page
             .js("return [...document.querySelectorAll('#placement-table tbody tr')].reverse().flatMap(row => [...row.querySelectorAll('td')].map(cell => cell.textContent))")
             .await?;
-        let survey = Survey::new(&Job::default())?;
+        let survey = PlacementMap::new(&Job::default())?;
         let step = |from: f64, to: f64, n: usize| from + (to - from) * n as f64 / 10.0;
         let mut numbers = 0;
         for (n, cell) in cells.as_array().ok_or("no cells")?.iter().enumerate() {
             let at = [step(ranges[0], ranges[1], n % 11), step(ranges[2], ranges[3], n / 11), ranges[4]];
             let place = survey.at(Vector3::from(at) * 1e-3);
             let text = cell.as_str().unwrap_or_default();
-            if place.mark == Mark::Unreachable {
+            if place.status == PlacementStatus::Unreachable {
                 assert_eq!(text, "–", "{at:?}");
                 continue;
             }
             let shown: f64 = text.split(' ').next().unwrap_or_default().parse()?;
             assert!((shown - place.max * 1e3).abs() < 0.006 * shown, "{at:?}: {text} and {place:?}");
-            let sign = ["", "·", "⁄"][place.mark as usize];
+            let sign = ["", "·", "⁄"][place.status as usize];
             assert_eq!(text.split(' ').nth(1).unwrap_or_default(), sign, "{at:?}");
             numbers += 1;
         }

@@ -3,7 +3,7 @@
 use crate::browser::{DESKTOP, Page, Result, visit};
 use crate::common::run;
 use crate::{current, shows, stale, text, unfold};
-use armill::export::promise;
+use armill::verification::Programs;
 use serde_json::{Value, json};
 
 const SLOT: &str =
@@ -171,7 +171,8 @@ fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
 #[test]
 fn what_a_program_is_worth_stands_under_the_verdict() -> Result {
     let following = [("cutting.feed_per_tooth_mm", json!("from_feed"))];
-    let [standard, beyond] = [run(&[]), run(&following)].map(|report| promise(&report));
+    let [standard, beyond] =
+        [run(&[]), run(&following)].map(|report| Programs::default().accuracy(&report, "gcode"));
     let (standard, beyond) = (standard?, beyond?);
     assert!(standard.met && !beyond.met);
     visit("/", DESKTOP, async |page| {
