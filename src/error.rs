@@ -1,4 +1,4 @@
-//! What can be wrong with a question: each error carries the data that a person needs to mend it.
+//! Why a job is refused: each error carries the data needed to fix it.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::fmt;
@@ -9,56 +9,56 @@ use std::fmt;
 pub enum Error {
     /// The job's text is not JSON, or a value has the wrong type.
     Json {
-        /// JSON path of the value, where the parser knows it.
+        /// JSON path of the value, if the parser knows it.
         field: Option<String>,
-        /// What the parser says.
+        /// Message of the parser.
         message: String,
         /// Line in the text, from 1.
         line: usize,
         /// Column in the text, from 1.
         column: usize,
     },
-    /// A key that no job has.
+    /// A key that does not exist in a job.
     UnknownKey {
         /// JSON path of the key.
         field: String,
-        /// The known key that looks most like it.
+        /// The most similar known key.
         nearest: Option<String>,
         /// Line in the text, from 1.
         line: usize,
         /// Column in the text, from 1.
         column: usize,
     },
-    /// A number outside its legal range.
+    /// A number outside its range.
     OutOfRange {
         /// JSON path of the value.
         field: String,
         /// The value, in the field's unit.
         value: f64,
-        /// Smallest legal value.
+        /// Smallest allowed value.
         min: f64,
-        /// Largest legal value.
+        /// Largest allowed value.
         max: f64,
         /// The field's unit.
         unit: &'static str,
     },
-    /// A value that is legal by itself but not here.
+    /// A value that conflicts with the rest of the job.
     Invalid {
         /// JSON path of the value.
         field: String,
         /// The value as given.
         value: String,
-        /// What would be legal.
+        /// What is allowed.
         expected: String,
     },
-    /// A key that this kind of job needs.
+    /// A required key is missing.
     Missing {
         /// JSON path of the key.
         field: String,
         /// Why it is needed.
         expected: String,
     },
-    /// A text (pasted points, a program) that cannot be read at one place.
+    /// A text (pasted points, a program) that cannot be read past one place.
     Text {
         /// JSON path of the text.
         field: String,
@@ -66,42 +66,42 @@ pub enum Error {
         line: usize,
         /// Column in the line, from 1.
         column: usize,
-        /// What stands there.
+        /// The text at that place.
         found: String,
-        /// What would be legal.
+        /// What is allowed.
         expected: String,
     },
-    /// A pose that no branch of the arm reaches.
+    /// A pose that is out of reach for every branch of the arm.
     Unreachable {
         /// Sample along the trajectory, from 0; `None` for a single pose.
         sample: Option<usize>,
-        /// Arc length along the path [m], where the pose lies on one.
+        /// Arc length along the path [m], if the pose lies on one.
         arc_length: Option<f64>,
-        /// The TCP position asked for, in the base frame [m].
+        /// The requested TCP position in the base frame [m].
         position: [f64; 3],
         /// Distance of the wrist centre from the shoulder axis [m].
         distance: f64,
-        /// Smallest distance the arm can take [m].
+        /// Smallest reach of the arm [m].
         reach_min: f64,
-        /// Largest distance the arm can take [m].
+        /// Largest reach of the arm [m].
         reach_max: f64,
     },
 }
 
 impl Error {
-    /// A value that is legal by itself but not here: its JSON path, the value as given, and what
-    /// would be legal.
+    /// A value that conflicts with the rest of the job: its JSON path, the value as given, and what
+    /// is allowed.
     pub fn invalid(field: impl Into<String>, value: impl ToString, expected: impl Into<String>) -> Error {
         Error::Invalid { field: field.into(), value: value.to_string(), expected: expected.into() }
     }
 
-    /// A key that this kind of job needs: its JSON path and why it is needed.
+    /// A required key is missing: its JSON path and why it is needed.
     pub fn missing(field: impl Into<String>, expected: impl Into<String>) -> Error {
         Error::Missing { field: field.into(), expected: expected.into() }
     }
 
-    /// A word that is none of `names`; `known` introduces the list of them in the message, as in
-    /// "the charts are".
+    /// A word that is not one of `names`. `known` introduces the list of names in the message, as
+    /// in "the charts are".
     pub fn unknown_name<'a>(
         field: impl Into<String>,
         given: &str,
@@ -125,7 +125,7 @@ impl Error {
         }
     }
 
-    /// JSON path of the field at fault, where one field is.
+    /// JSON path of the field at fault, if there is one.
     pub fn field(&self) -> Option<&str> {
         match self {
             Error::Json { field, .. } => field.as_deref(),
@@ -138,7 +138,8 @@ impl Error {
         }
     }
 
-    /// Line and column (both from 1) of the text at fault: the job's JSON, or the text in the field that `field` names.
+    /// Line and column (both from 1) of the text at fault: the job's JSON, or the text in
+    /// [`Error::field`].
     pub fn place(&self) -> Option<(usize, usize)> {
         match self {
             Error::Json { line, column, .. }
@@ -148,7 +149,7 @@ impl Error {
         }
     }
 
-    /// The same error, with its place along the path.
+    /// The error with its place along the path.
     pub(crate) fn at(self, index: usize, s: f64) -> Self {
         match self {
             Error::Unreachable { position, distance, reach_min, reach_max, .. } => Error::Unreachable {
@@ -179,7 +180,7 @@ impl fmt::Display for Error {
                 let space = if unit.is_empty() { "" } else { " " };
                 let nearest = if value < min { min } else { max };
                 let size = value.abs();
-                // Without the three hundred digits of f64::MAX.
+                // Avoids printing f64::MAX with all its 309 digits.
                 let value = if size != 0.0 && !(1e-9..1e15).contains(&size) {
                     format!("{value:e}")
                 } else {
@@ -213,7 +214,8 @@ impl fmt::Display for Error {
                 }
                 write!(
                     f,
-                    "TCP at ({:.1}, {:.1}, {:.1}) mm in the base frame: the wrist would be {:.1} mm from the shoulder, the arm reaches {:.1} to {:.1} mm",
+                    "TCP at ({:.1}, {:.1}, {:.1}) mm in the base frame: the wrist would be {:.1} mm from the shoulder, \
+                     the arm reaches {:.1} to {:.1} mm",
                     x * 1e3,
                     y * 1e3,
                     z * 1e3,
@@ -228,7 +230,7 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// As scripts read it: one object with `code` and `message`, and with `field`, `line` and `column`
+/// Serialized for scripts: one object with `code` and `message`, plus `field`, `line` and `column`
 /// where they apply.
 impl Serialize for Error {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -246,7 +248,7 @@ impl Serialize for Error {
     }
 }
 
-/// What was typed, cut where it is too long to be read in a sentence: it may be a whole file without a line break.
+/// User input, truncated to fit in a sentence: it may be a whole file without a line break.
 pub(crate) struct Short<'a>(pub(crate) &'a str);
 
 impl fmt::Display for Short<'_> {

@@ -1,19 +1,19 @@
-//! A number, or one word that stands for a rule that gives it.
+//! A number, or a keyword for a rule that yields one.
 
 use crate::error::Error;
 use crate::job::json::{Node, Read};
 use serde::Serialize;
 
-/// A number, or one word that stands for a rule.
+/// A number, or a keyword for a rule.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Choice<W> {
-    /// The word.
+    /// The keyword.
     Word,
     /// The number.
     Value(f64, std::marker::PhantomData<W>),
 }
 
-/// The word of a [`Choice`].
+/// The keyword of a [`Choice`].
 pub trait Keyword {
     /// As written in the JSON.
     const WORD: &'static str;
@@ -25,7 +25,7 @@ pub struct Settle;
 impl Keyword for Settle {
     const WORD: &'static str = "settle";
 }
-/// `"from_feed"`: feed divided by the teeth that pass.
+/// `"from_feed"`: feed divided by the tooth passing frequency.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FromFeed;
 impl Keyword for FromFeed {
@@ -38,7 +38,7 @@ pub struct Ball;
 impl Keyword for Ball {
     const WORD: &'static str = "ball";
 }
-/// `"mean"`: the cut's own mean thickness of chip.
+/// `"mean"`: the mean chip thickness of the cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Mean;
 impl Keyword for Mean {
@@ -57,11 +57,11 @@ pub type CornerDwell = Choice<Settle>;
 /// Feed per tooth [mm], or `"from_feed"`.
 pub type FeedPerTooth = Choice<FromFeed>;
 
-/// Radius of a tool's corner [mm], or `"ball"`.
+/// Corner radius of a tool [mm], or `"ball"`.
 pub type CornerRadius = Choice<Ball>;
-/// Power of the spindle [kW], or `"unknown"`.
+/// Spindle power [kW], or `"unknown"`.
 pub type SpindlePower = Choice<Unknown>;
-/// Thickness of chip [mm], or `"mean"`.
+/// Chip thickness [mm], or `"mean"`.
 pub type ChipThickness = Choice<Mean>;
 
 impl<W> Default for Choice<W> {
@@ -98,7 +98,7 @@ impl<W: Keyword> Read for Choice<W> {
     }
 }
 
-/// Declares an enumeration of the job, with the word of each value in the JSON.
+/// Declares an enumeration in the job, with the JSON word of each value.
 macro_rules! choice {
     ($(#[$doc:meta])* $name:ident { $($(#[$item_doc:meta])* $item:ident = $word:literal),+ $(,)? }) => {
         $(#[$doc])*

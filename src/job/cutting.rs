@@ -1,4 +1,4 @@
-//! The job's tool, material and cutting, one to one as in the JSON. Values are as typed, not yet checked.
+//! The job's tool, material and cutting, mirroring the JSON. Values are as typed, not yet checked.
 
 use crate::job::choice::{ChipThickness, Choice, CornerRadius, FeedPerTooth, SpindlePower, choice};
 use crate::job::json::keys;
@@ -6,15 +6,37 @@ use serde::Serialize;
 
 choice! {
     /// How the tool sits in its holder.
-    ToolBending { #[default] /** It does not bend. */ Rigid = "rigid", /** It bends as a bar clamped at one end. */ Cantilever = "cantilever" }
+    ToolBending {
+        /// Rigid.
+        #[default]
+        Rigid = "rigid",
+        /// It bends as a cantilever beam.
+        Cantilever = "cantilever",
+    }
 }
 choice! {
     /// How the engagement is given.
-    Engaged { #[default] /** By entry and exit. */ Angles = "angles", /** Down milling. */ Climb = "climb", /** Up milling. */ Conventional = "conventional", /** Material on both sides. */ Slot = "slot" }
+    Engaged {
+        /// By entry and exit.
+        #[default]
+        Angles = "angles",
+        /// Down milling.
+        Climb = "climb",
+        /// Up milling.
+        Conventional = "conventional",
+        /// Material on both sides.
+        Slot = "slot",
+    }
 }
 choice! {
-    /// The straight line that stands for Kienzle's curve.
-    Line { #[default] /** Right in force and slope. */ Tangent = "tangent", /** Right in force, zero without a chip. */ Secant = "secant" }
+    /// The linearization of Kienzle's curve.
+    Line {
+        /// Exact in force and slope.
+        #[default]
+        Tangent = "tangent",
+        /// Exact in force, zero at zero chip thickness.
+        Secant = "secant",
+    }
 }
 
 /// The end mill.
@@ -26,25 +48,25 @@ pub struct Tool {
     pub flutes: u32,
     /// Helix angle.
     pub helix_deg: f64,
-    /// Radius of the corner between side and bottom; default 0, a flat end mill.
+    /// Corner radius between side and bottom; default 0, a flat end mill.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub corner_radius_mm: Option<CornerRadius>,
     /// Normal rake angle; default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rake_deg: Option<f64>,
-    /// How far the tool's axis is off the spindle's; default 0.
+    /// Offset of the tool axis from the spindle axis; default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub runout_mm: Option<f64>,
     /// Whether the tool bends; default rigid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bending: Option<ToolBending>,
-    /// Length out of the holder.
+    /// Length outside the holder.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stickout_mm: Option<f64>,
-    /// Length of the flutes from the tip; default: all of the stickout.
+    /// Flute length from the tip; default: the whole stickout.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flute_length_mm: Option<f64>,
-    /// Diameter behind the flutes; default: the tool's.
+    /// Diameter above the flutes; default: the tool's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shank_diameter_mm: Option<f64>,
     /// Young's modulus; default 600, carbide.
@@ -70,7 +92,8 @@ impl Default for Tool {
     }
 }
 
-/// Cutting coefficients: a preset, numbers, or Kienzle's constants (whose last four keys may overrule a preset's).
+/// Cutting coefficients: a preset, numbers, or Kienzle's constants. The last four keys may override
+/// a preset's.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Material {
     /// Key of a material in the library.
@@ -94,22 +117,22 @@ pub struct Material {
     /// Axial edge coefficient; default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kae_n_mm: Option<f64>,
-    /// Kienzle's specific cutting force of a chip of 1 mm by 1 mm.
+    /// Kienzle's specific cutting force for a chip of 1 mm by 1 mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kc11_n_mm2: Option<f64>,
     /// Kienzle's exponent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mc: Option<f64>,
-    /// Radial to tangential force; default 0.3.
+    /// Ratio of radial to tangential force; default 0.3.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radial_ratio: Option<f64>,
-    /// Axial to tangential force; default 0.3.
+    /// Ratio of axial to tangential force; default 0.3.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axial_ratio: Option<f64>,
-    /// The line that stands for the curve; default tangent.
+    /// The linearization of the curve; default tangent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<Line>,
-    /// Thickness of chip that the line is made for; default the cut's mean.
+    /// Chip thickness at which the curve is linearized; default the cut's mean.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chip_thickness_mm: Option<ChipThickness>,
 }
@@ -119,7 +142,7 @@ pub struct Material {
 pub struct Cutting {
     /// Axial depth of cut.
     pub axial_depth_mm: f64,
-    /// How the engagement is given; default by entry and exit.
+    /// How the engagement is given; default: entry and exit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub engagement: Option<Engaged>,
     /// Radial depth of cut, for climb and conventional milling.
@@ -127,11 +150,11 @@ pub struct Cutting {
     pub radial_depth_mm: Option<f64>,
     /// Immersion angle at which a tooth enters.
     pub entry_deg: f64,
-    /// Immersion angle at which it leaves.
+    /// Immersion angle at which a tooth exits.
     pub exit_deg: f64,
     /// Spindle speed.
     pub spindle_rpm: f64,
-    /// What the spindle can give; not checked if it is not given.
+    /// Rated spindle power; not checked if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spindle_power_kw: Option<SpindlePower>,
     /// Feed per tooth.

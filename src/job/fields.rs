@@ -1,7 +1,7 @@
-//! Every input of a job as a person meets it: label, unit, range, default, a line of help.
+//! Every input of a job as shown to the user: label, unit, range, default and a line of help.
 //!
-//! The page builds its form from this table and the job is checked against it: one range, written
-//! once. The table itself stands in `fields.txt`.
+//! The page builds its form from this table and the job is checked against it, so each range is
+//! written only once. The table itself is in `fields.txt`.
 
 mod block;
 
@@ -41,15 +41,15 @@ pub enum FieldKind {
 pub struct Field {
     /// JSON path in the job.
     pub path: &'static str,
-    /// Stage it belongs to.
+    /// Stage in the pipeline.
     pub group: &'static str,
-    /// Name as read.
+    /// Name shown to the user.
     pub label: &'static str,
-    /// Unit as printed.
+    /// Unit shown to the user.
     pub unit: &'static str,
     /// How it is entered.
     pub kind: FieldKind,
-    /// Words it accepts, with what is read for each; a number field takes them besides numbers.
+    /// Words it accepts, with their labels; a number field takes them in addition to numbers.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub choices: Vec<ChoiceWord>,
     /// Smallest number it accepts.
@@ -58,19 +58,19 @@ pub struct Field {
     /// Largest number it accepts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max: Option<f64>,
-    /// Value that a fresh field shows.
+    /// Value of a new field.
     pub default: DefaultValue,
-    /// Values that a fresh field shows instead, where the field in `when` has one of these words.
+    /// Values of a new field by the word of the field in `when`, if they differ.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub defaults: Option<BTreeMap<&'static str, DefaultValue>>,
-    /// What it is and where to find it.
+    /// Its meaning, and where to find its value.
     pub help: String,
-    /// Shown only if another field has one of some values.
+    /// Shown only if another field has one of these values.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub when: Option<When>,
 }
 
-/// What a fresh field shows, in the form that its key has in the JSON.
+/// The value of a new field, in the form of its JSON key.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum DefaultValue {
@@ -93,7 +93,7 @@ pub enum DefaultValue {
     Opw(Opw),
 }
 
-/// Writes whole numbers without a decimal point, as keys that count things need them.
+/// Writes whole numbers without a decimal point, as keys that hold counts need them.
 fn plain<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     if number.fract() == 0.0 && number.abs() < 1e15 {
         serializer.serialize_i64(*number as i64)
@@ -107,9 +107,9 @@ fn plain<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> 
 pub struct ChoiceWord {
     /// As in the JSON.
     pub value: &'static str,
-    /// As read.
+    /// Label shown to the user.
     pub label: String,
-    /// Heading that it stands under, where there are many.
+    /// Heading in a long list.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub heading: Option<&'static str>,
 }
@@ -150,14 +150,14 @@ fn table() -> &'static [Field] {
     TABLE.get_or_init(|| block::blocks(TEXT).iter().filter_map(FieldBlock::field).collect())
 }
 
-/// The job without its program's text, which may be megabytes long; that there is one stays.
+/// The job with its program's text, which may be megabytes long, replaced by an empty one.
 fn outline(job: &Job) -> Job {
     let mut outline = job.clone();
     outline.path.text = job.path.text.as_ref().map(|_| "".into());
     outline
 }
 
-/// Checks every number of the job against the table.
+/// Checks every number in the job against the table.
 pub(crate) fn check_ranges(job: &Job) -> Result<(), Error> {
     let Ok(values) = serde_json::to_value(outline(job)) else { return Ok(()) };
     for field in table() {
@@ -179,7 +179,7 @@ fn check(field: String, value: &Value, min: f64, max: f64, unit: &'static str) -
         Value::Object(parts) => {
             parts.iter().try_for_each(|(key, part)| check(format!("{field}.{key}"), part, min, max, unit))
         }
-        // serde_json writes a number that is not finite as null.
+        // serde_json writes non-finite numbers as null.
         Value::Null => Err(Error::Invalid {
             field,
             value: "not a finite number".into(),
@@ -193,7 +193,7 @@ fn check(field: String, value: &Value, min: f64, max: f64, unit: &'static str) -
     }
 }
 
-/// Refuses keys of the path that its kind does not use: a forgotten key would be lost in silence.
+/// Refuses keys of the path that its kind does not use, as they would be ignored silently.
 pub(crate) fn check_path_keys(job: &Job) -> Result<(), Error> {
     let Ok(given) = serde_json::to_value(outline(job).path) else { return Ok(()) };
     let kind = job.path.kind.word();

@@ -1,4 +1,4 @@
-//! The job's keys, one to one as in the JSON. Values are as typed, not yet checked.
+//! The job's keys, mirroring the JSON. Values are as typed, not yet checked.
 
 use crate::error::Error;
 use crate::job::choice::{Choice, CornerDwell, choice};
@@ -8,7 +8,7 @@ use crate::job::path::{Path, PathKind};
 use crate::job::source::Source;
 use serde::Serialize;
 
-/// The whole question. `Job::default()` is the thesis's case.
+/// The whole job. `Job::default()` is the thesis's case.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Job {
     /// Version of the format: 1.
@@ -19,11 +19,12 @@ pub struct Job {
     pub tool_frame: Frame,
     /// The robot's base in the cell: on a plinth, a track, a wall.
     pub base_frame: Frame,
-    /// Workpiece in the cell; with the robot's base at the cell's origin: in the base frame.
+    /// Workpiece in the cell. If the robot's base is at the cell's origin, this is also its pose in
+    /// the base frame.
     pub workpiece_frame: Frame,
-    /// How the TCP is turned about the tool axis.
+    /// Rotation of the TCP about the tool axis.
     pub spin: Spin,
-    /// Which of the arm's solutions the path starts on.
+    /// The arm's branch at the start of the path.
     pub start_branch: Branch,
     /// The desired path in the workpiece frame.
     pub path: Path,
@@ -37,7 +38,7 @@ pub struct Job {
     pub cutting: Cutting,
     /// Input shaper of the joint commands.
     pub shaper: Shaper,
-    /// What to compensate and how far.
+    /// The sources to compensate, and the tolerance.
     pub compensation: Compensation,
 }
 
@@ -72,7 +73,8 @@ impl Default for Job {
     }
 }
 
-/// The arm: a preset (whose limits and compliances may be overruled), a modified DH table, or ortho-parallel parameters.
+/// The arm: a preset (whose limits and compliances may be overridden), a modified DH table, or
+/// ortho-parallel parameters.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Robot {
     /// Key of a robot in the library.
@@ -87,7 +89,7 @@ pub struct Robot {
     /// Ortho-parallel parameters.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub opw: Option<Opw>,
-    /// What joint 3 is counted from, and where its drive sits; default serial, or the preset's.
+    /// Reference of the joint 3 angle, and location of its drive; default serial, or the preset's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint_3: Option<Joint3>,
     /// Joint ranges [deg].
@@ -96,13 +98,14 @@ pub struct Robot {
     /// Joint compliances [rad/(N m)].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint_compliance_rad_per_nm: Option<[f64; 6]>,
-    /// Points of springs that are no straight lines: joint (1 to 6), torque [N m], turn [arcmin].
+    /// Points of nonlinear springs: joint (1 to 6), torque [N m], deflection [arcmin].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint_springs_nm_arcmin: Option<Vec<[f64; 3]>>,
-    /// Masses that the joints carry: link (1 to 6, the flange), mass [kg], centre of mass in the link's frame [mm].
+    /// Masses carried by the joints: link (1 to 6, the flange), mass [kg], centre of mass in the
+    /// link's frame [mm].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub loads_kg_mm: Option<Vec<[f64; 5]>>,
-    /// Pose at which the loads' sag is no error; default the start of the path.
+    /// Pose at which the sag is zero by definition; default the start of the path.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sag_zero: Option<SagZero>,
 }
@@ -118,7 +121,7 @@ pub struct DhRow {
     pub d_mm: f64,
     /// Constant part of theta_i.
     pub theta_offset_deg: f64,
-    /// 1, or -1 where the maker counts the joint the other way round.
+    /// 1, or -1 if the manufacturer counts the joint in the opposite direction.
     pub joint_sign: f64,
 }
 
@@ -128,14 +131,15 @@ impl Default for DhRow {
     }
 }
 
-/// Ortho-parallel parameters (see [`crate::robot::Opw`]): lengths, and sign and zero offset of each joint.
+/// Ortho-parallel parameters (see [`crate::robot::Opw`]): lengths, and sign and zero offset of each
+/// joint.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Opw {
-    /// Axis 2 ahead of axis 1.
+    /// Distance of axis 2 in front of axis 1.
     pub a1_mm: f64,
-    /// Wrist centre beside the forearm's line; negative is the elbow above it.
+    /// Offset of the wrist centre from the forearm's line; negative if the elbow is above it.
     pub a2_mm: f64,
-    /// Arm's plane beside axis 1.
+    /// Lateral offset of the arm's plane from axis 1.
     pub b_mm: f64,
     /// Base to axis 2.
     pub c1_mm: f64,
@@ -147,7 +151,7 @@ pub struct Opw {
     pub c4_mm: f64,
     /// 1 or -1.
     pub joint_sign: [f64; 6],
-    /// The parameters' own angle is sign times joint value less this.
+    /// The parameters' angle is sign times joint value minus this offset.
     pub joint_offset_deg: [f64; 6],
 }
 
@@ -168,16 +172,17 @@ pub struct Frame {
     pub rpy_deg: [f64; 3],
 }
 
-/// How the TCP is turned about the tool axis, from where its x axis keeps workpiece +X projected across that axis.
+/// Rotation of the TCP about the tool axis. At zero, the x axis is workpiece +X projected onto the
+/// plane normal to the tool axis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Spin {
     /// Whether the angle is free.
     pub mode: SpinMode,
-    /// The angle; of a free spin: what it is compared with.
+    /// The angle; for a free spin, the reference for comparison.
     pub angle_deg: f64,
     /// Smallest and largest angle of a free spin.
     pub range_deg: [f64; 2],
-    /// What a free spin is chosen for.
+    /// Optimization goal of a free spin.
     pub goal: SpinGoal,
 }
 
@@ -192,48 +197,102 @@ impl Default for Spin {
     }
 }
 
-/// Which of the arm's up to eight solutions the path starts on.
+/// The arm's branch, of up to eight, at the start of the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Branch {
-    /// Facing the point, or over its back.
+    /// Facing the point, or reaching over its back.
     pub shoulder: Shoulder,
-    /// Sign of the elbow angle from the stretched arm (RX-90: of q3).
+    /// Sign of the elbow angle, measured from the stretched arm (RX-90: sign of q3).
     pub elbow: Elbow,
-    /// The wrist with the smaller |q4|, or the other.
+    /// The wrist solution with the smaller |q4|, or the other.
     pub wrist: Wrist,
 }
 
 choice! {
     /// Shoulder of the start branch.
-    Shoulder { #[default] /** Facing the point. */ Front = "front", /** Over its back. */ Back = "back" }
+    Shoulder {
+        /// Facing the point.
+        #[default]
+        Front = "front",
+        /// Reaching over its back.
+        Back = "back",
+    }
 }
 choice! {
     /// Elbow of the start branch.
-    Elbow { #[default] /** Positive elbow angle. */ Positive = "positive", /** Negative elbow angle. */ Negative = "negative" }
+    Elbow {
+        /// Positive elbow angle.
+        #[default]
+        Positive = "positive",
+        /// Negative elbow angle.
+        Negative = "negative",
+    }
 }
 choice! {
     /// Wrist of the start branch.
-    Wrist { #[default] /** Smaller |q4|. */ Near = "near", /** Turned by 180 degrees. */ Flipped = "flipped" }
+    Wrist {
+        /// Smaller |q4|.
+        #[default]
+        Near = "near",
+        /// Turned by 180 degrees.
+        Flipped = "flipped",
+    }
 }
 choice! {
     /// Whether the spin is free.
-    SpinMode { #[default] /** One angle all along. */ Fixed = "fixed", /** Chosen along the path. */ Free = "free" }
+    SpinMode {
+        /// A constant angle.
+        #[default]
+        Fixed = "fixed",
+        /// Chosen along the path.
+        Free = "free",
+    }
 }
 choice! {
-    /// What a free spin is chosen for.
-    SpinGoal { #[default] /** Joints that turn little and evenly. */ SmoothJoints = "smooth-joints", /** Least error by the cutting force. */ LeastError = "least-error" }
+    /// Optimization goal of a free spin.
+    SpinGoal {
+        /// Small and smooth joint motion.
+        #[default]
+        SmoothJoints = "smooth-joints",
+        /// Smallest error due to the cutting force.
+        LeastError = "least-error",
+    }
 }
 choice! {
-    /// What joint 3 is counted from, and where its drive sits.
-    Joint3 { #[default] /** From the upper arm, driven at the elbow. */ Serial = "serial", /** From the base, driven at the elbow. */ Pendant = "pendant", /** From the base, driven there through a parallelogram. */ Parallelogram = "parallelogram" }
+    /// Reference of the joint 3 angle, and location of its drive.
+    Joint3 {
+        /// From the upper arm, driven at the elbow.
+        #[default]
+        Serial = "serial",
+        /// From the base, driven at the elbow.
+        Pendant = "pendant",
+        /// From the base, driven at the base through a parallelogram.
+        Parallelogram = "parallelogram",
+    }
 }
 choice! {
-    /// Pose at which sag is no error.
-    SagZero { #[default] /** The start of the path, where the workpiece was touched off. */ Start = "start", /** None: the model without load. */ Model = "model" }
+    /// Pose at which the sag is zero by definition.
+    SagZero {
+        /// The start of the path, where the workpiece was touched off.
+        #[default]
+        Start = "start",
+        /// None: the model without load.
+        Model = "model",
+    }
 }
 choice! {
     /// Kind of input shaper.
-    ShaperKind { /** Zero vibration. */ Zv = "zv", #[default] /** And its derivative. */ Zvd = "zvd", /** And two derivatives. */ Zvdd = "zvdd", /** Extra-insensitive. */ Ei = "ei" }
+    ShaperKind {
+        /// Zero vibration.
+        Zv = "zv",
+        /// Zero vibration and derivative.
+        #[default]
+        Zvd = "zvd",
+        /// Zero vibration and two derivatives.
+        Zvdd = "zvdd",
+        /// Extra-insensitive.
+        Ei = "ei",
+    }
 }
 /// Speed and sampling.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -246,9 +305,9 @@ pub struct Motion {
     pub acceleration_mm_s2: f64,
     /// Sample time.
     pub sample_time_s: f64,
-    /// A corner sharper than this is a full stop.
+    /// A sharper corner is a full stop.
     pub corner_angle_deg: f64,
-    /// Time at rest in such a corner.
+    /// Time at rest in a full-stop corner.
     pub corner_dwell: CornerDwell,
 }
 
@@ -268,13 +327,13 @@ impl Default for Motion {
 /// Input shaper: `"none"`, or a kind with its frequency and damping.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shaper {
-    /// Commands go to the joints as they are.
+    /// Joint commands are not shaped.
     None,
-    /// Commands are shaped.
+    /// Joint commands are shaped.
     Spec(ShaperSpec),
 }
 
-/// A shaper of a kind; the frequency is given in exactly one of the two units.
+/// A shaper kind with its mode. The frequency is given in exactly one of the two units.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct ShaperSpec {
     /// Kind.
@@ -315,12 +374,12 @@ impl Read for Shaper {
     }
 }
 
-/// What to compensate and how far.
+/// The sources to compensate, and the tolerance.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Compensation {
     /// Largest contour error to reach.
     pub tolerance_mm: f64,
-    /// Most passes.
+    /// Largest number of passes.
     pub max_passes: u32,
     /// Sources to compensate.
     pub sources: Vec<Source>,
@@ -348,9 +407,14 @@ keys!(Job {
     shaper,
     compensation
 });
-keys!(new Robot { preset, name, modified_dh, opw, joint_3, joint_limits_deg, joint_compliance_rad_per_nm, joint_springs_nm_arcmin, loads_kg_mm, sag_zero });
+keys!(new Robot {
+    preset, name, modified_dh, opw, joint_3, joint_limits_deg, joint_compliance_rad_per_nm,
+    joint_springs_nm_arcmin, loads_kg_mm, sag_zero
+});
 keys!(new DhRow { alpha_deg, a_mm, d_mm, theta_offset_deg, joint_sign } required alpha_deg, a_mm, d_mm);
-keys!(new Opw { a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm, joint_sign, joint_offset_deg } required c2_mm, c3_mm);
+keys!(new Opw {
+    a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm, joint_sign, joint_offset_deg
+} required c2_mm, c3_mm);
 keys!(Frame { xyz_mm, rpy_deg });
 keys!(Spin { mode, angle_deg, range_deg, goal });
 keys!(Branch { shoulder, elbow, wrist });

@@ -1,13 +1,15 @@
-//! JSON values that know where they stand, so that every mistake is told with its field, line and column.
+//! JSON values that know their place in the text, so every error carries its field, line and
+//! column.
 //!
-//! serde_json checks the text and reads the single values; which keys there are, and what becomes of them, says [`Read`].
+//! serde_json checks the syntax and reads single values. [`Read`] defines the keys and what they
+//! set.
 
 use crate::error::{Error, Short};
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::value::RawValue;
 use std::fmt;
 
-/// What can be read from JSON, in place: what the text does not say stays as it is.
+/// A value that can be read from JSON in place; whatever the text omits keeps its value.
 pub(super) trait Read {
     /// Reads `node`.
     fn read(&mut self, node: &Node) -> Result<(), Error>;
@@ -17,11 +19,12 @@ pub(super) trait Read {
 pub(super) struct Node<'a> {
     /// The whole text.
     text: &'a str,
-    /// The part of it that is this value.
+    /// The part of the text that is this value.
     raw: &'a str,
-    /// What this value is a part of, and which; nothing for the whole.
+    /// The container of this value, and its key or index in it; `None` for the root.
     parent: Option<(&'a Node<'a>, PathStep<'a>)>,
-    /// The members of the whole, which is asked twice: a text of megabytes is scanned for them once.
+    /// The members of the root. They are used twice, so a text of megabytes is scanned for them
+    /// only once.
     members: Option<Members<'a>>,
 }
 
@@ -31,7 +34,7 @@ enum PathStep<'a> {
     Index(usize),
 }
 
-/// What an object is called in an error.
+/// Name of an object in error messages.
 const OBJECT: &str = "an object with named keys";
 
 /// The members of a list or an object, unread.
@@ -42,7 +45,7 @@ enum Members<'a> {
 }
 
 impl<'a> Node<'a> {
-    /// The whole of a text, which is an object.
+    /// The root of a text, which must be an object.
     pub(super) fn of(text: &'a str) -> Result<Self, Error> {
         let whole = Node { text, raw: text, parent: None, members: None };
         let members = Some(whole.members(OBJECT)?);
@@ -56,12 +59,12 @@ impl<'a> Node<'a> {
         Ok(member.map(|(_, raw)| self.member(PathStep::Key(key), raw)))
     }
 
-    /// This value as one of serde's own types.
+    /// This value, deserialized by serde.
     pub(super) fn value<T: Deserialize<'a>>(&self) -> Result<T, Error> {
         serde_json::from_str(self.raw).map_err(|error| self.refused(&error))
     }
 
-    /// Whether this is a quoted text.
+    /// Whether this is a string.
     pub(super) fn is_text(&self) -> bool {
         self.raw.starts_with('"')
     }
@@ -71,7 +74,7 @@ impl<'a> Node<'a> {
         self.raw.starts_with('{')
     }
 
-    /// Which of a few words this is.
+    /// The index of this value in `words`.
     pub(super) fn one_of(&self, words: &[&str]) -> Result<usize, Error> {
         let given: String = self.value()?;
         words.iter().position(|word| *word == given).ok_or_else(|| {
@@ -84,7 +87,7 @@ impl<'a> Node<'a> {
         })
     }
 
-    /// Reads an object: each of its keys at most once, `required` ones at least once, no others.
+    /// Reads an object: each key at most once, all of `required`, and no unknown keys.
     pub(super) fn object(&self, keys: &mut [(&str, &mut dyn Read)], required: &[&str]) -> Result<(), Error> {
         let Members::Object(members) = self.members(OBJECT)? else {
             return Err(self.error("a list stands where an object with named keys belongs"));
@@ -105,7 +108,7 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// Reads a list of a fixed length, which `expected` names.
+    /// Reads a list of fixed length; `expected` describes it in errors.
     fn tuple(&self, items: &mut [&mut dyn Read], expected: &str) -> Result<(), Error> {
         let members = self.list(expected)?;
         members.iter().zip(&mut *items).try_for_each(|(member, item)| item.read(member))?;
@@ -115,7 +118,7 @@ impl<'a> Node<'a> {
         Err(self.error(&format!("invalid length {}, expected {expected}", members.len())))
     }
 
-    /// The members of a list, which `expected` names.
+    /// The members of a list; `expected` describes it in errors.
     fn list(&self, expected: &str) -> Result<Vec<Node<'_>>, Error> {
         let Members::List(members) = self.members(expected)? else {
             return Err(self.error(&format!("invalid type: map, expected {expected}")));
@@ -127,7 +130,7 @@ impl<'a> Node<'a> {
         Node { text: self.text, raw: raw.get(), parent: Some((self, step)), members: None }
     }
 
-    /// The members of a list or an object, which `expected` names.
+    /// The members of a list or an object; `expected` describes it in errors.
     fn members(&self, expected: &str) -> Result<Members<'a>, Error> {
         if let Some(members) = &self.members {
             return Ok(members.clone());
@@ -137,7 +140,7 @@ impl<'a> Node<'a> {
         members.and_then(|members| deserializer.end().map(|()| members)).map_err(|error| self.refused(&error))
     }
 
-    /// JSON path of this value; empty for the whole.
+    /// JSON path of this value; empty for the root.
     pub(super) fn path(&self) -> String {
         match self.parent {
             None => String::new(),
@@ -159,7 +162,8 @@ impl<'a> Node<'a> {
         Error::Json { field: (!path.is_empty()).then_some(path), message, line, column }
     }
 
-    /// serde_json's refusal of this value: it counts lines and columns from where the value begins.
+    /// The error of serde_json for this value, whose line and column are relative to the value's
+    /// start.
     fn refused(&self, error: &serde_json::Error) -> Error {
         let lines_before = error.line().saturating_sub(1);
         let bytes_before: usize = self.raw.split_inclusive('\n').take(lines_before).map(str::len).sum();
@@ -168,10 +172,11 @@ impl<'a> Node<'a> {
         self.error_at(self.start() + bytes_before + error.column(), message)
     }
 
-    /// This value's key is none of the known ones; the place is where the key begins.
+    /// An error about an unknown key, placed at the start of the key.
     fn unknown_key(&self, key: &str, known: &[(&str, &mut dyn Read)]) -> Error {
         let parent = self.parent.map_or_else(String::new, |(parent, _)| parent.path());
-        // Comparing takes time and memory of the key's length; no known one is so long.
+        // A comparison costs time and memory in proportion to the key's length; known keys are
+        // shorter.
         let nearest = known
             .iter()
             .filter(|_| key.len() <= 60)
@@ -179,7 +184,7 @@ impl<'a> Node<'a> {
             .max_by(|a, b| a.0.total_cmp(&b.0))
             .filter(|(similarity, _)| *similarity > 0.4)
             .map(|(_, known)| join(&parent, known));
-        // The key stands before the colon, in quotes; one within it has a backslash before it.
+        // The key precedes the colon, in quotes. A quote within it has a backslash before it.
         let before =
             self.text.get(..self.start()).unwrap_or_default().trim_end_matches([' ', '\t', '\r', '\n', ':']);
         let inside = &before[..before.len().saturating_sub(1)];
@@ -192,7 +197,7 @@ impl<'a> Node<'a> {
         Error::UnknownKey { field: join(&parent, key), nearest, line, column }
     }
 
-    /// Where this value, which is a part of the text, begins in it.
+    /// Byte offset of this value in the text.
     fn start(&self) -> usize {
         self.raw.as_ptr().addr() - self.text.as_ptr().addr()
     }
@@ -201,14 +206,14 @@ impl<'a> Node<'a> {
     fn place(&self, offset: usize) -> (usize, usize) {
         let before = self.text.as_bytes().get(..offset).unwrap_or(self.text.as_bytes());
         let mut lines = before.rsplit(|byte| *byte == b'\n');
-        // Every character begins with one byte that continues none.
+        // Every character has exactly one byte that is not a continuation byte.
         let begins = |line: &[u8]| line.iter().filter(|byte| **byte & 0xc0 != 0x80).count();
         let column = lines.next().map_or(0, begins).max(1);
         (1 + lines.count(), column)
     }
 }
 
-/// 1 for the same word, 0 for one that has nothing of the other.
+/// Similarity of two words: 1 for equal ones, 0 for unrelated ones.
 fn similarity(a: &str, b: &str) -> f64 {
     1.0 - strsim::osa_distance(a, b) as f64 / a.chars().count().max(b.chars().count()).max(1) as f64
 }
@@ -217,7 +222,7 @@ fn join(parent: &str, key: &str) -> String {
     if parent.is_empty() { key.to_owned() } else { format!("{parent}.{key}") }
 }
 
-/// Collects the members of what the text in it names.
+/// Collects the members of a list or an object; the text is the expectation in errors.
 struct Expected<'e>(&'e str);
 
 impl<'de> Visitor<'de> for Expected<'_> {
@@ -244,8 +249,8 @@ impl<'de> Visitor<'de> for Expected<'_> {
     }
 }
 
-/// Makes a struct readable from an object with its fields as keys; the list has to name them all. Of a `new` one, keys that are
-/// not given are as in its own default, whatever was there before.
+/// Makes a struct readable from an object with its fields as keys; the list must name all fields.
+/// With `new`, absent keys take the struct's own default, whatever their value was before.
 macro_rules! keys {
     (new $type:ident { $($key:ident),+ } $(required $($required:ident),+)?) => {
         impl $crate::job::json::Read for $type {
@@ -267,7 +272,7 @@ macro_rules! keys {
 }
 pub(super) use keys;
 
-/// Makes types that serde_json reads by itself readable.
+/// Makes types readable that serde_json can deserialize.
 macro_rules! values {
     ($($type:ty),+) => {
         $(impl Read for $type {

@@ -1,8 +1,8 @@
-//! The job: the whole question as a person or a script writes it (JSON, units in the names).
+//! The job: the complete input as a person or a script writes it (JSON, units in the names).
 //!
-//! [`Job`] mirrors the JSON one to one and computes nothing. Keys that are not given take the value of
-//! the default job, the thesis's case, and the report says which; unknown keys are errors. The module
-//! [`setup`](crate::setup) checks the values and turns them into SI.
+//! [`Job`] mirrors the JSON and computes nothing. Absent keys take the value of the default job,
+//! the thesis's case, and the report lists them. Unknown keys are errors. The module
+//! [`setup`](crate::setup) checks the values and converts them to SI.
 
 mod json;
 mod choice;

@@ -1,4 +1,4 @@
-//! The job's path, one to one as in the JSON. Values are as typed, not yet checked.
+//! The job's path, mirroring the JSON. Values are as typed, not yet checked.
 
 use crate::error::Error;
 use crate::job::choice::choice;
@@ -8,38 +8,55 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 choice! {
-    /// What the path is made from.
+    /// What the path is built from.
     PathKind {
+        /// Full circle.
         #[default]
-        /** Full circle. */ Circle = "circle",
-        /** Part of a circle. */ Arc = "arc",
-        /** One straight line. */ Line = "line",
-        /** Rectangle with sharp or rounded corners. */ Rectangle = "rectangle",
-        /** Straight lines through points. */ Polyline = "polyline",
-        /** Straight lines through pasted rows of x, y, z, with tool axis and feed where they are given. */ Csv = "csv",
-        /** A G-code program. */ Gcode = "gcode",
-        /** An APT or CLDATA program. */ Apt = "apt",
+        Circle = "circle",
+        /// Part of a circle.
+        Arc = "arc",
+        /// One straight line.
+        Line = "line",
+        /// Rectangle with sharp or rounded corners.
+        Rectangle = "rectangle",
+        /// Straight lines through points.
+        Polyline = "polyline",
+        /// Straight lines through pasted rows of x, y, z, with optional tool axis and feed.
+        Csv = "csv",
+        /// A G-code program.
+        Gcode = "gcode",
+        /// An APT or CLDATA program.
+        Apt = "apt",
     }
 }
 choice! {
-    /// Unit of length of a text that does not say its own.
-    Unit { #[default] /** Millimetres. */ Mm = "mm", /** Inches. */ Inch = "inch" }
+    /// Unit of length of a text that does not give its own.
+    Unit {
+        /// Millimetres.
+        #[default]
+        Mm = "mm",
+        /// Inches.
+        Inch = "inch",
+    }
 }
 
 choice! {
-    /// Unit of the feeds in a text that does not say its own.
+    /// Unit of the feeds in a text that does not give its own.
     FeedUnit {
+        /// Millimetres per second.
         #[default]
-        /** Millimetres a second. */ MmPerS = "mm/s",
-        /** Millimetres a minute. */ MmPerMin = "mm/min",
-        /** Inches a minute. */ InchPerMin = "inch/min",
+        MmPerS = "mm/s",
+        /// Millimetres per minute.
+        MmPerMin = "mm/min",
+        /// Inches per minute.
+        InchPerMin = "inch/min",
     }
 }
 
-/// The desired path in the workpiece frame; which keys belong to it depends on `kind`.
+/// The desired path in the workpiece frame. The keys in use depend on `kind`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Path {
-    /// What it is made from.
+    /// What the path is built from.
     pub kind: PathKind,
     /// Centre of a circle, an arc or a rectangle.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -50,7 +67,7 @@ pub struct Path {
     /// Normal of a circle or an arc, of any length; default +Z.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub normal: Option<[f64; 3]>,
-    /// Start of an arc, from the projection of +X.
+    /// Start angle of an arc, measured from the projection of +X.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start_deg: Option<f64>,
     /// Sweep of an arc, counter-clockwise about the normal if positive.
@@ -77,33 +94,37 @@ pub struct Path {
     /// Text of a program, or pasted rows.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub text: Option<ProgramText>,
-    /// Unit of length of rows, or of an APT text, that do not say their own; default mm.
+    /// Unit of length of rows or of an APT text that do not give their own; default mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<Unit>,
-    /// Unit of the feeds of rows that do not say their own; default mm/s.
+    /// Unit of the feeds of rows that do not give their own; default mm/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub feed_unit: Option<FeedUnit>,
     /// Tool length offsets of a G-code program: rows of the number H and the offset.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tool_length_offsets_mm: Option<Vec<(u32, f64)>>,
-    /// Work offsets of a G-code program: G54, G55 and so on, in this order.
+    /// Work offsets of a G-code program, in the order G54, G55 and so on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub work_offsets_mm: Option<Vec<[f64; 3]>>,
-    /// Whether lines of a G-code program that start with a slash are left out; default true.
+    /// Whether lines of a G-code program that start with a slash are skipped; default true.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub block_delete: Option<bool>,
 }
 
-keys!(new Path { kind, center_mm, radius_mm, normal, start_deg, sweep_deg, from_mm, to_mm, width_mm, height_mm, corner_radius_mm, points_mm, text, unit, feed_unit, tool_length_offsets_mm, work_offsets_mm, block_delete } required kind);
+keys!(new Path {
+    kind, center_mm, radius_mm, normal, start_deg, sweep_deg, from_mm, to_mm, width_mm, height_mm,
+    corner_radius_mm, points_mm, text, unit, feed_unit, tool_length_offsets_mm, work_offsets_mm,
+    block_delete
+} required kind);
 
 impl Path {
-    /// A path of a kind, with none of its keys.
+    /// A path of this kind with no other keys.
     pub fn of(kind: PathKind) -> Self {
         Self { kind, ..Self::default() }
     }
 }
 
-/// A text that may be long; its clones share it.
+/// A text that may be long; clones share it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProgramText(Arc<str>);
 
@@ -128,7 +149,7 @@ impl Deref for ProgramText {
 }
 
 impl ProgramText {
-    /// The text itself, shared.
+    /// A shared reference to the text.
     pub fn shared(&self) -> Arc<str> {
         self.0.clone()
     }

@@ -1,4 +1,4 @@
-//! The libraries as the page's form offers them, with the source of their numbers.
+//! The libraries as the page's form offers them, with the sources of their numbers.
 
 use crate::cutting::material::{self, Material, Model};
 use crate::job::{DhRow, Joint3, Opw};
@@ -6,27 +6,27 @@ use crate::robot::{Elbow, library};
 use crate::units::{N_PER_MM, N_PER_MM2};
 use serde::Serialize;
 
-/// Robots and materials, each with its values under the keys of a job.
+/// Robots and materials, with their values under the keys of a job.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Presets {
-    /// Every robot of the library.
+    /// All robots in the library.
     pub robots: Vec<RobotPreset>,
-    /// Every material of the library.
+    /// All materials in the library.
     pub materials: Vec<MaterialPreset>,
 }
 
-/// A robot of the library.
+/// A robot in the library.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RobotPreset {
     /// Key used in jobs.
     pub id: &'static str,
-    /// Maker and model.
+    /// Manufacturer and model.
     pub name: String,
-    /// Who makes it.
+    /// Manufacturer.
     pub maker: &'static str,
-    /// Where geometry and first natural frequency come from and how far to trust them.
+    /// Source of the geometry and the first natural frequency, and how far to trust it.
     pub note: String,
-    /// The same of the joint stiffness.
+    /// Source of the joint stiffness, and how far to trust it.
     pub stiffness_note: String,
     /// Whether the stiffness is only an order of magnitude.
     pub stiffness_assumed: bool,
@@ -34,22 +34,22 @@ pub struct RobotPreset {
     pub modified_dh: [DhRow; 6],
     /// Ortho-parallel parameters [mm, deg].
     pub opw: Opw,
-    /// What joint 3 is counted from.
+    /// Reference of the joint 3 angle.
     pub joint_3: Joint3,
-    /// Lowest and highest angle of each joint [deg], where they are known; `null` where not.
+    /// Lower and upper limit of each joint [deg]; `null` where unknown.
     pub joint_limits_deg: Option<[[f64; 2]; 6]>,
     /// Joint compliances [rad/(N m)].
     pub joint_compliance_rad_per_nm: [f64; 6],
 }
 
-/// A material of the library, with the numbers of its own model: the others' keys are left out.
+/// A material in the library. Keys of other models are omitted.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct MaterialPreset {
     /// Key used in jobs.
     pub id: &'static str,
-    /// Name as read.
+    /// Name shown to the user.
     pub name: &'static str,
-    /// Where the coefficients come from and how far to trust them.
+    /// Source of the coefficients, and how far to trust them.
     pub note: String,
     /// Tangential cutting coefficient [N/mm^2].
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -72,16 +72,16 @@ pub struct MaterialPreset {
     /// Specific cutting force at 1 mm of chip thickness [N/mm^2].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kc11_n_mm2: Option<f64>,
-    /// Exponent by which the specific cutting force falls with the chip thickness.
+    /// Exponent of the decrease of the specific cutting force with chip thickness.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mc: Option<f64>,
-    /// Whether it is given by constants of orthogonal cutting, which the form has no fields for;
-    /// left out where not.
+    /// Whether it is given by constants of orthogonal cutting, for which the form has no fields;
+    /// omitted if false.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub orthogonal: bool,
 }
 
-/// Robots and materials of the library.
+/// Robots and materials in the library.
 pub fn presets() -> Presets {
     Presets {
         robots: library::robots().map(RobotPreset::of).collect(),
@@ -120,7 +120,7 @@ impl RobotPreset {
 impl MaterialPreset {
     fn of(material: &Material) -> Self {
         let preset = Self { id: material.id, name: material.name, note: material.note(), ..Self::default() };
-        // Back from SI: without the last bits, which the table does not have.
+        // Converted back from SI and rounded, as the table does not have the last bits.
         let number = |value: f64, unit: f64| Some((value / unit * 1e9).round() / 1e9);
         match &material.model {
             Model::Linear(k) => Self {

@@ -1,4 +1,4 @@
-//! From JSON text to a [`Job`] and back.
+//! Reads a [`Job`] from JSON text and writes it back.
 
 use crate::error::Error;
 use crate::job::Job;
@@ -6,17 +6,17 @@ use crate::job::json::{Node, Read};
 use serde_json::Value;
 
 impl Job {
-    /// Reads a job. Keys that are not given take the default job's value.
+    /// Reads a job. Absent keys take the default job's value.
     ///
     /// # Errors
-    /// [`Error::Json`] or [`Error::UnknownKey`], with line and column. Values are not checked yet: see
-    /// [`Setup::of`](crate::setup::Setup::of).
+    /// [`Error::Json`] or [`Error::UnknownKey`], with line and column. Values are not checked here:
+    /// see [`Setup::of`](crate::setup::Setup::of).
     pub fn from_json(text: &str) -> Result<Self, Error> {
         Job::read_json(text).map(|(job, _)| job)
     }
 
-    /// The same, with the keys that the text leaves to the default, as JSON paths: whole sections, or
-    /// keys within a given section.
+    /// Reads a job and lists the keys left to the default, as JSON paths: whole sections, or keys
+    /// within a given section.
     ///
     /// # Errors
     /// See [`Job::from_json`].
@@ -34,14 +34,14 @@ impl Job {
     }
 }
 
-/// The keys that are in the default job and not in a text.
+/// The keys of the default job that are absent from a text.
 fn not_given(given: &Node) -> Result<Vec<String>, Error> {
     let mut missing = Vec::new();
     let Ok(Value::Object(default)) = serde_json::to_value(Job::default()) else { return Ok(missing) };
     for (section, content) in default {
         match (given.get(&section)?, content) {
             (None, _) => missing.push(section),
-            // These sections are all or nothing; what they lack is an error, not a default.
+            // These sections are all or nothing; a missing key is an error, not a default.
             (Some(_), _) if ["robot", "path", "material", "shaper"].contains(&section.as_str()) => {}
             (Some(given), Value::Object(content)) => {
                 for key in content.keys() {

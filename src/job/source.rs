@@ -1,13 +1,19 @@
-//! The sources of error: what a job names, and sets of them.
+//! The sources of error, as a job names them and as a set.
 
 use crate::job::choice::choice;
 
 choice! {
     /// A source of error.
-    Source { #[default] /** Cutting forces bend the arm. */ Deflection = "deflection", /** The input shaper bends the path. */ Shaping = "shaping" }
+    Source {
+        /// Cutting forces bend the arm.
+        #[default]
+        Deflection = "deflection",
+        /// The input shaper bends the path.
+        Shaping = "shaping",
+    }
 }
 
-/// Which sources act, or are compensated.
+/// The sources that act, or are compensated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sources {
     /// Cutting forces.
@@ -22,7 +28,7 @@ impl Sources {
     /// No source.
     pub const NONE: Self = Self { deflection: false, shaping: false };
 
-    /// One source alone.
+    /// A set of one source.
     pub fn only(source: Source) -> Self {
         Self { deflection: source == Source::Deflection, shaping: source == Source::Shaping }
     }

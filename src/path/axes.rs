@@ -1,19 +1,19 @@
-//! Tool axes along a path, one a sample.
+//! Tool axes along a path, one per sample.
 
 use crate::path::Path;
 use nalgebra::Vector3;
 
-/// Unit vectors from the tool's tip to the spindle, one a sample; kept once where the path has one axis all along.
+/// Unit vectors from the tool tip to the spindle, one per sample. A constant axis is stored once.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Axes {
-    /// The same at every sample.
+    /// One axis for every sample.
     One(Vector3<f64>),
-    /// One for each sample.
+    /// One axis per sample.
     Each(Vec<Vector3<f64>>),
 }
 
 impl Axes {
-    /// The path's axes at these arc lengths [m], each in the move `index`.
+    /// The path's axes at the arc lengths `arc_length` [m], each in the move `index`.
     pub fn along(path: &Path, arc_length: &[f64], index: &[u32]) -> Self {
         let first = path.moves()[0].axis_from;
         if path.moves().iter().all(|step| step.axis_from == first && step.axis_to == first) {

@@ -1,4 +1,4 @@
-//! A program in the making: moves that follow each other, whichever text they come from.
+//! Builds a program move by move, for the readers of APT and CSV.
 
 use crate::error::Error;
 use crate::math::{self, PI, TAU};
@@ -7,22 +7,22 @@ use crate::path::program::{Move, MovePace, Program, Remark};
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
 
-/// Points that are nearer than this are the same point [m].
+/// Points closer than this are the same point [m].
 const SAME: f64 = 1e-9;
-/// Directions that are nearer than this are the same direction [rad].
+/// Directions closer than this are the same direction [rad].
 const SAME_DIRECTION: f64 = 1e-9;
-/// Largest coordinate that is believed [m].
+/// Largest coordinate accepted [m].
 const FARTHEST: f64 = 1e3;
-/// Feeds that are believed [mm/s].
+/// Range of accepted feeds [mm/s].
 const FEEDS: [f64; 2] = [1e-3, 1e5];
-/// Spindle speeds that are believed [rev/min].
+/// Range of accepted spindle speeds [rev/min].
 pub(super) const SPINDLE: std::ops::RangeInclusive<f64> = 1.0..=1e6;
-/// Longest wait that is believed [s].
+/// Longest wait accepted [s].
 pub(super) const LONGEST_WAIT: f64 = 3600.0;
-/// How far the two ends of an arc may lie off its circle [m].
+/// How far the ends of an arc may lie off its circle [m].
 const ARC_TOLERANCE: f64 = 0.01 * MM;
 
-/// What is wrong, before it is known where it stands.
+/// An error without its place in the text.
 pub(super) struct Fault {
     pub(super) found: String,
     pub(super) expected: String,
@@ -33,13 +33,13 @@ impl Fault {
         Self { found: found.into(), expected: expected.into() }
     }
 
-    /// The error for it, at a line and column (from 1) of the text in `field`.
+    /// The error at a line and column (from 1) of the text in `field`.
     pub(super) fn at(self, field: &str, (line, column): (usize, usize)) -> Error {
         Error::Text { field: field.into(), line, column, found: self.found, expected: self.expected }
     }
 }
 
-/// The circle of an arc, run counter-clockwise about its axis.
+/// The circle of an arc, traversed counter-clockwise about its axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Circle {
     /// Centre [m].
@@ -48,12 +48,12 @@ pub(super) struct Circle {
     pub(super) axis: Vector3<f64>,
     /// Radius as written [m].
     pub(super) radius: f64,
-    /// Angle as written [rad]; it tells full turns apart.
+    /// Angle as written [rad]; it determines the number of full turns.
     pub(super) sweep: Option<f64>,
 }
 
 impl Circle {
-    /// Whether the point lies on the circle, within what an arc allows.
+    /// Whether the point lies on the circle, within the tolerance of an arc.
     pub(super) fn passes(&self, point: &Vector3<f64>) -> bool {
         let offset = point - self.center;
         let height = offset.dot(&self.axis);
@@ -62,7 +62,7 @@ impl Circle {
     }
 }
 
-/// Where a move goes and how.
+/// End point of a move, its pace and spindle speed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Target {
     /// End of the move [m].
@@ -75,18 +75,18 @@ pub(super) struct Target {
     pub(super) line: usize,
 }
 
-/// The moves read so far, and where the tool stands.
+/// The moves read so far, and the current tool pose.
 #[derive(Default)]
 pub(super) struct ProgramBuilder {
     pub(super) program: Program,
     /// Tip [m] and unit axis.
     pub(super) pose: Option<(Vector3<f64>, Vector3<f64>)>,
-    /// How often each remark came up.
+    /// How often each remark occurred.
     counts: Vec<usize>,
 }
 
 impl ProgramBuilder {
-    /// Puts a remark on the first line that gives cause for it, and counts the others.
+    /// Records a remark at the first line that causes it, and counts the others.
     pub(super) fn remark(&mut self, code: &'static str, line: usize, message: impl FnOnce() -> String) {
         if let Some(index) = self.program.remarks.iter().position(|remark| remark.code == code) {
             self.counts[index] += 1;
@@ -96,7 +96,7 @@ impl ProgramBuilder {
         }
     }
 
-    /// A direction as a unit vector; one that is off unit length by more than 1e-3 is remarked.
+    /// A direction as a unit vector; one whose length is off by more than 1e-3 gets a remark.
     pub(super) fn direction(&mut self, ijk: Vector3<f64>, line: usize) -> Result<Vector3<f64>, Fault> {
         let (axis, length) = unit(ijk)?;
         if (length - 1.0).abs() > 1e-3 {
@@ -110,9 +110,10 @@ impl ProgramBuilder {
         Ok(axis)
     }
 
-    /// A straight move; the first one only says where the path starts.
+    /// A straight move. The first one only sets the start of the path.
     ///
-    /// A move to where the tool stands is dropped, one that only turns the tool there is refused: paths are measured by arc length.
+    /// A move of zero length is dropped. One that only turns the tool is refused, because paths are
+    /// parametrized by arc length.
     pub(super) fn line_to(&mut self, target: Target) -> Result<(), Fault> {
         let Some((from, axis_from)) = self.pose else {
             self.pose = Some((target.point, target.axis));
@@ -132,9 +133,11 @@ impl ProgramBuilder {
         self.push(Segment::Line { from, to: target.point }, axis_from, target)
     }
 
-    /// A move along a circle, counter-clockwise about its axis; it rises evenly where the end lies above the start.
+    /// A move along a circle, counter-clockwise about its axis. It is a helix if the end lies above
+    /// the start.
     ///
-    /// Both ends may lie off the circle by 0.01 mm; the centre then moves by as much at most, so that the ends stay as written.
+    /// Both ends may lie off the circle by 0.01 mm. The ends stay as written: the centre moves, by
+    /// at most as much.
     pub(super) fn arc_to(&mut self, circle: Circle, target: Target) -> Result<(), Fault> {
         let Some((from, axis_from)) = self.pose else {
             return Err(Fault::new("an arc before any point", "an arc starts at the point before it"));
@@ -148,25 +151,7 @@ impl ProgramBuilder {
         let ((start, low), (end, high)) = (flat(from), flat(target.point));
         let chord = end - start;
         let closed = chord.norm() <= SAME;
-        // The part of the centre's offset from the chord's middle that lies along the chord is what keeps it from being equally far from both ends.
-        let shift = if closed {
-            Vector3::zeros()
-        } else {
-            chord * ((start + end).dot(&chord) / chord.norm_squared() / 2.0)
-        };
-        let off = [start.norm() - radius, end.norm() - radius, shift.norm()];
-        if off.iter().any(|off| off.abs() > ARC_TOLERANCE) {
-            let mm = |length: f64| length / MM;
-            return Err(Fault::new(
-                format!(
-                    "an arc of radius {:.4} mm whose start lies {:.4} mm and whose end lies {:.4} mm from its centre",
-                    mm(radius),
-                    mm(start.norm()),
-                    mm(end.norm())
-                ),
-                format!("both ends lie on the circle within {} mm", mm(ARC_TOLERANCE)),
-            ));
-        }
+        let shift = center_shift(&start, &end, radius)?;
         let spoke = start - shift;
         let radius = spoke.norm();
         if radius <= SAME {
@@ -184,20 +169,8 @@ impl ProgramBuilder {
                 format!("the arc ends {:.4} mm short of its start: nearly a full circle", chord.norm() / MM)
             });
         }
-        if let Some(asked) = sweep {
-            let turned_once = turned;
-            turned += TAU * ((asked - turned) / TAU).round().max(0.0);
-            let gap = (asked - turned).abs();
-            if gap > 0.1 * DEG && gap * radius > ARC_TOLERANCE {
-                return Err(Fault::new(
-                    format!("the angle {:.3} deg", asked / DEG),
-                    format!(
-                        "from the start counter-clockwise about the vector {} to the end it is {:.3} deg",
-                        list(axis),
-                        turned_once / DEG
-                    ),
-                ));
-            }
+        if let Some(stated) = sweep {
+            turned = with_full_turns(turned, stated, radius, &axis)?;
         }
         let center = center + shift + axis * low;
         self.push(Segment::Arc { center, u, v, radius, sweep: turned, rise: high - low }, axis_from, target)
@@ -216,7 +189,7 @@ impl ProgramBuilder {
         Ok(())
     }
 
-    /// The program, once the whole text is read.
+    /// The program, after the last line of the text.
     pub(super) fn finish(mut self, unit: &'static str, lines: usize) -> Program {
         for (remark, count) in self.program.remarks.iter_mut().zip(&self.counts) {
             if *count > 1 {
@@ -225,6 +198,48 @@ impl ProgramBuilder {
         }
         Program { unit, lines, ..self.program }
     }
+}
+
+/// Shift of the centre along the chord that makes it equidistant from both ends of an arc, which
+/// are given relative to the centre. Fails if an end is too far off the circle.
+fn center_shift(start: &Vector3<f64>, end: &Vector3<f64>, radius: f64) -> Result<Vector3<f64>, Fault> {
+    let chord = end - start;
+    let shift = if chord.norm() <= SAME {
+        Vector3::zeros()
+    } else {
+        chord * ((start + end).dot(&chord) / chord.norm_squared() / 2.0)
+    };
+    let off = [start.norm() - radius, end.norm() - radius, shift.norm()];
+    if off.iter().any(|off| off.abs() > ARC_TOLERANCE) {
+        let mm = |length: f64| length / MM;
+        return Err(Fault::new(
+            format!(
+                "an arc of radius {:.4} mm whose start lies {:.4} mm and whose end lies {:.4} mm from its centre",
+                mm(radius),
+                mm(start.norm()),
+                mm(end.norm())
+            ),
+            format!("both ends lie on the circle within {} mm", mm(ARC_TOLERANCE)),
+        ));
+    }
+    Ok(shift)
+}
+
+/// The angle `turned` plus the full turns that the `stated` angle has. Fails if the two disagree.
+fn with_full_turns(turned: f64, stated: f64, radius: f64, axis: &Vector3<f64>) -> Result<f64, Fault> {
+    let sweep = turned + TAU * ((stated - turned) / TAU).round().max(0.0);
+    let gap = (stated - sweep).abs();
+    if gap > 0.1 * DEG && gap * radius > ARC_TOLERANCE {
+        return Err(Fault::new(
+            format!("the angle {:.3} deg", stated / DEG),
+            format!(
+                "from the start counter-clockwise about the vector {} to the end it is {:.3} deg",
+                list(*axis),
+                turned / DEG
+            ),
+        ));
+    }
+    Ok(sweep)
 }
 
 /// A vector's direction and length.
@@ -236,7 +251,7 @@ pub(super) fn unit(ijk: Vector3<f64>) -> Result<(Vector3<f64>, f64), Fault> {
     Err(Fault::new(format!("the vector {}", list(ijk)), "a direction has the length 1"))
 }
 
-/// A coordinate [m] that a robot may be asked for.
+/// A coordinate [m], if it is in range.
 pub(super) fn coordinate(value: f64) -> Result<f64, Fault> {
     if value.abs() <= FARTHEST {
         return Ok(value);
@@ -247,10 +262,10 @@ pub(super) fn coordinate(value: f64) -> Result<f64, Fault> {
     ))
 }
 
-/// A feed [m/s] that a robot may be asked for.
+/// A feed [m/s], if it is in range.
 pub(super) fn feed(value: f64) -> Result<f64, Fault> {
     let [slowest, fastest] = FEEDS;
-    // At the ends it must not matter in which unit the feed was said.
+    // The limits must hold whichever unit the feed was given in.
     if (slowest * (1.0 - 1e-9)..=fastest * (1.0 + 1e-9)).contains(&(value / MM)) {
         return Ok(value);
     }

@@ -1,7 +1,7 @@
 //! Where: the desired path as lines and arcs, with the tool axis along it.
 //!
-//! A [`Path`] is made of shapes or of a [`program`], in the workpiece frame, and then [placed](Path::placed) in the base frame; its
-//! parameter is the arc length.
+//! A [`Path`] is built from shapes or from a [`program`] in the workpiece frame, then
+//! [placed](Path::placed) in the base frame. It is parametrized by arc length.
 
 pub mod segment;
 pub mod shape;
@@ -23,7 +23,7 @@ use crate::math::{self, Pose};
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 
-/// A chain of moves with its running arc length. Clones share the moves.
+/// A chain of moves with cumulative arc length. Clones share the moves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Path {
     moves: Arc<[Move]>,
@@ -34,31 +34,33 @@ pub struct Path {
     roll: Roll,
 }
 
-/// A wait that a program asks for.
+/// A wait in a program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wait {
-    /// Where [m].
+    /// Arc length [m].
     pub s: f64,
-    /// How long [s].
+    /// Duration [s].
     pub time: f64,
 }
 
-/// The point of a path closest to another point.
+/// The point on a path closest to another point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Closest {
-    /// Arc length [m]; below 0 or beyond the length where a closed path was searched across its seam.
+    /// Arc length [m]. On a closed path searched across its seam, it may be below 0 or beyond the
+    /// length.
     pub s: f64,
     /// The point [m].
     pub point: Vector3<f64>,
 }
 
-/// Ends that are nearer than this are the same point [m].
+/// Ends closer than this are the same point [m].
 const SEAM: f64 = 1e-9;
 
 impl Path {
-    /// A path of segments that follow each other, cutting at the job's feed with the tool upright (axis +Z, from tip to spindle).
+    /// A path through consecutive segments, cut at the job's feed with the tool upright (axis +Z,
+    /// from tip to spindle).
     ///
-    /// Segments without length are dropped. `None` if nothing is left.
+    /// Segments of zero length are dropped; `None` if none are left.
     pub fn new(segments: Vec<Segment>) -> Option<Self> {
         let up = Vector3::z();
         let cut = |segment| Move {
@@ -72,7 +74,7 @@ impl Path {
         Self::of_program(&Program { moves: segments.into_iter().map(cut).collect(), ..Program::default() })
     }
 
-    /// The path of a program. Moves without length are dropped; `None` if nothing is left.
+    /// The path of a program. Moves of zero length are dropped; `None` if none are left.
     pub fn of_program(program: &Program) -> Option<Self> {
         let mut moves = Vec::with_capacity(program.moves.len());
         let mut starts = Vec::with_capacity(program.moves.len() + 1);
@@ -101,7 +103,7 @@ impl Path {
         })
     }
 
-    /// The same path seen from outside the frame it is drawn in.
+    /// The path, expressed in the frame in which `frame` is given.
     pub fn placed(&self, frame: &Pose) -> Self {
         let place = |step: &Move| Move {
             segment: step.segment.placed(frame),
@@ -116,18 +118,18 @@ impl Path {
         }
     }
 
-    /// The same path with the TCP turned about the tool axis.
+    /// The path with the TCP rotated about the tool axis.
     pub fn with_roll(self, roll: Roll) -> Self {
         Self { roll, ..self }
     }
 
-    /// The same path with the roll of another one, at the same share of the way.
+    /// The path with the roll of `other`, matched at the same fraction of the length.
     pub fn rolled_as(self, other: &Path) -> Self {
         let roll = other.roll.stretched(self.length() / other.length());
         self.with_roll(roll)
     }
 
-    /// The moves in order; none is without length.
+    /// The moves in order; all have a length above 0.
     pub fn moves(&self) -> &[Move] {
         &self.moves
     }
@@ -137,7 +139,7 @@ impl Path {
         self.starts[index]
     }
 
-    /// The waits that the program asks for, in order.
+    /// The program's waits, in order.
     pub fn waits(&self) -> &[Wait] {
         &self.waits
     }
@@ -160,12 +162,13 @@ impl Path {
         (self.point(0.0) - self.point(self.length())).norm() < SEAM
     }
 
-    /// Unit vector from the tool's tip to the spindle (I, J, K) at the arc length `s` [m]; it turns evenly along each move.
+    /// Unit vector from the tool tip to the spindle (I, J, K) at the arc length `s` [m]. It turns
+    /// at a constant rate along each move.
     pub fn axis(&self, s: f64) -> Vector3<f64> {
         self.axis_at(self.locate(s))
     }
 
-    /// The same at a place of [`Path::locate`].
+    /// The tool axis at a place returned by [`Path::locate`].
     pub(crate) fn axis_at(&self, (index, within): (usize, f64)) -> Vector3<f64> {
         let Move { segment, axis_from, axis_to, .. } = &self.moves[index];
         if axis_from == axis_to {
@@ -177,17 +180,19 @@ impl Path {
         axis_from * cos + side * sin
     }
 
-    /// How far the TCP is turned about the tool axis at the arc length `s` [m], in rad: counter-clockwise, seen from the spindle.
+    /// Rotation of the TCP about the tool axis at the arc length `s` [m], in rad, counter-clockwise
+    /// seen from the spindle.
     pub fn roll(&self, s: f64) -> f64 {
         self.roll.at(s)
     }
 
-    /// Workpiece +X projected across a tool axis.
+    /// Workpiece +X projected onto the plane normal to a tool axis.
     pub fn reference(&self, axis: &Vector3<f64>) -> Vector3<f64> {
         math::across(&-axis, &self.x_reference, &axis.cross(&self.x_reference))
     }
 
-    /// Orientation of the TCP for a tool axis: z = approach (against the axis), x = workpiece +X projected across it, turned by `roll` [rad].
+    /// Orientation of the TCP for a tool axis: z = approach (against the axis), x = workpiece +X
+    /// projected onto the plane normal to the axis, rotated by `roll` [rad].
     pub fn orientation(&self, axis: &Vector3<f64>, roll: f64) -> Matrix3<f64> {
         let z = -axis;
         let mut x = self.reference(axis);
@@ -198,41 +203,43 @@ impl Path {
         Matrix3::from_columns(&[x, z.cross(&x), z])
     }
 
-    /// The move that holds the arc length `s` [m], and the arc length within it; ends belong to the move that starts there.
+    /// The move at the arc length `s` [m], and the arc length within it. A junction belongs to the
+    /// move that starts there.
     pub(crate) fn locate(&self, s: f64) -> (usize, f64) {
         let after = self.starts.partition_point(|&start| start <= s);
         self.within(after.saturating_sub(1).min(self.moves.len() - 1), s)
     }
 
-    /// The same, looked for first in the move `near`: motions go from one move to the next.
+    /// [`Path::locate`], trying the move `near` first: trajectories advance from one move to the
+    /// next.
     pub(crate) fn locate_near(&self, s: f64, near: usize) -> (usize, f64) {
         let last = self.moves.len() - 1;
         let holds = |index: usize| self.starts[index] <= s && (index == last || s < self.starts[index + 1]);
         if near <= last && holds(near) { self.within(near, s) } else { self.locate(s) }
     }
 
-    /// A place in a move that holds the arc length `s` [m].
+    /// The place at the arc length `s` [m] in the move `index`.
     pub(crate) fn within(&self, index: usize, s: f64) -> (usize, f64) {
         (index, (s - self.starts[index]).clamp(0.0, self.moves[index].segment.length()))
     }
 
-    /// The point at a place of [`Path::locate`].
+    /// The point at a place returned by [`Path::locate`].
     pub(crate) fn point_at(&self, (index, within): (usize, f64)) -> Vector3<f64> {
         self.moves[index].segment.point(within)
     }
 
-    /// The point at the arc length `s` [m], limited to the path.
+    /// The point at the arc length `s` [m], clamped to the path.
     pub fn point(&self, s: f64) -> Vector3<f64> {
         self.point_at(self.locate(s))
     }
 
-    /// Unit tangent at the arc length `s` [m]; at a corner that of the segment that starts there.
+    /// Unit tangent at the arc length `s` [m]; at a corner, that of the segment that starts there.
     pub fn tangent(&self, s: f64) -> Vector3<f64> {
         let (index, within) = self.locate(s);
         self.moves[index].segment.tangent(within)
     }
 
-    /// Arc length [m], angle [rad] and the two tangents of every junction of segments, the seam of a closed path left out.
+    /// Every junction of segments except the seam of a closed path.
     pub fn corners(&self) -> impl Iterator<Item = Corner> {
         self.moves.windows(2).zip(&self.starts[1..]).map(|(pair, &s)| {
             let before = pair[0].segment.tangent(pair[0].segment.length());
@@ -241,10 +248,12 @@ impl Path {
         })
     }
 
-    /// The point of the path closest to `p`, searched over arc lengths within `radius` of `near` [m] (eq. 5.2).
+    /// The point on the path closest to `p`, searched over arc lengths within `radius` of `near`
+    /// [m] (eq. 5.2).
     ///
-    /// The search is local so that a path that crosses itself is never matched to the wrong branch, exact
-    /// on the path's own lines and arcs, and runs across the seam of a closed path. Among equals the one nearest to `near` wins.
+    /// The search is local, so a path that crosses itself is never matched to the wrong branch. It
+    /// is exact on lines and arcs, and crosses the seam of a closed path. In a tie, the point
+    /// nearest to `near` wins.
     pub fn closest(&self, p: &Vector3<f64>, near: f64, radius: f64) -> Closest {
         let length = self.length();
         let mut best: Option<(f64, Closest)> = None;
@@ -290,8 +299,8 @@ pub struct Corner {
     pub s: f64,
     /// Angle between the tangents [rad].
     pub angle: f64,
-    /// Unit tangent before it.
+    /// Unit tangent before the corner.
     pub before: Vector3<f64>,
-    /// Unit tangent after it.
+    /// Unit tangent after the corner.
     pub after: Vector3<f64>,
 }

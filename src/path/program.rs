@@ -1,27 +1,28 @@
-//! A program as it was understood: moves in order, and what a person should look at.
+//! A program as it was read: moves in order, and remarks for the user.
 //!
-//! Readers of G-code, APT and CSV all end here; nothing right of this file knows which of them a path came from.
+//! The readers of G-code, APT and CSV all produce a [`Program`]; later stages don't know which
+//! language a path came from.
 
 use crate::path::Segment;
 use nalgebra::Vector3;
 use std::sync::Arc;
 
-/// A toolpath with all that a program says about it. Lengths in m, in the workpiece frame.
+/// A toolpath with everything the program specifies about it. Lengths in m, in the workpiece frame.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Program {
-    /// The moves, each starting where the one before ends.
+    /// The moves; each starts where the previous one ends.
     pub moves: Vec<Move>,
-    /// Waits asked for by the program.
+    /// The program's waits.
     pub dwells: Vec<Dwell>,
-    /// Words that change nothing here (coolant, tool numbers, ...).
+    /// Words without effect here (coolant, tool numbers, ...).
     pub ignored: Vec<Ignored>,
-    /// What is odd but workable, e.g. a move without a feed.
+    /// Oddities that can be worked around, e.g. a move without a feed.
     pub remarks: Vec<Remark>,
-    /// Tools that the program describes.
+    /// Tools described by the program.
     pub tools: Vec<Tool>,
     /// Unit of length of the text, as read: `mm` or `inch`.
     pub unit: &'static str,
-    /// Number of lines of the text.
+    /// Number of lines in the text.
     pub lines: usize,
 }
 
@@ -47,35 +48,35 @@ pub struct Move {
     pub axis_to: Vector3<f64>,
     /// How fast, and whether it cuts.
     pub pace: MovePace,
-    /// Spindle speed [1/s], where the program has said one.
+    /// Spindle speed [1/s], if the program sets one.
     pub spindle: Option<f64>,
     /// Line of the text, from 1.
     pub line: usize,
 }
 
-/// How fast a move runs.
+/// Pace of a move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MovePace {
-    /// Positioning: moves the arm but does not cut.
+    /// Positioning: the arm moves but does not cut.
     Rapid,
     /// Cutting at this feed [m/s].
     Feed(f64),
-    /// Cutting at the job's feed: the program has not said any.
+    /// Cutting at the job's feed, because the program sets none.
     JobFeed,
 }
 
 /// A wait.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dwell {
-    /// Number of moves done before it.
+    /// Number of moves before it.
     pub after: usize,
-    /// Time [s].
+    /// Duration [s].
     pub time: f64,
     /// Line of the text, from 1.
     pub line: usize,
 }
 
-/// A tool that a program describes.
+/// A tool described by a program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tool {
     /// Diameter [m].
@@ -84,7 +85,7 @@ pub struct Tool {
     pub line: usize,
 }
 
-/// A word that is understood and has no effect on the path.
+/// A known word without effect on the path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ignored {
     /// As written.
@@ -93,12 +94,12 @@ pub struct Ignored {
     pub line: usize,
 }
 
-/// Something a person should look at.
+/// A remark for the user.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remark {
     /// Stable slug.
     pub code: &'static str,
-    /// What a person reads.
+    /// Message shown to the user.
     pub message: String,
     /// Line of the text, from 1.
     pub line: usize,

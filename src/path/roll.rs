@@ -1,25 +1,28 @@
-//! Roll: how far the TCP is turned about the tool axis along the path, the degree of freedom that milling
-//! leaves open. The cut does not depend on it; the arm's joints do. A job calls it `spin`.
+//! Roll: rotation of the TCP about the tool axis along the path, the degree of freedom that milling
+//! leaves open. The cut does not depend on it; the joint values do. A job calls it `spin`.
 
 use std::cmp::Ordering;
 
-/// Angle about the tool axis over the arc length.
+/// Angle about the tool axis as a function of the arc length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Roll {
-    /// Arc length [m], angle [rad] and its slope [rad/m], in the order of the arc length; the angle is constant before and after.
+    /// Arc length [m], angle [rad] and its slope [rad/m], in order of arc length. Outside the knots
+    /// the angle is constant.
     knots: Vec<[f64; 3]>,
 }
 
 impl Roll {
-    /// The same angle [rad] all along.
+    /// A constant angle [rad].
     pub fn fixed(angle: f64) -> Self {
         Self { knots: vec![[0.0, angle, 0.0]] }
     }
 
-    /// A smooth curve through points (arc length [m], ascending; angle [rad]) that never leaves the range between neighbours.
+    /// A smooth curve through points (arc length [m], ascending; angle [rad]) that stays within the
+    /// range of neighbouring points.
     ///
-    /// Cubic Hermite pieces with slopes limited so that each is monotone (F. Fritsch, J. Butland, "A method for constructing local
-    /// monotone piecewise cubic interpolants", SIAM J. Sci. Stat. Comput. 5(2), 1984): continuous with its first derivative.
+    /// Cubic Hermite pieces with slopes limited to keep each one monotone (F. Fritsch, J. Butland,
+    /// "A method for constructing local monotone piecewise cubic interpolants", SIAM J. Sci. Stat.
+    /// Comput. 5(2), 1984). The first derivative is continuous.
     pub fn through(points: &[(f64, f64)]) -> Self {
         let secant = |k: usize| (points[k + 1].1 - points[k].1) / (points[k + 1].0 - points[k].0);
         let slope = |k: usize| {
@@ -37,7 +40,7 @@ impl Roll {
         Self { knots: points.iter().enumerate().map(|(k, &(s, angle))| [s, angle, slope(k)]).collect() }
     }
 
-    /// The same over a path `factor` times as long.
+    /// The roll stretched to a path `factor` times as long.
     pub fn stretched(&self, factor: f64) -> Self {
         Self {
             knots: self.knots.iter().map(|[s, angle, slope]| [s * factor, *angle, slope / factor]).collect(),
@@ -54,7 +57,7 @@ impl Roll {
                 let curve = angle * u * u * (1.0 + 2.0 * t)
                     + next * t * t * (3.0 - 2.0 * t)
                     + width * t * u * (slope * u - next_slope * t);
-                // Rounding alone could leave the range.
+                // Rounding could push it out of the range.
                 curve.clamp(angle.min(next), angle.max(next))
             }
             (Some(knot), None) | (None, Some(knot)) => knot[1],
@@ -81,7 +84,7 @@ mod tests {
         }
         assert_eq!((roll.at(-1.0), roll.at(2.0)), (0.3, -0.9));
         assert_eq!(Roll::fixed(0.7).at(0.4), 0.7);
-        // One slope on both sides of every point.
+        // The slope is continuous at every point.
         for (s, _) in points {
             let h = 1e-7;
             let (left, right) = ((roll.at(s) - roll.at(s - h)) / h, (roll.at(s + h) - roll.at(s)) / h);

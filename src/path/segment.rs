@@ -1,9 +1,9 @@
-//! One piece of a path: a straight line, or an arc that may rise along its axis (helix).
+//! One piece of a path: a straight line or an arc, which may be a helix.
 
 use crate::math::{self, Pose, TAU};
 use nalgebra::Vector3;
 
-/// A line or an arc; its parameter is the arc length from its start.
+/// A line or an arc, parametrized by the arc length from its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Segment {
     /// Straight from one point to another [m].
@@ -13,13 +13,13 @@ pub enum Segment {
         /// End [m].
         to: Vector3<f64>,
     },
-    /// Part of a circle, one turn or more, that may rise evenly along its axis.
+    /// Part of a circle, or several turns; a helix if `rise` is not 0.
     Arc {
         /// Centre of the starting circle [m].
         center: Vector3<f64>,
         /// Unit vector from the centre to the start.
         u: Vector3<f64>,
-        /// Unit vector across `u`, in the direction of travel at the start.
+        /// Unit vector normal to `u`, in the direction of travel at the start.
         v: Vector3<f64>,
         /// Radius [m].
         radius: f64,
@@ -45,7 +45,7 @@ impl Segment {
         match self {
             Segment::Line { from, to } => {
                 let length = self.length();
-                // The far half is reckoned from the end, so that the end point is exact.
+                // The second half is computed from the end, so the end point is exact.
                 if s * 2.0 < length {
                     from + (to - from) * (s / length)
                 } else {
@@ -83,9 +83,10 @@ impl Segment {
         }
     }
 
-    /// Arc lengths [m] at which a coordinate may be largest or smallest: the ends, and on an arc where an axis is touched.
+    /// Arc lengths [m] at which a coordinate may be at its maximum or minimum: the ends, and on an
+    /// arc the points where the derivative of a coordinate is zero.
     ///
-    /// A rise along the axes of its own circle, as programs have it, moves none of these places.
+    /// A rise along a coordinate axis, as in programs, does not shift these points.
     pub fn extremes(&self) -> Vec<f64> {
         let length = self.length();
         let mut places = vec![0.0, length];
@@ -101,7 +102,7 @@ impl Segment {
         places
     }
 
-    /// The same segment seen from outside the frame it is drawn in.
+    /// The segment, expressed in the frame in which `frame` is given.
     pub fn placed(&self, frame: &Pose) -> Self {
         match *self {
             Segment::Line { from, to } => Segment::Line { from: frame.point(&from), to: frame.point(&to) },
@@ -116,7 +117,7 @@ impl Segment {
         }
     }
 
-    /// Arc length [m] within [`from`, `to`] of the point closest to `p`.
+    /// Arc length [m] in [`from`, `to`] of the point closest to `p`.
     pub fn closest(&self, p: &Vector3<f64>, from: f64, to: f64) -> f64 {
         match self {
             Segment::Line { from: start, to: end } => {
@@ -131,7 +132,7 @@ impl Segment {
                     // The turn of the bearing that lies in the window, or the nearer end.
                     let middle = (from + to) / 2.0;
                     let s = math::nearest_turn(bearing, middle / per_angle) * per_angle;
-                    // Nothing on a circle is closer than where the bearing points.
+                    // No point on the circle is closer than the one at the bearing.
                     if (from..=to).contains(&s) {
                         return s;
                     }
@@ -143,7 +144,8 @@ impl Segment {
         }
     }
 
-    /// Closest point on a helix: every turn of the bearing in the window starts a Newton iteration on the distance's derivative.
+    /// Closest point on a helix. Each turn of the bearing in the window is the start of a Newton
+    /// iteration on the derivative of the distance.
     fn closest_on_helix(&self, p: &Vector3<f64>, bearing: f64, (from, to): (f64, f64)) -> f64 {
         let Segment::Arc { sweep, .. } = self else { return from };
         let per_angle = self.length() / sweep;

@@ -1,11 +1,12 @@
-//! Shapes drawn without a program: circle, arc, line, rectangle, polyline. Lengths in m, angles in rad.
+//! Shapes drawn without a program: circle, arc, line, rectangle, polyline. Lengths in m, angles in
+//! rad.
 
 use crate::math::{self, FRAC_PI_2, TAU};
 use crate::path::Segment;
 use nalgebra::Vector3;
 
-/// An arc about `normal`, counter-clockwise for a positive `sweep`; angles count from the projection of +X
-/// into the plane (of +Y where the normal is X). A full circle has the sweep 2 pi.
+/// An arc about `normal`, counter-clockwise for a positive `sweep`. Angles are measured from the
+/// projection of +X into the plane (of +Y if the normal is X). A full circle has the sweep 2 pi.
 pub fn arc(center: Vector3<f64>, radius: f64, normal: Vector3<f64>, start: f64, sweep: f64) -> Segment {
     let axis = normal.normalize();
     let zero = math::across(&axis, &Vector3::x(), &Vector3::y());
@@ -21,12 +22,13 @@ pub fn circle(center: Vector3<f64>, radius: f64, normal: Vector3<f64>) -> Segmen
     arc(center, radius, normal, 0.0, TAU)
 }
 
-/// Straight lines through the points, in order.
+/// Straight lines through the points in order.
 pub fn polyline(points: &[Vector3<f64>]) -> Vec<Segment> {
     points.windows(2).map(|pair| Segment::Line { from: pair[0], to: pair[1] }).collect()
 }
 
-/// A rectangle in the XY plane, counter-clockwise seen from +Z, from the start of its lower side, with rounded corners if `corner_radius` > 0.
+/// A rectangle in the XY plane, counter-clockwise seen from +Z, starting at the lower side. Corners
+/// are rounded if `corner_radius` > 0.
 pub fn rectangle(center: Vector3<f64>, width: f64, height: f64, corner_radius: f64) -> Vec<Segment> {
     let (half_x, half_y, r) = (width / 2.0, height / 2.0, corner_radius);
     let corner = |x: f64, y: f64| center + Vector3::new(x * (half_x - r), y * (half_y - r), 0.0);

@@ -1,4 +1,4 @@
-//! Units in which a text gives its lengths and feeds.
+//! Units of the lengths and feeds in a text.
 
 use crate::units::{INCH, MINUTE, MM};
 
@@ -13,7 +13,7 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
-    /// One of it [m].
+    /// The unit in m.
     pub fn in_m(self) -> f64 {
         match self {
             LengthUnit::Mm => MM,
@@ -21,7 +21,7 @@ impl LengthUnit {
         }
     }
 
-    /// As a person reads it.
+    /// Name shown to the user.
     pub fn name(self) -> &'static str {
         match self {
             LengthUnit::Mm => "mm",
@@ -33,17 +33,17 @@ impl LengthUnit {
 /// Unit of the feeds of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FeedUnit {
-    /// Millimetres a second.
+    /// Millimetres per second.
     #[default]
     MmPerS,
-    /// Millimetres a minute.
+    /// Millimetres per minute.
     MmPerMin,
-    /// Inches a minute.
+    /// Inches per minute.
     InchPerMin,
 }
 
 impl FeedUnit {
-    /// One of it [m/s].
+    /// The unit in m/s.
     pub fn in_m_per_s(self) -> f64 {
         match self {
             FeedUnit::MmPerS => MM,
@@ -52,7 +52,7 @@ impl FeedUnit {
         }
     }
 
-    /// As a person reads it.
+    /// Name shown to the user.
     pub fn name(self) -> &'static str {
         match self {
             FeedUnit::MmPerS => "mm/s",

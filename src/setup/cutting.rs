@@ -8,14 +8,14 @@ use crate::job::{self, Choice, Engaged, Job, Line, ToolBending};
 use crate::units::{DEG, GPA, MM, RPM};
 use std::f64::consts::PI;
 
-/// What is cut, and how its coefficients were made.
+/// The material, and how its coefficients were derived.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ResolvedMaterial {
-    /// The material of the library, if it is one.
+    /// The material in the library, if it is one.
     pub material: Option<&'static Material>,
-    /// Its numbers.
+    /// The cutting force model with its numbers.
     pub model: Model,
-    /// The thickness of chip that the coefficients are made for [m], where they depend on it.
+    /// The chip thickness for which the coefficients were derived [m], if they depend on it.
     pub chip: Option<f64>,
 }
 
@@ -24,7 +24,7 @@ const CARBIDE: f64 = 600.0;
 /// Chips thinner than this are below the range of any table [m].
 const THINNEST: f64 = 0.001 * MM;
 
-/// What sets the chip.
+/// How the chip load is determined.
 pub(super) fn chip_load(job: &Job) -> ChipLoad {
     let (flutes, spindle) = (f64::from(job.tool.flutes), job.cutting.spindle_rpm * RPM);
     match job.cutting.feed_per_tooth_mm {
@@ -33,7 +33,7 @@ pub(super) fn chip_load(job: &Job) -> ChipLoad {
     }
 }
 
-/// The cut, and what it is made in.
+/// The cut and its material.
 pub(super) fn cut(job: &Job) -> Result<(Cut, ResolvedMaterial), Error> {
     let tool = &job.tool;
     let corner_radius = match tool.corner_radius_mm {
@@ -67,7 +67,7 @@ pub(super) fn cut(job: &Job) -> Result<(Cut, ResolvedMaterial), Error> {
     Ok((Cut { coefficients, ..cut }, ResolvedMaterial { material, model, chip }))
 }
 
-/// Where the teeth are in the part.
+/// The engagement of the teeth.
 fn engagement(job: &Job) -> Result<Engagement, Error> {
     let cutting = &job.cutting;
     let Some(engaged) = cutting.engagement else {
@@ -103,7 +103,7 @@ fn angles(cutting: &job::Cutting) -> Result<Engagement, Error> {
     Ok(Engagement::Angles { entry: entry * DEG, exit: exit * DEG })
 }
 
-/// The material's model, and the material of the library that it is, if it is one.
+/// The material's model, and the material in the library if it is one.
 fn material_model(given: &job::Material) -> Result<(Option<&'static Material>, Model), Error> {
     let numbers =
         [given.ktc_n_mm2, given.krc_n_mm2, given.kac_n_mm2, given.kte_n_mm, given.kre_n_mm, given.kae_n_mm];
@@ -161,13 +161,13 @@ fn material_model(given: &job::Material) -> Result<(Option<&'static Material>, M
     }
 }
 
-/// The thickness of chip that coefficients are made for [m].
+/// The chip thickness for which the coefficients are derived [m].
 fn chip_thickness(job: &Job, cut: &Cut) -> Result<f64, Error> {
     if let Some(Choice::Value(given, _)) = job.material.chip_thickness_mm {
         return Ok(given * MM);
     }
     let feed = chip_load(job).at(job.motion.feed_mm_s * MM, None);
-    // In the air the edge's first micrometre stands for it.
+    // Without axial depth, the lowest micrometre of the edge stands in for it.
     let mean = Cut { axial_depth: cut.axial_depth.max(THINNEST), ..*cut }.mean_chip(feed);
     if mean >= THINNEST {
         return Ok(mean);
@@ -180,7 +180,7 @@ fn chip_thickness(job: &Job, cut: &Cut) -> Result<f64, Error> {
     Err(Error::missing("material.chip_thickness_mm", expected))
 }
 
-/// How the tool bends, if it does.
+/// The tool's bending model, if it bends.
 pub(super) fn bending(tool: &job::Tool) -> Result<Option<Bending>, Error> {
     match (tool.bending, tool.stickout_mm) {
         (None, Some(_)) => Err(Error::missing("tool.bending", "cantilever, with a stickout")),

@@ -1,4 +1,4 @@
-//! From the job's keys to the validated model in SI: one file for each section of the job.
+//! From the job's keys to the validated model in SI, with one file per section of the job.
 
 mod robot;
 mod path;
@@ -24,15 +24,15 @@ use crate::robot::Robot;
 use crate::units::{DEG, KILOWATT, MM, RPM};
 use nalgebra::Vector3;
 
-/// Most samples a job may have; a 1 ms trajectory of half an hour.
+/// Most samples in a job; half an hour at 1 ms.
 const MAX_SAMPLES: f64 = 2e6;
 
-/// The question in SI, checked: what a run starts from.
+/// The checked job in SI: the input of a run.
 #[derive(Debug, Clone)]
 pub struct Setup {
     /// The arm with its tool.
     pub robot: Robot,
-    /// Where its compliance comes from and how far to trust it.
+    /// Source of its compliance, and how far to trust it.
     pub stiffness_note: String,
     /// Whether its compliance is only an order of magnitude.
     pub stiffness_assumed: bool,
@@ -42,57 +42,58 @@ pub struct Setup {
     pub base: Pose,
     /// The workpiece in the base frame.
     pub workpiece: Pose,
-    /// The program that the path was read from, if it was not drawn from a shape.
+    /// The program that the path was read from; `None` for a shape.
     pub program: Option<SourceProgram>,
-    /// Range and goal of the tool's roll, if it is free; until it is chosen, the path has the fixed one.
+    /// Range and goal of the tool's roll, if it is free. Until it is chosen, the path has the fixed
+    /// roll.
     pub roll_range: Option<RollRange>,
-    /// The fixed roll [rad]; a free one is compared with it.
+    /// The fixed roll [rad]; the reference for a free one.
     pub roll: f64,
-    /// How the path is travelled.
+    /// Limits of the motion along the path.
     pub limits: MotionLimits,
     /// The shaper of the joint commands.
     pub shaper: Shaper,
-    /// Undamped natural frequency [rad/s] and damping ratio of the mode it is made for; `None` without
-    /// a shaper.
+    /// Undamped natural frequency [rad/s] and damping ratio of the shaper's mode; `None` without a
+    /// shaper.
     pub mode: Option<(f64, f64)>,
     /// The cut.
     pub cut: Cut,
-    /// Its mean milling force in {T}.
+    /// Mean milling force in {T}.
     pub mean_force: LinearForce,
-    /// What is cut, and how its coefficients were made.
+    /// The material, and how its coefficients were derived.
     pub material: ResolvedMaterial,
     /// Normal rake of the tool [rad].
     pub rake: f64,
     /// How the tool bends, if it does.
     pub bending: Option<Bending>,
-    /// Rated power of the spindle [W], if it is known.
+    /// Rated spindle power [W], if it is given.
     pub spindle_power: Option<f64>,
-    /// What sets the chip.
+    /// How the chip load is determined.
     pub chip: ChipLoad,
-    /// Teeth that pass in a second [1/s].
+    /// Tooth passing frequency [1/s].
     pub teeth_per_second: f64,
     /// Branch at the start.
     pub start: StartBranch,
-    /// When compensation stops.
+    /// Stopping criterion of the compensation.
     pub goal: Goal,
     /// What is compensated.
     pub sources: Sources,
 }
 
-/// When compensation stops.
+/// Stopping criterion of the compensation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Goal {
     /// Largest contour error to reach [m].
     pub tolerance: f64,
-    /// Most passes.
+    /// Largest number of passes.
     pub max_passes: usize,
 }
 
 impl Setup {
-    /// Checks a job and turns it into SI; reports the share of a program that is read.
+    /// Checks a job and converts it to SI. Reports the fraction of the program that has been read.
     ///
     /// # Errors
-    /// The first thing that is not legal, with its field, value and what would be legal.
+    /// The first invalid value, with its field and what is allowed.
     pub fn of(job: &Job, progress: &mut Progress) -> Result<Self, Error> {
         if job.version != 1 {
             return Err(Error::invalid("version", job.version, "this Armill reads version 1"));
@@ -149,7 +150,7 @@ impl Setup {
     }
 }
 
-/// Refuses a job of more samples than are computed.
+/// Refuses a job with too many samples.
 fn check_samples(path: &Path, limits: &MotionLimits) -> Result<(), Error> {
     let samples = Trajectory::count(path, limits);
     if samples <= MAX_SAMPLES {

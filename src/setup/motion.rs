@@ -8,8 +8,8 @@ use crate::motion::trajectory::MotionLimits;
 use crate::motion::{Shaper, shaper};
 use crate::units::{DEG, HZ, MM};
 
-/// Limits of the motion; a shaped motion waits in corners until the shaper has settled, unless the job
-/// gives another time.
+/// Limits of the motion. A shaped motion waits in corners until the shaper has settled, unless the
+/// job sets another time.
 pub(super) fn limits(motion: &job::Motion, shaper: &Shaper) -> MotionLimits {
     MotionLimits {
         feed: motion.feed_mm_s * MM,
@@ -26,7 +26,7 @@ pub(super) fn limits(motion: &job::Motion, shaper: &Shaper) -> MotionLimits {
     }
 }
 
-/// The branch that the motion starts on.
+/// The branch at the start of the motion.
 pub(super) fn start(branch: job::Branch) -> StartBranch {
     StartBranch {
         front: branch.shoulder == Shoulder::Front,
@@ -55,7 +55,7 @@ pub(super) fn roll_range(spin: &job::Spin) -> Result<Option<RollRange>, Error> {
     Ok(Some(RollRange { low: low * DEG, high: high * DEG, goal }))
 }
 
-/// The shaper, with frequency [rad/s] and damping ratio of the mode it is made for.
+/// The shaper, with frequency [rad/s] and damping ratio of its mode.
 pub(super) fn shaper(given: &job::Shaper) -> Result<(Shaper, Option<(f64, f64)>), Error> {
     let job::Shaper::Spec(ShaperSpec { kind, frequency_rad_s, frequency_hz, damping }) = *given else {
         return Ok((Shaper::none(), None));

@@ -1,4 +1,4 @@
-//! The job's path: a shape, or a program in one of the languages that Armill reads.
+//! The job's path: a shape, or a program in one of the supported languages.
 
 use crate::error::Error;
 use crate::job::{self, FeedUnit, Job, PathKind, Unit, fields};
@@ -8,12 +8,12 @@ use crate::progress::Progress;
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
 
-/// JSON path of the text of a program.
+/// JSON path of a program's text.
 const TEXT: &str = "path.text";
-/// Lines read between two reports of progress.
+/// Lines read between two progress reports.
 const STRIDE: usize = 2048;
 
-/// The desired path in the workpiece frame, with the program it was read from, if it was.
+/// The desired path in the workpiece frame, and the program it was read from, if any.
 pub(super) fn desired(job: &Job, progress: &mut Progress) -> Result<(Path, Option<SourceProgram>), Error> {
     fields::check_path_keys(job)?;
     let given = &job.path;
@@ -31,7 +31,7 @@ pub(super) fn desired(job: &Job, progress: &mut Progress) -> Result<(Path, Optio
     Ok((path, Some(SourceProgram { language, text: text.shared(), program })))
 }
 
-/// The moves of the text, in the workpiece frame.
+/// The program in the text, in the workpiece frame.
 fn program(given: &job::Path, text: &str, progress: &mut Progress) -> Result<Program, Error> {
     let lines = text.lines().count() as f64;
     let mut next = STRIDE;
@@ -81,7 +81,7 @@ fn program(given: &job::Path, text: &str, progress: &mut Progress) -> Result<Pro
         }
     }
 }
-/// A path drawn from a shape.
+/// A path from a shape.
 fn shape(given: &job::Path) -> Result<Path, Error> {
     let vector =
         |value: Option<[f64; 3]>, key: &str| value.ok_or_else(|| need(key)).map(|v| Vector3::from(v) * MM);

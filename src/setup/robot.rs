@@ -1,4 +1,4 @@
-//! The job's robot: a preset of the library, a table of links, or ortho-parallel parameters.
+//! The job's robot: a preset in the library, a table of links, or ortho-parallel parameters.
 
 use crate::error::Error;
 use crate::job::{self, Job, Joint3};
@@ -9,21 +9,21 @@ use crate::units::{DEG, MM};
 pub(super) struct BareArm {
     /// The arm.
     pub(super) robot: Robot,
-    /// Where its compliance comes from and how far to trust it.
+    /// Source of its compliance, and how far to trust it.
     pub(super) stiffness_note: String,
-    /// Whether that is only an order of magnitude.
+    /// Whether the compliance is only an order of magnitude.
     pub(super) stiffness_assumed: bool,
 }
 
-/// A job's arm with its tool, whatever it is to do.
+/// A job's arm with its tool.
 ///
 /// # Errors
-/// What is wrong with the robot.
+/// If the job's robot is invalid.
 pub fn robot(job: &Job) -> Result<Robot, Error> {
     Ok(arm(&job.robot)?.robot.with_tool(super::frame(&job.tool_frame)))
 }
 
-/// The arm that the section `robot` describes.
+/// The arm given in the section `robot`.
 pub(super) fn arm(given: &job::Robot) -> Result<BareArm, Error> {
     let forms = [given.preset.is_some(), given.modified_dh.is_some(), given.opw.is_some()];
     if forms.into_iter().filter(|form| *form).count() > 1 {
@@ -74,7 +74,7 @@ pub(super) fn arm(given: &job::Robot) -> Result<BareArm, Error> {
     Ok(BareArm { robot: robot.with_elbow(elbow)?, stiffness_note, stiffness_assumed })
 }
 
-/// The parameters, checked for what a table of links could not name.
+/// The parameters, checked for errors that a table of links could not name.
 fn ortho_parallel(given: &job::Opw) -> Result<Opw, Error> {
     let job::Opw { a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm, joint_sign, joint_offset_deg } = *given;
     if let Some(i) = joint_sign.iter().position(|sign| sign.abs() != 1.0) {

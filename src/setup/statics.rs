@@ -1,4 +1,4 @@
-//! From the job's tables of springs and loads to what the arm's balance needs.
+//! From the job's tables of springs and loads to the arm's static equilibrium.
 
 use crate::error::Error;
 use crate::job::{self, SagZero};
@@ -11,10 +11,11 @@ use nalgebra::Vector3;
 /// Largest mass of a link or spindle [kg].
 const HEAVIEST: f64 = 1e5;
 
-/// Springs and loads of the arm whose base stands at `base` in the cell; `None` if its joints have no more than their compliance.
+/// Springs and loads of the arm with its base at `base` in the cell; `None` if the joints only have
+/// a compliance.
 ///
 /// # Errors
-/// What is wrong with a row, with its field.
+/// The first invalid row, with its field.
 pub(super) fn of(
     robot: &job::Robot,
     compliance: &Joints,
@@ -56,7 +57,7 @@ pub(super) fn of(
     Ok(Some(JointStatics { springs, loads, gravity, touched_off }))
 }
 
-/// A number from 1 to 6 as an index.
+/// The index of a number from 1 to 6.
 fn one_of_six(number: f64) -> Option<usize> {
     (1..=6).find(|&whole| f64::from(whole) == number).map(|whole| whole as usize - 1)
 }

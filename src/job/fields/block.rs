@@ -1,4 +1,4 @@
-//! From the blocks of `fields.txt`, whose first lines say how they are written, to fields.
+//! Parses the blocks of `fields.txt` into fields. The file's first lines explain the format.
 
 use super::{ChoiceWord, DefaultValue, Field, When, dh_rows, opw};
 use crate::cutting::material::{self, Material};
@@ -6,13 +6,13 @@ use crate::job::Job;
 use crate::robot::library;
 use std::collections::BTreeMap;
 
-/// A block of a table of fields: its first line, and the lines of each key.
+/// A block of the table: its first line, and the lines of each key.
 pub(super) struct FieldBlock {
     head: &'static str,
     keys: Vec<(&'static str, Vec<&'static str>)>,
 }
 
-/// The blocks of a text; lines that are empty or begin with # belong to none.
+/// The blocks of a text. Empty lines and lines that begin with # are skipped.
 pub(super) fn blocks(text: &'static str) -> Vec<FieldBlock> {
     let mut blocks: Vec<FieldBlock> = Vec::new();
     for line in text.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
@@ -26,7 +26,7 @@ pub(super) fn blocks(text: &'static str) -> Vec<FieldBlock> {
             (4, Some(block)) => {
                 block.keys.last_mut().into_iter().for_each(|(_, lines)| lines.push(content));
             }
-            // A line of another indent is the beginning of a block that is no field.
+            // Any other indentation starts a new block, which is not a field.
             _ => blocks.push(FieldBlock { head: line, keys: Vec::new() }),
         }
     }
@@ -34,7 +34,7 @@ pub(super) fn blocks(text: &'static str) -> Vec<FieldBlock> {
 }
 
 impl FieldBlock {
-    /// The field; none if the block breaks the rules at the top of the file.
+    /// The field; `None` if the block breaks the rules at the top of the file.
     pub(super) fn field(&self) -> Option<Field> {
         let (path, kind) = self.head.split_once(": ")?;
         let (kind, unit) = match kind.split_once(" [") {
@@ -82,7 +82,7 @@ impl FieldBlock {
     }
 }
 
-/// The stage that a key of the job belongs to.
+/// The stage of a key of the job.
 fn group(path: &'static str) -> &'static str {
     match path.split('.').next().unwrap_or(path) {
         "tool_frame" | "base_frame" | "workpiece_frame" | "spin" | "start_branch" => "frames",
@@ -90,7 +90,7 @@ fn group(path: &'static str) -> &'static str {
     }
 }
 
-/// The words that a field accepts; those of presets come from the libraries.
+/// The words that a field accepts. Those of presets come from the libraries.
 fn words(path: &str, lines: &[&'static str]) -> Option<Vec<ChoiceWord>> {
     if lines != ["of the library"] {
         let words = lines.iter().flat_map(|line| line.trim_end_matches(';').split("; "));
@@ -114,7 +114,7 @@ fn words(path: &str, lines: &[&'static str]) -> Option<Vec<ChoiceWord>> {
     }
 }
 
-/// What a fresh field shows: a text, a value of the default job's robot, or a value as in the JSON.
+/// The value of a new field: a text, a value of the default job's robot, or a JSON value.
 fn default_value(path: &str, lines: &[&str]) -> Option<DefaultValue> {
     let text = |line: &&str| Some(format!("{}\n", line.strip_prefix('|')?.trim_start()));
     if let Some(text) = lines.iter().map(text).collect() {
@@ -148,7 +148,7 @@ mod tests {
         table().iter().find(|field| field.path == path).unwrap()
     }
 
-    /// Whether a job takes this value, whatever else it misses.
+    /// Whether a job accepts this value, regardless of other missing keys.
     fn is_read(path: &str, value: &Value) -> bool {
         let (section, key) = path.split_once('.').unwrap();
         match Job::from_json(&json!({ section: { key: value } }).to_string()) {
@@ -251,13 +251,13 @@ mod tests {
                 assert!(choices[..k].iter().all(|other| other.value != *value), "{path}: {value} twice");
                 assert!(!label.is_empty(), "{path}: {value}");
                 let given = if *kind == FieldKind::Set { json!([value]) } else { json!(value) };
-                // No shaper is a word instead of the section.
+                // No shaper is a word in place of the section.
                 let none = *path == "shaper.kind" && *value == "none";
                 assert!(none || is_read(path, &given), "{path}: {value}");
             }
             let Some(When { path: other, is }) = when else { continue };
             assert!(!is.is_empty(), "{path}");
-            // A section stands for the forms that the page gives it.
+            // A section stands for the input forms that the page offers for it.
             if other.contains('.') {
                 let known = |word: &&str| field(other).choices.iter().any(|choice| choice.value == *word);
                 assert!(is.iter().all(known), "{path}: {is:?}");

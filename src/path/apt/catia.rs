@@ -1,4 +1,4 @@
-//! Arcs the way CATIA V5 writes them: a direction, then the circle that the tool runs on up to a line.
+//! Arcs as CATIA V5 writes them: a start direction, then the circle and the line that ends the arc.
 
 use super::reader::Reader;
 use super::statement::{AptToken, Statement};
@@ -6,7 +6,8 @@ use crate::error::Error;
 use crate::path::builder::{self, Circle};
 use nalgebra::Vector3;
 
-/// How far a start direction may lie off the circle's tangent (sine of the angle): CAM systems round it.
+/// How far a start direction may lie off the circle's tangent (sine of the angle); CAM systems
+/// round it.
 const OFF_TANGENT: f64 = 0.05;
 
 impl<'a> Reader<'a> {
@@ -30,7 +31,7 @@ impl<'a> Reader<'a> {
         ) else {
             return Err(self.error(&place, statement.written(), unknown));
         };
-        let Some((ahead, said)) = self.ahead.take() else {
+        let Some((ahead, stated_at)) = self.ahead.take() else {
             return Err(self.error(
                 &place,
                 "an arc without a direction",
@@ -44,18 +45,18 @@ impl<'a> Reader<'a> {
                 "an arc starts at the point before it",
             ));
         };
-        let (ahead, _) = builder::unit(ahead).map_err(|fault| fault.at(self.field, said.position()))?;
+        let (ahead, _) = builder::unit(ahead).map_err(|fault| fault.at(self.field, stated_at.position()))?;
         let center = self.point_of(&[xc, circle[1], circle[2]])?;
         let end = self.point_of(&[line[3], line[4], z])?;
         let radius = self.radius(&r)?;
         let spoke = from - center;
         let turn = Vector3::z().dot(&spoke.cross(&ahead));
         let along = turn.abs() / spoke.xy().norm();
-        // Not a number where the start is the centre: no tangent either.
+        // NaN if the start is the centre, which has no tangent either.
         let tangent = along * along > 1.0 - OFF_TANGENT * OFF_TANGENT;
         if !tangent {
             let expected = "INDIRV points along the circle, parallel to the XY plane";
-            return Err(self.error(&said, "a direction that is not the arc's", expected));
+            return Err(self.error(&stated_at, "a direction that is not the arc's", expected));
         }
         let axis = if turn > 0.0 { Vector3::z() } else { -Vector3::z() };
         let target = self.target(&place, end, tool_axis)?;

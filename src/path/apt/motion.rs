@@ -45,7 +45,8 @@ impl<'a> Reader<'a> {
         done.map_err(|fault| fault.at(self.field, place.position()))
     }
 
-    /// Where a move at `place` goes, and how as things stand; this uses up a RAPID.
+    /// End point, pace and spindle speed of a move at `place`, from the current state. Consumes a
+    /// RAPID.
     pub(super) fn target(
         &mut self,
         place: &TextPlace<'_>,
@@ -63,7 +64,7 @@ impl<'a> Reader<'a> {
         Ok(Target { point, axis, pace, spindle, line: place.line })
     }
 
-    /// The pace of the move that stands at `place`.
+    /// The pace of the move at `place`.
     fn pace(&mut self, place: &TextPlace<'_>) -> Result<MovePace, Error> {
         if self.rapid {
             return Ok(MovePace::Rapid);
@@ -122,7 +123,8 @@ impl<'a> Reader<'a> {
             let expected = if movarc {
                 "an arc is MOVARC/xc,yc,zc,i,j,k,r,ANGLE,a"
             } else {
-                "an arc is CIRCLE/xc,yc,zc,i,j,k,r; for longer ones (Siemens NX writes eleven values) let the CAM system write straight moves"
+                "an arc is CIRCLE/xc,yc,zc,i,j,k,r; \
+                 for longer ones (Siemens NX writes eleven values) let the CAM system write straight moves"
             };
             return Err(self.error(
                 &place,

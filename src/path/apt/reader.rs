@@ -1,4 +1,4 @@
-//! The state that APT statements leave behind, and which of them does what.
+//! The modal state of APT statements, and their dispatch.
 
 use super::statement::{Statement, Statements, TextPlace};
 use super::{Options, words};
@@ -8,12 +8,12 @@ use crate::path::program::{Ignored, Program};
 use crate::path::unit::LengthUnit;
 use nalgebra::Vector3;
 
-/// A feed as it was said.
+/// A feed as written.
 #[derive(Clone, Copy)]
 pub(super) enum Feed {
     /// [m/s]
     PerTime(f64),
-    /// [m] a revolution
+    /// [m] per revolution
     PerTurn(f64),
 }
 
@@ -22,25 +22,26 @@ pub(super) struct Reader<'a> {
     pub(super) builder: ProgramBuilder,
     pub(super) unit: LengthUnit,
     pub(super) unit_said: bool,
-    /// Line of the first length that was read.
+    /// Line of the first length.
     pub(super) first_length: Option<usize>,
     pub(super) feed: Option<Feed>,
-    /// Spindle speed [1/s], and whether it is on.
+    /// Spindle speed [1/s].
     pub(super) speed: Option<f64>,
+    /// Whether the spindle is on.
     pub(super) spinning: bool,
     pub(super) rapid: bool,
     pub(super) multax: Option<bool>,
-    /// Axis of the points that come without one.
+    /// Axis of points that have none of their own.
     pub(super) fixed_axis: Option<Vector3<f64>>,
-    /// The circle that waits for the end of its arc, and where it was said.
+    /// The circle of an arc whose end is still to come, and its place.
     pub(super) circle: Option<(Circle, TextPlace<'a>)>,
-    /// The circle of the arc that was just made.
+    /// The circle of the arc completed by the previous statement.
     pub(super) made: Option<Circle>,
-    /// The direction of `INDIRV`, and where it was said.
+    /// The direction of `INDIRV`, and its place.
     pub(super) ahead: Option<(Vector3<f64>, TextPlace<'a>)>,
     /// Line of a `GOHOME`.
     pub(super) home: Option<usize>,
-    /// Where the coordinates' frame lies, as said first.
+    /// The first statement of the coordinates' frame.
     pub(super) frame: Option<String>,
     /// Line of `FINI`.
     pub(super) ended: Option<usize>,
@@ -99,6 +100,7 @@ impl<'a> Reader<'a> {
         Ok(self.builder.finish(unit, lines))
     }
 
+    /// Executes a statement.
     fn follow(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
         let place = &statement.place;
         if let Some(line) = self.ended {
@@ -145,39 +147,47 @@ impl<'a> Reader<'a> {
                 self.builder.remark("home", place.line, || "the way home is not part of the path".into());
             }
             "FINI" => self.ended = Some(place.line),
-            "MSYS" | "ORIGIN" => {
-                let frame = statement.written();
-                if self.frame.as_ref().is_some_and(|first| *first != frame) {
-                    let expected =
-                        "one frame for the whole program: let the CAM system write one file for each";
-                    return Err(self.error(place, frame, expected));
-                }
-                self.frame = Some(frame);
-                self.ignore(statement);
-            }
-            word if words::HARMLESS.contains(&word) => {
-                if matches!(word, "LOADTL" | "LOAD") && !self.builder.program.moves.is_empty() {
-                    self.builder.remark("tool-change", place.line, || {
-                        "the tool changes here; the job's one tool is used for all moves".into()
-                    });
-                }
-                if matches!(word, "CUTTER" | "TLDATA") {
-                    self.tool(statement);
-                }
-                self.ignore(statement);
-            }
-            word if words::CONTROLLER.contains(&word) => {
-                self.builder.remark("controller-text", place.line, || {
-                    format!(
-                        "{}: text for the controller is not followed; it must not move the tool",
-                        statement.written()
-                    )
-                });
-                self.ignore(statement);
-            }
+            "MSYS" | "ORIGIN" => self.frame(statement)?,
+            word if words::HARMLESS.contains(&word) => self.harmless(word, statement),
+            word if words::CONTROLLER.contains(&word) => self.controller_text(statement),
             word => self.other(word, statement)?,
         }
         Ok(())
+    }
+
+    /// The frame of the coordinates, which must not change.
+    fn frame(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
+        let frame = statement.written();
+        if self.frame.as_ref().is_some_and(|first| *first != frame) {
+            let expected = "one frame for the whole program: let the CAM system write one file for each";
+            return Err(self.error(&statement.place, frame, expected));
+        }
+        self.frame = Some(frame);
+        self.ignore(statement);
+        Ok(())
+    }
+
+    /// A word without effect on the path; tools are recorded, and a tool change gets a remark.
+    fn harmless(&mut self, word: &str, statement: &Statement<'a>) {
+        if matches!(word, "LOADTL" | "LOAD") && !self.builder.program.moves.is_empty() {
+            self.builder.remark("tool-change", statement.place.line, || {
+                "the tool changes here; the job's one tool is used for all moves".into()
+            });
+        }
+        if matches!(word, "CUTTER" | "TLDATA") {
+            self.tool(statement);
+        }
+        self.ignore(statement);
+    }
+
+    fn controller_text(&mut self, statement: &Statement<'a>) {
+        self.builder.remark("controller-text", statement.place.line, || {
+            format!(
+                "{}: text for the controller is not followed; it must not move the tool",
+                statement.written()
+            )
+        });
+        self.ignore(statement);
     }
 
     /// Words that are refused, unless they only switch off what was never on.
@@ -205,6 +215,7 @@ impl<'a> Reader<'a> {
         Err(self.error(place, format!("the unknown word \"{word}\""), expected))
     }
 
+    /// Lists a statement without effect on the path.
     pub(super) fn ignore(&mut self, statement: &Statement<'_>) {
         self.builder.program.ignored.push(Ignored { word: statement.written(), line: statement.place.line });
     }

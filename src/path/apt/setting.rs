@@ -1,4 +1,4 @@
-//! Statements that hold for what follows: FEDRAT, SPINDL, UNITS; and waits.
+//! Statements that set a state (FEDRAT, SPINDL, UNITS), and waits.
 
 use super::reader::{Feed, Reader};
 use super::statement::Statement;
@@ -92,7 +92,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Notes the diameter of `CUTTER/d,...` and of a mill's `TLDATA/MILL,d,...`, in the text's unit: the path is the tip's, whatever the tool.
+    /// Records the diameter of `CUTTER/d,...` and of a mill's `TLDATA/MILL,d,...`, in the text's
+    /// unit. The path is that of the tip, whatever the tool.
     pub(super) fn tool(&mut self, statement: &Statement<'a>) {
         let Ok(tokens) = statement.tokens() else { return };
         let diameter = match tokens.as_slice() {

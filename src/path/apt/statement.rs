@@ -1,10 +1,12 @@
-//! Statements of an APT text: lines joined at `$`, comments cut at `$$`, a major word and what follows its slash.
+//! Statements of an APT text: lines joined at `$`, comments cut at `$$`, each a major word and its
+//! values after a slash.
 
 use crate::error::Error;
 use crate::path::builder::Fault;
 use std::str::Lines;
 
-/// Words whose text is for people or for the controller: the whole line is theirs, `$` included.
+/// Words followed by text for people or for the controller, up to the end of the line, `$`
+/// included.
 const FREE_TEXT: [&str; 6] = ["PARTNO", "PPRINT", "REMARK", "INSERT", "TPRINT", "LETTER"];
 
 /// A place in the text.
@@ -23,7 +25,7 @@ impl TextPlace<'_> {
     }
 }
 
-/// What stands between two commas.
+/// The text between two commas.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AptToken<'a> {
     pub(super) text: &'a str,
@@ -31,7 +33,7 @@ pub(super) struct AptToken<'a> {
 }
 
 impl<'a> AptToken<'a> {
-    /// What follows `(WORD/`, if it starts so.
+    /// What follows `(WORD/`, if the token starts with it.
     pub(super) fn opened(&self, word: &str) -> Option<Self> {
         let inner = self.text.strip_prefix('(')?.trim_start();
         let name = inner.get(..word.len()).filter(|name| name.eq_ignore_ascii_case(word))?;
@@ -40,19 +42,19 @@ impl<'a> AptToken<'a> {
         Some(Self { text: value, place: TextPlace { byte, ..self.place } })
     }
 
-    /// What stands before `)`, if it ends so.
+    /// What precedes `)`, if the token ends with it.
     pub(super) fn closed(&self) -> Option<Self> {
         self.text.strip_suffix(')').map(|text| Self { text: text.trim_end(), ..*self })
     }
 
-    /// The number that it is, if it is one.
+    /// The token as a number, if it is one.
     pub(super) fn number(&self) -> Option<f64> {
         let numeric = self.text.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
         // `inf` and `nan` are words here.
         if numeric { self.text.parse().ok().filter(|value: &f64| value.is_finite()) } else { None }
     }
 
-    /// Whether it is this word, in any case.
+    /// Whether the token is this word, in any case.
     pub(super) fn is(&self, word: &str) -> bool {
         self.text.eq_ignore_ascii_case(word)
     }
@@ -60,20 +62,20 @@ impl<'a> AptToken<'a> {
 
 /// One statement.
 pub(super) struct Statement<'a> {
-    /// The major word: upper case, blanks squeezed.
+    /// The major word: upper case, single blanks.
     pub(super) word: String,
-    /// Where the major word stands.
+    /// Place of the major word.
     pub(super) place: TextPlace<'a>,
-    /// What follows the slash, piece by piece of each line.
+    /// What follows the slash, one piece per line.
     rest: Vec<TextPlace<'a>>,
     slash: bool,
 }
 
 impl<'a> Statement<'a> {
-    /// What follows the slash, cut at commas; none if there is no slash.
+    /// What follows the slash, cut at commas; empty without a slash.
     ///
     /// # Errors
-    /// The place of a continued line that has no comma before it.
+    /// The place of a continuation line that has no comma before it.
     pub(super) fn tokens(&self) -> Result<Vec<AptToken<'a>>, TextPlace<'a>> {
         let mut tokens: Vec<AptToken<'a>> = Vec::with_capacity(6);
         let mut wanted = self.slash;
@@ -85,7 +87,8 @@ impl<'a> Statement<'a> {
                 let token = TextPlace { byte: byte + cell.len() - cell.trim_start().len(), ..*place };
                 byte += cell.len() + 1;
                 if trimmed.is_empty() && (!comma || !wanted) {
-                    // The line ends at a comma, or starts with one that the line before left out.
+                    // The line ends with a comma, or starts with the one that the previous line
+                    // left out.
                     wanted |= comma;
                     continue;
                 }
@@ -102,13 +105,13 @@ impl<'a> Statement<'a> {
         Ok(tokens)
     }
 
-    /// Where the statement ends.
+    /// End of the statement.
     pub(super) fn end(&self) -> TextPlace<'a> {
         let last = self.rest.last().copied().unwrap_or(self.place);
         TextPlace { byte: last.text.trim_end().len(), ..last }
     }
 
-    /// The statement as written, blanks squeezed.
+    /// The statement as written, with single blanks.
     pub(super) fn written(&self) -> String {
         let mut text = self.word.clone();
         text.push(if self.slash { '/' } else { ' ' });
@@ -123,7 +126,7 @@ impl<'a> Statement<'a> {
 pub(super) struct Statements<'a> {
     lines: std::iter::Enumerate<Lines<'a>>,
     field: &'a str,
-    /// Lines seen.
+    /// Number of lines read.
     pub(super) count: usize,
 }
 
@@ -133,7 +136,7 @@ impl<'a> Statements<'a> {
         Self { lines: text.lines().enumerate(), field, count: 0 }
     }
 
-    /// The next line with words on it, its end in bytes, and whether it goes on.
+    /// The next line that is not blank, without its comment, and whether it is continued.
     fn line(&mut self) -> Option<(TextPlace<'a>, bool)> {
         for (index, text) in self.lines.by_ref() {
             self.count = index + 1;

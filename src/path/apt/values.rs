@@ -1,4 +1,4 @@
-//! What follows a statement's slash: words, numbers, points and axes.
+//! Values after a statement's slash: words, numbers, points and axes.
 
 use super::reader::Reader;
 use super::statement::{AptToken, Statement, TextPlace};
@@ -32,22 +32,22 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The statement's only word, which has to be one of these; none if it has no values.
+    /// The statement's only word, which must be one of `allowed`; `None` if it has no values.
     pub(super) fn words(
         &self,
         statement: &Statement<'a>,
-        legal: &[&'static str],
+        allowed: &[&'static str],
     ) -> Result<Option<&'static str>, Error> {
         let tokens = self.tokens(statement)?;
         let Some(token) = tokens.first() else { return Ok(None) };
-        match legal.iter().find(|word| token.is(word)) {
+        match allowed.iter().find(|word| token.is(word)) {
             Some(word) if tokens.len() == 1 => Ok(Some(word)),
             _ => {
                 let token =
-                    tokens.get(1).filter(|_| legal.iter().any(|word| token.is(word))).unwrap_or(token);
-                let expected = match legal {
+                    tokens.get(1).filter(|_| allowed.iter().any(|word| token.is(word))).unwrap_or(token);
+                let expected = match allowed {
                     [] => format!("{} stands alone", statement.word),
-                    _ => format!("{} is followed by {}", statement.word, legal.join(" or ")),
+                    _ => format!("{} is followed by {}", statement.word, allowed.join(" or ")),
                 };
                 Err(self.error(&token.place, format!("\"{}\"", token.text), expected))
             }
@@ -64,7 +64,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// All values as numbers, as many as one of `counts` says.
+    /// All values as numbers; their count must be one of `counts`.
     pub(super) fn numbers(
         &self,
         statement: &Statement<'a>,
@@ -85,7 +85,7 @@ impl<'a> Reader<'a> {
         ))
     }
 
-    /// A radius in m.
+    /// A radius [m].
     pub(super) fn radius(&self, token: &AptToken<'_>) -> Result<f64, Error> {
         let number = self.number(token)?;
         if number <= 0.0 {
@@ -99,7 +99,7 @@ impl<'a> Reader<'a> {
             .map_err(|fault| fault.at(self.field, token.place.position()))
     }
 
-    /// Three coordinates in m.
+    /// Three coordinates [m].
     pub(super) fn point(&mut self, numbers: &[f64], tokens: &[AptToken<'_>]) -> Result<Vector3<f64>, Error> {
         let mut point = Vector3::zeros();
         for ((value, number), token) in point.iter_mut().zip(numbers).zip(tokens) {

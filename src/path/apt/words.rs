@@ -1,8 +1,9 @@
-//! The major words of APT that are known but do not make a path: those that do no harm, and those that would change it.
+//! Known major words of APT that make no path: harmless ones, and ones that would change it.
 //!
-//! Words from ISO 4343:2000 (NC processor output, post processor commands), PTC's and Siemens's manuals and CATIA's output.
+//! Sources: ISO 4343:2000 (NC processor output, post processor commands), manuals of PTC and
+//! Siemens, and CATIA's output.
 
-/// Words that neither move the tool nor change where it goes: listed, not followed.
+/// Words that neither move the tool nor change its path: listed only.
 pub(super) const HARMLESS: [&str; 48] = [
     "AIR",
     "AUTOPS",
@@ -54,16 +55,17 @@ pub(super) const HARMLESS: [&str; 48] = [
     "TOOL PATH",
 ];
 
-/// Words whose text goes to the controller as it stands: listed with a remark, because it may move the tool.
+/// Words whose text goes to the controller unchanged: listed with a remark, because it may move the
+/// tool.
 pub(super) const CONTROLLER: [&str; 3] = ["AUXFUN", "INSERT", "PREFUN"];
 
-/// Words of the reader itself, for suggestions.
+/// Words that the reader supports, for suggestions.
 pub(super) const READ: [&str; 18] = [
     "CIRCLE", "CUTCOM", "CYCLE", "DELAY", "DWELL", "FEDRAT", "FINI", "FROM", "GOHOME", "GOTO", "INDIRV",
     "MOVARC", "MULTAX", "ORIGIN", "RAPID", "SPINDL", "TLAXIS", "UNITS",
 ];
 
-/// What to do about a word that changes the path in a way that is not followed here.
+/// What to do about a word that changes the path in an unsupported way.
 pub(super) fn refused(word: &str) -> Option<&'static str> {
     Some(match word {
         "TRACUT" | "TRANS" | "COPY" | "ROTATE" | "MIRROR" | "SCALE" | "REFSYS" | "MATRIX" | "CSYS" => {
@@ -96,9 +98,9 @@ pub(super) fn refused(word: &str) -> Option<&'static str> {
     })
 }
 
-/// The known word that looks most like this one.
+/// The most similar known word.
 pub(super) fn nearest(word: &str) -> Option<&'static str> {
-    // No word of APT is so long, and comparing a whole file that is none takes its time.
+    // No APT word is that long, and comparing a whole file of another kind would be slow.
     if word.len() > 30 {
         return None;
     }

@@ -1,6 +1,6 @@
-//! Lines of text cut into cells, and cells read as numbers.
+//! Splits lines into cells, and reads cells as numbers.
 
-/// What separates the cells of a line.
+/// Separator of the cells in a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Separator {
     Semicolon,
@@ -13,9 +13,9 @@ pub(crate) fn position(line: usize, text: &str, byte: usize) -> (usize, usize) {
     (line, text[..byte].chars().count() + 1)
 }
 
-/// The number of a cell; with a decimal comma where one is allowed.
+/// The number in a cell; `comma` allows a decimal comma.
 pub(crate) fn number(cell: &str, comma: bool) -> Option<f64> {
-    // `inf` and `nan` are no numbers here.
+    // `inf` and `nan` are not numbers here.
     if !cell.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b) || (comma && b == b',')) {
         return None;
     }
@@ -31,7 +31,8 @@ pub(crate) fn number(cell: &str, comma: bool) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// Whether a line holds no row: nothing but separators, or a comment that starts with a semicolon and a word.
+/// Whether a line is skipped: only separators, or a comment that starts with a semicolon and a
+/// word.
 pub(crate) fn is_passed_over(text: &str) -> bool {
     let rest = text.trim_start();
     let comment =
@@ -39,7 +40,7 @@ pub(crate) fn is_passed_over(text: &str) -> bool {
     comment || rest.chars().all(|c| c.is_whitespace() || c == ',' || c == ';')
 }
 
-/// Cuts a line into cells, each with its byte in the line. One separator may end the line.
+/// Splits a line into cells, each with its byte offset. A trailing separator is allowed.
 pub(crate) fn separate<'a>(text: &'a str, cells: &mut Vec<(usize, &'a str)>) -> Separator {
     let mut cut = |separator: Separator| {
         cells.clear();
@@ -62,7 +63,8 @@ pub(crate) fn separate<'a>(text: &'a str, cells: &mut Vec<(usize, &'a str)>) -> 
     if text.contains(';') {
         return cut(Separator::Semicolon);
     }
-    // Commas are decimal signs where blanks separate and each has a digit on both sides: in `1,5 2,5`, not in `1, 2`.
+    // Commas are decimal signs if blanks separate the cells and each comma has a digit on both
+    // sides: in `1,5 2,5`, but not in `1, 2`.
     let inner_blank = |cell: &str| cell.trim().contains(char::is_whitespace);
     let digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
     let bytes = text.as_bytes();

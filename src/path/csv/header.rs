@@ -1,4 +1,4 @@
-//! Which column is what, and in which unit.
+//! The meaning and unit of each column.
 
 use crate::path::builder::Fault;
 use crate::path::unit::{FeedUnit, LengthUnit};
@@ -6,9 +6,9 @@ use crate::path::unit::{FeedUnit, LengthUnit};
 /// How many columns a text may have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Width {
-    /// x, y, z and nothing else.
+    /// x, y, z only.
     Points,
-    /// x, y, z, and also an axis and a feed.
+    /// x, y, z, optionally an axis and a feed.
     Any,
 }
 
@@ -19,15 +19,15 @@ pub(super) struct Columns {
     pub(super) point: [usize; 3],
     pub(super) axis: Option<[usize; 3]>,
     pub(super) feed: Option<usize>,
-    /// Unit of length that the header gives.
+    /// Unit of length in the header.
     pub(super) unit: Option<LengthUnit>,
-    /// Unit of feed that the header gives.
+    /// Unit of feed in the header.
     pub(super) feed_unit: Option<FeedUnit>,
-    /// Whether a header named them.
+    /// Whether a header names the columns.
     pub(super) named: bool,
 }
 
-/// What columns may be called, in lower case: the parts of a row in the order that a text without header has.
+/// Column names in lower case, in the order of the parts of a row without a header.
 const NAMES: [&[&str]; 7] = [
     &["x", "px", "posx"],
     &["y", "py", "posy"],
@@ -39,7 +39,7 @@ const NAMES: [&[&str]; 7] = [
 ];
 
 impl Columns {
-    /// What the cells are without a header.
+    /// The columns of a text without a header.
     pub(super) fn of_count(count: usize, width: Width) -> Result<Self, Fault> {
         let (axis, feed) = match (count, width) {
             (3, _) => (None, None),
@@ -57,7 +57,7 @@ impl Columns {
         Ok(Self { count, point: [0, 1, 2], axis, feed, unit: None, feed_unit: None, named: false })
     }
 
-    /// What the names of a header say; a fault comes with the index of its cell.
+    /// The columns of a header. A fault comes with the index of its cell.
     pub(super) fn of_names(names: &[&str], width: Width) -> Result<Self, (usize, Fault)> {
         let mut places = [None; 7];
         let (mut unit, mut feed_unit) = (None, None);
@@ -69,24 +69,24 @@ impl Columns {
                     "the columns are x, y, z, i, j, k and feed, with or without a unit: x [mm], y_in"
                 }
             };
-            let (part, said) = part_and_unit(name).ok_or_else(|| fault(unknown))?;
+            let (part, stated) = part_and_unit(name).ok_or_else(|| fault(unknown))?;
             if width == Width::Points && part > 2 {
                 return Err(fault(unknown));
             }
             if places[part].replace(index).is_some() {
                 return Err(fault("each column stands once"));
             }
-            match (part, said.as_str()) {
+            match (part, stated.as_str()) {
                 (_, "") => {}
-                (0..3, said) => {
-                    let read = length_unit(said).ok_or_else(|| fault("lengths are in mm or in"))?;
+                (0..3, stated) => {
+                    let read = length_unit(stated).ok_or_else(|| fault("lengths are in mm or in"))?;
                     if unit.replace(read).is_some_and(|before| before != read) {
                         return Err(fault("x, y and z have the same unit"));
                     }
                 }
-                (6, said) => {
+                (6, stated) => {
                     feed_unit =
-                        Some(speed_unit(said).ok_or_else(|| fault("feeds are in mm/s, mm/min or in/min"))?);
+                        Some(speed_unit(stated).ok_or_else(|| fault("feeds are in mm/s, mm/min or in/min"))?);
                 }
                 _ => return Err(fault("i, j and k have no unit")),
             }
@@ -103,13 +103,13 @@ impl Columns {
     }
 }
 
-/// Which part of a row a name stands for, and the unit that it carries: `x_mm`, `Feed rate [mm/min]`.
+/// The part of a row that a name stands for, and its unit: `x_mm`, `Feed rate [mm/min]`.
 fn part_and_unit(name: &str) -> Option<(usize, String)> {
     let name = name.to_lowercase();
     let apart = |c: char| c.is_whitespace() || "_-/.:[]()".contains(c);
     let mut words: Vec<&str> = name.split(apart).filter(|word| !word.is_empty() && *word != "per").collect();
     let part_of = |name: &str| NAMES.iter().position(|names| names.contains(&name));
-    // Two words may be one name: axis i, pos x, feed rate.
+    // A name may have two words: axis i, pos x, feed rate.
     let joined = words.get(..2).map(<[&str]>::concat);
     let part = match joined.and_then(|joined| part_of(&joined)) {
         Some(part) => {

@@ -1,11 +1,13 @@
-//! Points typed or pasted as text, one row a line: `x, y, z[, i, j, k][, feed]`.
+//! Points typed or pasted as text, one row per line: `x, y, z[, i, j, k][, feed]`.
 //!
-//! Cells are separated by semicolon, comma, tab or blanks. A comma is the decimal sign where something else separates the cells
-//! (`1,5; 2,5; 3,5`). A first row of names says which column is what, in any order, and may give units: `x [mm]`, `feed_mm_min`.
-//! Without it, three cells are x, y, z; four end in a feed; six end in an axis; seven have both. Blank lines and what follows `#`
-//! are passed over, and so is a line that starts with `;` and a word.
+//! Cells are separated by semicolons, commas, tabs or blanks. A comma is the decimal sign if
+//! something else separates the cells (`1,5; 2,5; 3,5`). A header row names the columns, in any
+//! order, and may give units: `x [mm]`, `feed_mm_min`. Without a header, three cells are x, y, z; a
+//! fourth is a feed; six end with an axis; seven have both. Blank lines and text after `#` are
+//! skipped, and so are lines that start with `;` and a word.
 //!
-//! The path runs straight from row to row. The axis (i, j, k) points from tip to spindle; a row's feed is that of the move that ends there.
+//! The path runs straight from row to row. The axis (i, j, k) points from tip to spindle. A row's
+//! feed applies to the move that ends there.
 
 pub(crate) mod cell;
 mod header;
@@ -19,25 +21,25 @@ use header::Width;
 use nalgebra::Vector3;
 use row::Rows;
 
-/// What the text itself may leave open.
+/// Settings that the text may leave open.
 #[derive(Debug, Clone, Copy)]
 pub struct Options<'a> {
     /// JSON path of the text, for errors.
     pub field: &'a str,
-    /// Unit of x, y, z; the same unit or none may stand in the header.
+    /// Unit of x, y and z; a unit in the header takes precedence.
     pub unit: LengthUnit,
-    /// Unit of the feed; the header's unit holds where it gives one.
+    /// Unit of the feed; a unit in the header takes precedence.
     pub feed_unit: FeedUnit,
 }
 
-/// Reads rows of points, with or without tool axis and feed, into a program of straight moves;
-/// `on_line` is called with the number of lines done after each row.
+/// Reads rows of points, with or without tool axis and feed, into a program of straight moves.
+/// `on_line` is called after each row with the number of lines read.
 ///
-/// A row at the place of the one before makes no move. Rows of whole numbers like `1,5,2,5`, without a header, are refused
-/// where nothing in the text says whether the commas are decimal signs.
+/// A row at the point of the previous one makes no move. Rows of whole numbers such as `1,5,2,5`
+/// without a header are refused if nothing in the text shows whether the commas are decimal signs.
 ///
 /// # Errors
-/// [`Error::Text`] with line and column of the first cell that is not what its column needs.
+/// [`Error::Text`] with line and column of the first cell that does not fit its column.
 pub fn program(text: &str, options: &Options<'_>, mut on_line: impl FnMut(usize)) -> Result<Program, Error> {
     let mut builder = ProgramBuilder::default();
     let mut rows = Rows::new(text, options.field, options.unit, Width::Any);
@@ -74,10 +76,11 @@ pub fn program(text: &str, options: &Options<'_>, mut on_line: impl FnMut(usize)
     Ok(builder.finish(rows.unit().name(), rows.lines()))
 }
 
-/// Reads rows of x, y, z [mm, where the header says nothing else] into points [m].
+/// Reads rows of x, y, z [mm unless the header gives another unit] into points [m].
 ///
 /// # Errors
-/// [`Error::Text`] with line and column of the first thing that is not a number, or of a row that has not three of them.
+/// [`Error::Text`] with line and column of the first cell that is not a number, or of a row that
+/// does not have three cells.
 pub fn points(text: &str, field: &str) -> Result<Vec<Vector3<f64>>, Error> {
     let mut points = Vec::new();
     let mut rows = Rows::new(text, field, LengthUnit::Mm, Width::Points);

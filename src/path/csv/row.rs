@@ -1,4 +1,4 @@
-//! Rows of numbers: lines cut into cells, and what a comma means.
+//! Rows of numbers: lines split into cells, and the meaning of commas.
 
 use super::cell::{Separator, is_passed_over, number, position, separate};
 use super::header::{Columns, Width};
@@ -8,7 +8,7 @@ use crate::path::unit::LengthUnit;
 use nalgebra::Vector3;
 use std::str::Lines;
 
-/// What commas were in the rows so far.
+/// Meaning of the commas in the rows so far.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Comma {
     Separator,
@@ -17,10 +17,10 @@ enum Comma {
 
 /// One row of numbers.
 pub(super) struct Row<'a> {
-    /// From 1.
+    /// Line of the text, from 1.
     pub(super) line: usize,
     pub(super) columns: Columns,
-    /// The numbers in the order of the text; as many as there are columns.
+    /// The numbers in the order of the text; only the first `columns.count` are used.
     pub(super) numbers: [f64; 7],
     /// x, y, z [m].
     pub(super) point: Vector3<f64>,
@@ -35,7 +35,7 @@ impl Row<'_> {
     }
 }
 
-/// The rows of a text in order.
+/// The rows of a text, in order.
 pub(super) struct Rows<'a> {
     lines: std::iter::Enumerate<Lines<'a>>,
     count: usize,
@@ -46,9 +46,9 @@ pub(super) struct Rows<'a> {
     comma: Option<Comma>,
     /// Whether a decimal point has been seen.
     decimal_point: bool,
-    /// Whether a row has shown that its commas separate.
+    /// Whether a row has shown that its commas are separators.
     settled: bool,
-    /// The first row whose commas may be either, and where it stands.
+    /// The first row whose commas may be either, with its position.
     ambiguous: Option<((usize, usize), &'a str)>,
     cells: Vec<(usize, &'a str)>,
 }
@@ -71,12 +71,12 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Lines seen.
+    /// Number of lines read.
     pub(super) fn lines(&self) -> usize {
         self.count
     }
 
-    /// The unit of length that holds.
+    /// The unit of length in effect.
     pub(super) fn unit(&self) -> LengthUnit {
         self.columns.and_then(|columns| columns.unit).unwrap_or(self.unit)
     }
@@ -117,7 +117,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// The columns that the first line names, and whether it is a header.
+    /// The columns given by the first line, and whether it is a header.
     fn columns_of(&mut self, text: &'a str) -> Result<(Columns, bool), Error> {
         let line = self.count;
         let named = |cell: &str| cell.trim_matches('"').chars().next().is_some_and(char::is_alphabetic);
@@ -131,7 +131,7 @@ impl<'a> Rows<'a> {
                 .map(|columns| (columns, false))
                 .map_err(|fault| self.miscounted(text, most, fault));
         }
-        // Between blanks, a unit in brackets belongs to the name before it.
+        // With blanks as separators, a unit in brackets belongs to the name before it.
         let mut names: Vec<(usize, &str)> = Vec::new();
         for (start, cell) in &self.cells {
             match names.last_mut() {
@@ -146,7 +146,8 @@ impl<'a> Rows<'a> {
         })
     }
 
-    /// The error of a line with the wrong number of cells; a cell that is no number says more than their count.
+    /// The error for a line with the wrong number of cells. A cell that is not a number is reported
+    /// in preference to the count.
     fn miscounted(&self, text: &str, count: usize, fault: Fault) -> Error {
         let of = |start: usize| position(self.count, text, start);
         let wrong = self.cells.iter().find(|(_, cell)| number(cell, true).is_none());
@@ -190,7 +191,7 @@ impl<'a> Rows<'a> {
         }
         if separator == Separator::Comma && !columns.named && columns.count.is_multiple_of(2) && !self.settled
         {
-            // A point, an exponent, or a sign where a fraction would stand.
+            // A decimal point, an exponent, or a sign where the fraction would be.
             let shows = |(index, (_, cell)): (usize, &(usize, &str))| {
                 cell.contains(['.', 'e', 'E']) || (index % 2 == 1 && cell.starts_with(['-', '+']))
             };

@@ -1,10 +1,10 @@
-//! The geometry of G2 and G3: from a centre or a radius to arcs that join their ends exactly.
+//! Geometry of G2 and G3: from a centre or a radius to arcs that join their ends exactly.
 
 use crate::math::{self, PI, TAU};
 use crate::path::Segment;
 use nalgebra::Vector3;
 
-/// The plane of arcs, of cycles, and of I, J and K.
+/// The plane of arcs, canned cycles, and I, J and K.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Plane {
     /// G17.
@@ -16,8 +16,8 @@ pub(super) enum Plane {
 }
 
 impl Plane {
-    /// Number of the plane's first axis, second axis and normal, right-handed: in G18 these are Z,
-    /// X and Y, so that counter-clockwise there is seen from +Y.
+    /// Indices of the plane's first axis, second axis and normal, right-handed. For G18 these are
+    /// Z, X and Y, so counter-clockwise is seen from +Y.
     pub(super) fn axes(self) -> [usize; 3] {
         match self {
             Plane::Xy => [0, 1, 2],
@@ -27,10 +27,10 @@ impl Plane {
     }
 }
 
-/// An arc or helix as G2 and G3 say it; lengths in m.
+/// An arc or helix as given by G2 and G3; lengths in m.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Arc {
-    /// The plane it turns in.
+    /// The plane of the arc.
     pub(super) plane: Plane,
     /// Start.
     pub(super) from: Vector3<f64>,
@@ -42,27 +42,28 @@ pub(super) struct Arc {
     pub(super) extra_turns: f64,
 }
 
-/// Ends of an arc that are nearer than this, across the plane's normal, make a full circle [m].
+/// Ends of an arc closer than this in the plane make a full circle [m].
 pub(super) const SAME: f64 = 1e-9;
 
-/// A centre may move this far to keep an arc in one piece [m].
+/// The centre may move this far to keep an arc in one piece [m].
 const NEGLIGIBLE: f64 = 1e-6;
 
-/// Why there is no such arc.
+/// Why an arc is impossible.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Misfit {
-    /// The centre lies on the start.
+    /// The centre coincides with the start.
     NoRadius,
-    /// Distance of the centre from the start, from the end, and by how much they may differ [m].
+    /// Distance of the centre from the start and from the end, and their largest allowed difference
+    /// [m].
     Radii(f64, f64, f64),
-    /// A radius with a start that is the end: any of many circles.
+    /// A radius without a centre for a full circle, which leaves the centre open.
     NoChord,
-    /// The ends are farther apart than twice the radius: their distance [m].
+    /// The ends are farther apart than twice the radius; their distance [m].
     TooShort(f64),
 }
 
 impl Arc {
-    /// Where the segments really end: `to`, but for a full circle, which closes exactly [m].
+    /// End of the segments [m]: `to`, except for a full circle, which closes exactly.
     pub(super) fn end(&self) -> Vector3<f64> {
         let [_, _, n] = self.plane.axes();
         let mut end = if self.is_full() { self.from } else { self.to };
@@ -70,11 +71,11 @@ impl Arc {
         end
     }
 
-    /// The centre of the arc with this radius [m]; a negative one takes the long way round (more
-    /// than half a turn).
+    /// The centre of the arc with this radius [m]. A negative radius selects the arc of more than
+    /// half a turn.
     ///
-    /// A radius that is short of half the distance of the ends by no more than `tolerance(radius)`
-    /// gives half a circle.
+    /// If the radius is less than half the chord by at most `tolerance(radius)`, the arc is a
+    /// semicircle.
     pub(super) fn center_for(
         &self,
         radius: f64,
@@ -101,11 +102,11 @@ impl Arc {
 
     /// The arc about `center` [m].
     ///
-    /// The programmed ends are kept; the centre, which CAM systems round, moves along the chord
-    /// until both radii are equal. Where that would move the far side of the arc by more than the
+    /// The programmed ends are kept. The centre, which CAM systems round, moves along the chord
+    /// until both radii are equal. If that would move the far side of the arc by more than the
     /// radii differ (nearly full circles), the arc becomes a spiral of pieces of at most half a
-    /// turn. Either way no point is farther from the programmed circle than the radii differ, or
-    /// than a micrometre.
+    /// turn. Either way, no point is farther from the programmed circle than the difference of the
+    /// radii, or a micrometre.
     pub(super) fn about(
         &self,
         center: &Vector3<f64>,
@@ -153,20 +154,20 @@ impl Arc {
         chain.collect()
     }
 
-    /// Whether the segments of this arc turn almost a full circle between ends that are no more
-    /// than `apart` from each other [m].
+    /// Whether the segments make almost a full circle between ends no more than `apart` [m] from
+    /// each other.
     pub(super) fn is_nearly_full(&self, segments: &[Segment], apart: f64) -> bool {
         let turned = |segment: &Segment| if let Segment::Arc { sweep, .. } = segment { *sweep } else { 0.0 };
         !self.is_full() && self.chord() <= apart && segments.iter().map(turned).sum::<f64>() > PI
     }
 
-    /// Distance of the ends across the plane's normal [m].
+    /// Distance of the ends in the plane [m].
     fn chord(&self) -> f64 {
         let [a, b, _] = self.plane.axes();
         math::hypot(self.to[a] - self.from[a], self.to[b] - self.from[b])
     }
 
-    /// Whether it ends above its start: a full circle.
+    /// Whether the ends coincide in the plane: a full circle.
     fn is_full(&self) -> bool {
         self.chord() <= SAME
     }
@@ -199,8 +200,8 @@ impl Arc {
         if angle > 0.0 { angle } else { angle + TAU }
     }
 
-    /// The centre moved along the chord until it is as far from the start as from the end, and by
-    /// how much [m].
+    /// The centre moved along the chord until it is equidistant from start and end, and the
+    /// distance it moved [m].
     fn centred(&self, center: &Vector3<f64>, chord: f64) -> (Vector3<f64>, f64) {
         let [a, b, _] = self.plane.axes();
         let (along, across) = ((self.to[a] - self.from[a]) / chord, (self.to[b] - self.from[b]) / chord);
@@ -212,14 +213,14 @@ impl Arc {
         (centred, shift.abs())
     }
 
-    /// The arc about a centre as far from both ends.
+    /// The arc about a centre equidistant from both ends.
     fn turn(&self, center: &Vector3<f64>, sweep: f64) -> Segment {
         let [_, _, n] = self.plane.axes();
         let [u, v] = self.directions(center);
         let mut center = *center;
         center[n] = self.from[n];
         let climb = self.to[n] - self.from[n];
-        // A segment rises along u x v, which points down the normal on a clockwise arc.
+        // A segment rises along u x v, which is opposite to the normal on a clockwise arc.
         let rise = if self.counter_clockwise { climb } else { 0.0 - climb };
         Segment::Arc { center, u, v, radius: self.radius(&center, &self.from), sweep, rise }
     }

@@ -1,4 +1,4 @@
-//! One line of a program: its codes by modal group and its other words, each used once.
+//! One line of a program: its codes by modal group, and its other words, each used once.
 
 use super::code::{self, GROUPS, Group, Meaning};
 use super::word::{self, Word, WordFault};
@@ -6,14 +6,14 @@ use super::word::{self, Word, WordFault};
 /// A G or M code.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Code {
-    /// Its number in tenths: `G43.1` is 431.
+    /// Code number in tenths: `G43.1` is 431.
     pub(super) tenths: u32,
-    /// As written, and where.
+    /// The word as written, with its place.
     pub(super) word: Word,
 }
 
-/// One line, ready to be interpreted: each handler takes the words it understands, and a word that
-/// is left over is an error.
+/// One line, ready for the interpreter: each handler consumes the words it understands, and
+/// leftover words are an error.
 #[derive(Debug, Default)]
 pub(super) struct Block<'t> {
     /// The line.
@@ -21,12 +21,12 @@ pub(super) struct Block<'t> {
     codes: [Option<Code>; GROUPS],
     /// Words other than G, M and N, in order.
     words: Vec<Word>,
-    /// Codes that change nothing, in order.
+    /// Codes without effect, in order.
     pub(super) harmless: Vec<Word>,
 }
 
 impl<'t> Block<'t> {
-    /// Reads a line from the byte `from` on; the block's storage is used again.
+    /// Reads a line from the byte `from` on; reuses the block's storage.
     pub(super) fn read(&mut self, text: &'t str, from: usize) -> Result<(), WordFault> {
         self.text = text;
         self.codes = [None; GROUPS];
@@ -36,7 +36,7 @@ impl<'t> Block<'t> {
         self.sort()
     }
 
-    /// Moves the codes to their groups and drops the line number.
+    /// Sorts the codes into their groups and drops the line number.
     fn sort(&mut self) -> Result<(), WordFault> {
         let text = self.text;
         let mut words = std::mem::take(&mut self.words);
@@ -72,7 +72,7 @@ impl<'t> Block<'t> {
         let exact = word.value * 10.0;
         let tenths = exact.round();
         let known = (exact - tenths).abs() < 1e-6 && (0.0..10_000.0).contains(&tenths);
-        // No code has the number 1000, so that one is refused as unknown.
+        // No code has the number 1000, so it is refused as unknown.
         let tenths = if known { tenths as u32 } else { 10_000 };
         let meaning = if word.letter == 'G' { code::g(tenths) } else { code::m(tenths) };
         match meaning {
@@ -97,7 +97,7 @@ impl<'t> Block<'t> {
         }
     }
 
-    /// Whether the line has no word, a line number apart.
+    /// Whether the line has no word except a line number.
     pub(super) fn is_empty(&self) -> bool {
         self.words.is_empty() && self.harmless.is_empty() && self.codes.iter().all(Option::is_none)
     }
@@ -107,33 +107,33 @@ impl<'t> Block<'t> {
         self.codes[group as usize]
     }
 
-    /// Whether the code of a group is this one.
+    /// Whether the group holds this code.
     pub(super) fn has(&self, group: Group, tenths: u32) -> bool {
         self.code(group).is_some_and(|code| code.tenths == tenths)
     }
 
-    /// The word with this letter, still to be taken.
+    /// The word with this letter, not consumed.
     pub(super) fn peek(&self, letter: char) -> Option<Word> {
         self.words.iter().find(|word| word.letter == letter).copied()
     }
 
-    /// The first word with one of these letters, still to be taken.
+    /// The first word with one of these letters, not consumed.
     pub(super) fn first_of(&self, letters: &[char]) -> Option<Word> {
         self.words.iter().find(|word| letters.contains(&word.letter)).copied()
     }
 
-    /// Takes the word with this letter.
+    /// Consumes the word with this letter.
     pub(super) fn take(&mut self, letter: char) -> Option<Word> {
         let index = self.words.iter().position(|word| word.letter == letter)?;
         Some(self.words.remove(index))
     }
 
-    /// The place of the block's first word, for errors that concern the whole of it.
+    /// Byte of the block's first word, for errors about the whole block.
     pub(super) fn start(&self) -> usize {
         self.text.len() - self.text.trim_start().len()
     }
 
-    /// Fails on the first word that is left over.
+    /// Fails on the first leftover word.
     pub(super) fn finish(&self) -> Result<(), WordFault> {
         let Some(word) = self.words.first() else { return Ok(()) };
         let expected = match word.letter {

@@ -1,12 +1,11 @@
-//! What each G and M number means here: which modal group it belongs to, that it changes nothing,
-//! or why it is refused.
+//! The meaning of each G and M number: its modal group, no effect, or the reason why it is refused.
 
-/// A set of codes of which a block may hold one.
+/// A modal group: a block may hold one of its codes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Group {
     /// G0 to G3.
     Motion,
-    /// G73, G80 to G83, G85, G89. A group of its own, as on most controls: `G0 G80` is a common
+    /// G73, G80 to G83, G85, G89. A group of its own, as on most controllers: `G0 G80` is a common
     /// first line.
     Cycle,
     /// G17, G18, G19.
@@ -27,7 +26,7 @@ pub(super) enum Group {
     WorkOffset,
     /// G61, G61.1, G64.
     Blending,
-    /// G4, G52, G53, G92, G92.1: for their own block only.
+    /// G4, G52, G53, G92, G92.1: active in their own block only.
     NonModal,
     /// M3, M5.
     Spindle,
@@ -40,18 +39,18 @@ pub(super) enum Group {
 /// Number of groups.
 pub(super) const GROUPS: usize = Group::ToolChange as usize + 1;
 
-/// What a code is to this reader.
+/// The meaning of a code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Meaning {
-    /// Acts, alone in its group.
+    /// Active, and the only one of its group.
     Acts(Group),
-    /// Changes nothing about the path.
+    /// Has no effect on the path.
     Harmless,
-    /// Would change the path (or the forces) in a way that is not modelled: what to do instead.
+    /// Would change the path (or the forces) in a way that is not modelled; what to do instead.
     Refused(&'static str),
 }
 
-/// The meaning of G with a number in tenths (`G43.1` is 431).
+/// The meaning of the G code with this number in tenths (`G43.1` is 431).
 pub(super) fn g(tenths: u32) -> Meaning {
     use Meaning::{Acts, Harmless, Refused};
     match tenths {
@@ -67,7 +66,7 @@ pub(super) fn g(tenths: u32) -> Meaning {
         540 | 550 | 560 | 570 | 580 | 590 | 591 | 592 | 593 => Acts(Group::WorkOffset),
         610 | 611 | 640 => Acts(Group::Blending),
         40 | 520 | 530 | 920 | 921 => Acts(Group::NonModal),
-        // Each ends something that is refused when it begins, or is the only state there is.
+        // Each ends a mode whose start is refused, or names the only mode there is.
         150 | 400 | 500 | 690 | 970 => Harmless,
         410 | 411 | 420 | 421 => Refused(
             "cutter radius compensation is not modelled: have the CAM system post the path of the tool's centre",
@@ -106,7 +105,7 @@ pub(super) fn g(tenths: u32) -> Meaning {
     }
 }
 
-/// The meaning of M with a number in tenths.
+/// The meaning of the M code with this number in tenths.
 pub(super) fn m(tenths: u32) -> Meaning {
     use Meaning::{Acts, Harmless, Refused};
     match tenths {

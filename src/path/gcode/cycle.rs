@@ -1,26 +1,26 @@
-//! A canned drilling cycle: which one is in force, and the words that stay from hole to hole.
+//! Canned drilling cycles: the active one and its sticky words.
 
 use super::block::Block;
 use super::word::{Word, WordFault};
 
-/// A cycle in force, with the words that stay from hole to hole.
+/// The active cycle, with the words that carry over from hole to hole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cycle {
-    /// Number of its G code in tenths.
+    /// G code number in tenths.
     pub(super) tenths: u32,
-    /// Level along the plane's normal at which the series of cycles began [m].
+    /// Level along the plane's normal at the start of the series of cycles [m].
     pub(super) start: Option<f64>,
     /// R: clearance plane.
     pub(super) clearance: Option<Level>,
     /// The word along the normal (Z in G17): bottom of the hole.
     pub(super) bottom: Option<Level>,
-    /// Q: depth of a peck [m].
+    /// Q: peck depth [m].
     pub(super) peck: Option<f64>,
     /// P: dwell at the bottom [s].
     pub(super) dwell: Option<f64>,
 }
 
-/// A height as programmed.
+/// A programmed height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Level {
     /// [m].
@@ -30,17 +30,18 @@ pub(super) struct Level {
 }
 
 impl Cycle {
-    /// A cycle that begins a series.
+    /// A cycle that starts a series.
     pub(super) fn new(tenths: u32) -> Self {
         Self { tenths, start: None, clearance: None, bottom: None, peck: None, dwell: None }
     }
 
-    /// This cycle named again, or another one in the same series: that one needs its own words.
+    /// The cycle for this code. A repeated code keeps its words; another code continues the series
+    /// but needs words of its own.
     pub(super) fn or_new(self, tenths: u32) -> Self {
         if tenths == self.tenths { self } else { Self { start: self.start, ..Self::new(tenths) } }
     }
 
-    /// Whether it drills in steps of Q.
+    /// Whether it drills in pecks of Q.
     pub(super) fn pecks(&self) -> bool {
         matches!(self.tenths, 730 | 830)
     }
@@ -50,7 +51,7 @@ impl Cycle {
         matches!(self.tenths, 820 | 890)
     }
 
-    /// Takes the words of this cycle; those that are not there stay as they were.
+    /// Consumes the words of this cycle; absent words keep their values.
     pub(super) fn update(
         &mut self,
         block: &mut Block,

@@ -1,5 +1,5 @@
-//! Canned drilling cycles as the moves they stand for (NIST, "The NIST RS274NGC Interpreter",
-//! version 3, section 3.5.16).
+//! Expands canned drilling cycles into moves (NIST, "The NIST RS274NGC Interpreter", version 3,
+//! section 3.5.16).
 
 use super::arc::SAME;
 use super::block::Block;
@@ -10,12 +10,11 @@ use super::modal::{FeedMode, Motion};
 use super::word::WordFault;
 use nalgebra::Vector3;
 
-/// How far G73 lifts the tool to break a chip, and how far above the last depth G83 slows down from
-/// rapid [m]: 0.010 inch, as in LinuxCNC.
+/// Chip-breaking retract of G73, and height above the last depth at which G83 slows down from rapid
+/// [m]: 0.010 inch, as in LinuxCNC.
 pub const PECK_CLEARANCE: f64 = 0.254e-3;
 
-/// Most holes of one line, and most pecks of one hole: what is beyond is a slip of the decimal
-/// point.
+/// Most holes in one line, and most pecks in one hole; more is probably a misplaced decimal point.
 const MOST: u32 = 1000;
 
 /// The heights of one hole [m].
@@ -29,8 +28,8 @@ struct Hole {
 impl Interpreter<'_> {
     /// Drills the holes of a line.
     ///
-    /// Under G91, R counts from the level at which the series began, the bottom from R, and L holes
-    /// follow each other by the same step.
+    /// Under G91, R is relative to the level at the start of the series and the bottom is relative
+    /// to R. L repeats the hole at equal steps.
     pub(super) fn drill(&mut self, mut cycle: Cycle, block: &mut Block) -> Result<(), WordFault> {
         let normal = self.modal.plane.axes()[2];
         let letter = AXES[normal];
@@ -88,7 +87,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Fails where a cycle lacks a word of its own, or pecks too often.
+    /// Fails if the cycle lacks a word, or pecks too often.
     fn check_cycle(&self, cycle: &Cycle, depth: f64, name: &str, at: usize) -> Result<(), WordFault> {
         if cycle.dwells() && cycle.dwell.is_none() {
             let expected = format!("{name} waits at the bottom: give P in seconds");
@@ -112,7 +111,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// One hole, from above it.
+    /// Drills one hole; the tool is above it.
     fn hole(&mut self, cycle: &Cycle, normal: usize, hole: Hole, at: usize) -> Result<(), WordFault> {
         self.rapid_to_level(normal, hole.clearance)?;
         if let Some(peck) = cycle.peck {
@@ -133,8 +132,8 @@ impl Interpreter<'_> {
             self.wait(time);
         }
         if matches!(cycle.tenths, 850 | 890) {
-            // Up to R only, as controls do; LinuxCNC agrees in G85, but in G89 feeds up to the
-            // level of G98.
+            // Up to R only, as on controllers. LinuxCNC does the same in G85, but in G89 feeds up
+            // to the level of G98.
             self.feed_to_level(normal, hole.clearance, at)?;
         }
         self.rapid_to_level(normal, hole.retract)

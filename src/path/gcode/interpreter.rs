@@ -1,4 +1,4 @@
-//! From lines to moves: where the tool is, what each line does to it.
+//! The interpreter: the machine state, and the effect of each line on it.
 
 use super::block::Block;
 use super::code::Group;
@@ -12,19 +12,19 @@ use nalgebra::Vector3;
 /// The letters of the axes, in the order of a vector's components.
 pub(super) const AXES: [char; 3] = ['X', 'Y', 'Z'];
 
-/// A wait longer than this is more likely one of a control that counts milliseconds [s].
+/// A longer wait suggests a controller that counts milliseconds [s].
 const LONG_WAIT: f64 = 30.0;
 
-/// The state of a program that runs.
+/// The state of a running program.
 pub(super) struct Interpreter<'o> {
     pub(super) options: &'o Options,
     pub(super) program: Program,
     pub(super) modal: Modal,
-    /// Where the program has the tip, in the workpiece frame [m]; only the axes that are `known`
-    /// mean anything.
+    /// Programmed tip position in the workpiece frame [m]; valid only for the axes that are
+    /// `known`.
     pub(super) position: Vector3<f64>,
     pub(super) known: [bool; 3],
-    /// Where the last move ended: `position`, but for moves too short to keep.
+    /// End of the last move: `position`, unless a move was too short to keep.
     pub(super) tip: Vector3<f64>,
     /// Line of the text, from 1.
     pub(super) line: usize,
@@ -70,12 +70,12 @@ impl<'o> Interpreter<'o> {
         self.ended
     }
 
-    /// Nothing after this runs.
+    /// Ends the program; later lines are not read.
     pub(super) fn end(&mut self) {
         self.ended = true;
     }
 
-    /// Notes something a person should look at, once a program.
+    /// Records a remark for the user, once per program.
     pub(super) fn remark(&mut self, code: &'static str, message: impl FnOnce() -> String) {
         if self.program.remarks.iter().all(|remark| remark.code != code) {
             let (message, line) = (message(), self.line);
@@ -83,12 +83,12 @@ impl<'o> Interpreter<'o> {
         }
     }
 
-    /// Notes a word without effect.
+    /// Records a word without effect.
     pub(super) fn ignore(&mut self, word: &str) {
         self.program.ignored.push(Ignored { word: word.into(), line: self.line });
     }
 
-    /// Does what a line says, in the order of the standard: states, offsets, waits, motion, end.
+    /// Executes a line in the order of the standard: states, offsets, waits, motion, end.
     pub(super) fn run(&mut self, block: &mut Block) -> Result<(), WordFault> {
         self.pass_over(block)?;
         self.modal.set(block)?;
@@ -106,7 +106,7 @@ impl<'o> Interpreter<'o> {
         block.finish()
     }
 
-    /// Tool changes and words without effect.
+    /// Consumes tool changes and words without effect.
     fn pass_over(&mut self, block: &mut Block) -> Result<(), WordFault> {
         for word in std::mem::take(&mut block.harmless) {
             self.ignore(word.text(block.text));
@@ -121,7 +121,7 @@ impl<'o> Interpreter<'o> {
             self.modal.tool = Some(word.value);
         }
         if let Some(word) = block.take('O') {
-            // The first line may number the program; a later O begins a sub-program.
+            // The first line may number the program; a later O starts a subprogram.
             if self.started {
                 return Err(word.fault(block.text, word::SUBPROGRAM));
             }
@@ -154,7 +154,7 @@ impl<'o> Interpreter<'o> {
         Ok(())
     }
 
-    /// Waits [s].
+    /// Adds a wait of `time` [s].
     pub(super) fn wait(&mut self, time: f64) {
         self.program.dwells.push(Dwell { after: self.program.moves.len(), time, line: self.line });
     }

@@ -1,28 +1,35 @@
-//! G-code (RS-274, ISO 6983) for three-axis milling, read as a control would run it, or refused by
-//! line and column.
+//! G-code (RS-274, ISO 6983) for three-axis milling. It is read as a controller would run it;
+//! anything unsupported is refused with its line and column.
 //!
-//! A word is a letter and a number; a block is a line of words; the modal codes stay in force from
-//! line to line; the interpreter turns lines into the moves of a [`Program`]. The rules are those
-//! of "The NIST RS274NGC Interpreter, Version 3" (Kramer, Proctor, Messina, NISTIR 6556, 2000);
-//! where controls differ, it is said here.
+//! A word is a letter and a number, a block is a line of words, and modal codes stay active from
+//! line to line. The interpreter turns lines into the moves of a [`Program`]. The rules are those
+//! of "The NIST RS274NGC Interpreter, Version 3" (Kramer, Proctor, Messina, NISTIR 6556, 2000).
+//! Where controllers differ, the list states the choice made here.
 //!
-//! | Words | Meaning here |
-//! |---|---|
-//! | G0, G1 | straight; rapids too, though many controls bend theirs |
-//! | G2, G3 with I J K or R, P | arcs and helices in the plane of G17, G18 (axes Z, X, seen from +Y) or G19; R below 0 takes the long way; an arc that ends within 1 nm of its start is a full circle; P counts turns |
-//! | G20 G21, G70 G71 | inch, mm; they count for the whole of their line; without one mm is taken, with a remark |
-//! | G90 G91, G90.1 G91.1 | end points and centres as points or as steps; at the start G90 and G91.1 |
-//! | G93 G94 G95, F, S | feed as 1/minutes, length a minute, length a revolution; without F the job's feed, with a remark |
-//! | G54 to G59.3, G52, G92, G92.1, G53 | offsets; machine zero is the workpiece frame's origin |
-//! | G43 G44 H, G49 | tool length offsets along Z, what the job's tool frame does not hold already |
-//! | G73 G81 G82 G83 G85 G89, G80, G98 G99 | drilling, expanded to moves; G98 at the start; L repeats; under G91, R counts from the level at which the series began and the bottom from R |
-//! | G4 P | waits in seconds |
-//! | M0 M1 M60, M2 M30, M3 M5, M6 T, M7 M8 M9, M48 M49, G61 G64, G15 G40 G50 G69 G97 | the end, the spindle, and words without effect on the path, which are listed |
+//! - G0, G1: straight. Rapids too, although many controllers bend theirs.
+//! - G2, G3 with I J K or R, P: arcs and helices in the plane of G17, G18 (axes Z, X, seen from +Y)
+//!   or G19. R below 0 selects the arc of more than half a turn. An arc that ends within 1 nm of
+//!   its start is a full circle. P is the number of turns.
+//! - G20 G21, G70 G71: inch, mm; they apply to the whole of their line. The default is mm, with a
+//!   remark.
+//! - G90 G91, G90.1 G91.1: end points and centres, absolute or incremental. The default is G90 and
+//!   G91.1.
+//! - G93 G94 G95, F, S: feed in 1/minutes, length per minute, length per revolution. Without F the
+//!   job's feed is used, with a remark.
+//! - G54 to G59.3, G52, G92, G92.1, G53: offsets. Machine zero is the origin of the workpiece
+//!   frame.
+//! - G43 G44 H, G49: tool length offsets along Z, in addition to the job's tool frame.
+//! - G73 G81 G82 G83 G85 G89, G80, G98 G99: drilling, expanded into moves. The default is G98. L
+//!   repeats. Under G91, R is relative to the level at the start of the series and the bottom is
+//!   relative to R.
+//! - G4 P: wait in seconds.
+//! - M0 M1 M60, M2 M30, M3 M5, M6 T, M7 M8 M9, M48 M49, G61 G64, G15 G40 G50 G69 G97: the end, the
+//!   spindle, and words without effect on the path, which are listed.
 //!
-//! All else is an error: what it is and what to do stands in the message. Above all cutter
-//! compensation (G41, G42), scaling, rotation, polar coordinates, reference moves (G28, G30), G10,
-//! tapping, macros, sub-programs, expressions, rotary axes and M4. A lone `O` number in the first
-//! line names the program and is passed over.
+//! Everything else is an error whose message says what to do: above all cutter compensation (G41,
+//! G42), scaling, rotation, polar coordinates, reference moves (G28, G30), G10, tapping, macros,
+//! subprograms, expressions, rotary axes and M4. A lone `O` number in the first line names the
+//! program and is skipped.
 
 mod arc;
 mod block;
@@ -47,14 +54,14 @@ use block::Block;
 use interpreter::Interpreter;
 use word::WordFault;
 
-/// Reads a program; `on_line` hears the number of lines done after each.
+/// Reads a program. `on_line` is called after each line with the number of lines read.
 ///
-/// Before X, Y and Z have all been given, G0 (or one G1, with a remark) only says where the path
-/// begins. A program without a move is no error here: it has no moves.
+/// Until X, Y and Z have all been given, G0 (or one G1, with a remark) only sets the start of the
+/// path. A program without a move is not an error here; the result has no moves.
 ///
 /// # Errors
-/// [`Error::Text`] with line and column of the first word that is not understood, does not fit, or
-/// would change the path in a way that is not modelled.
+/// [`Error::Text`] with line and column of the first word that is unknown, does not fit, or would
+/// change the path in a way that is not modelled.
 pub fn program(text: &str, options: &Options, mut on_line: impl FnMut(usize)) -> Result<Program, Error> {
     let mut interpreter = Interpreter::new(options);
     let mut block = Block::default();
@@ -79,7 +86,7 @@ pub fn program(text: &str, options: &Options, mut on_line: impl FnMut(usize)) ->
     Ok(program)
 }
 
-/// One line: the tape's percent signs, what stands after the end, block delete, and else a block.
+/// Handles one line: percent signs, text after the end, block delete, or a block.
 fn run_line<'t>(
     line: &'t str,
     interpreter: &mut Interpreter,
@@ -119,8 +126,8 @@ fn run_line<'t>(
     if block.is_empty() { Ok(()) } else { interpreter.run(block) }
 }
 
-/// The byte after the slash of a line marked for block delete (`/G1`, `/2 G1`, `N10 /G1`); 0 where
-/// there is none.
+/// The byte after the slash of a line marked for block delete (`/G1`, `/2 G1`, `N10 /G1`); 0
+/// without a slash.
 fn after_slash(line: &str) -> usize {
     let blank = |text: &str| text.len() - text.trim_start().len();
     let mut at = blank(line);

@@ -1,4 +1,4 @@
-//! What stays in force from line to line, and the codes that set it.
+//! Modal state, and the codes that set it.
 
 use super::arc::Plane;
 use super::block::Block;
@@ -8,7 +8,7 @@ use super::word::WordFault;
 use crate::path::builder::{self, SPINDLE};
 use crate::units::{INCH, MM, RPM};
 
-/// The motion that a line with axis words makes.
+/// The active motion, made by a line with axis words.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Motion {
     /// G0.
@@ -24,18 +24,18 @@ pub(super) enum Motion {
     Cycle(Cycle),
 }
 
-/// What F means.
+/// The meaning of F.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FeedMode {
     /// G93: a move takes 1/F minutes.
     InverseTime,
-    /// G94: length a minute.
+    /// G94: length per minute.
     PerMinute,
-    /// G95: length a revolution of the spindle.
+    /// G95: length per spindle revolution.
     PerRevolution,
 }
 
-/// The state of the codes.
+/// The modal state.
 #[derive(Debug, Clone)]
 pub(super) struct Modal {
     /// `None` at the start and after G80.
@@ -43,22 +43,22 @@ pub(super) struct Modal {
     pub(super) plane: Plane,
     /// Length of one unit [m].
     pub(super) unit: f64,
-    /// Whether the program has said its unit.
+    /// Whether the program has set its unit.
     pub(super) unit_said: bool,
     /// G91.
     pub(super) incremental: bool,
     /// G90.1.
     pub(super) centers_absolute: bool,
     pub(super) feed_mode: FeedMode,
-    /// F in SI: m/s in G94, m a revolution in G95, 1/s in G93 (there for its own line only).
+    /// F in SI: m/s in G94, m per revolution in G95, 1/s in G93 (for its own line only).
     pub(super) feed: Option<f64>,
     /// S [1/s].
     speed: Option<f64>,
     /// M5.
     spindle_off: bool,
-    /// G98: cycles return to the level they began at; G99: to R.
+    /// G98: cycles return to the level at which they started; G99: to R.
     pub(super) returns_to_start: bool,
-    /// T of the last line that had one.
+    /// T of the last line that has one.
     pub(super) tool: Option<f64>,
 }
 
@@ -82,7 +82,7 @@ impl Default for Modal {
 }
 
 impl Modal {
-    /// Spindle speed [1/s], where the program has said one above 0.
+    /// Spindle speed [1/s], if the program sets one above 0.
     pub(super) fn spindle(&self) -> Option<f64> {
         self.speed.filter(|&speed| speed > 0.0)
     }
@@ -92,8 +92,8 @@ impl Modal {
         self.spindle_off || self.speed == Some(0.0)
     }
 
-    /// Applies the codes that set a state, then F and S, which count in the unit and feed mode of
-    /// their own line.
+    /// Applies the codes that set a state, then F and S, which use the unit and feed mode of their
+    /// own line.
     pub(super) fn set(&mut self, block: &mut Block) -> Result<(), WordFault> {
         if let Some(code) = block.code(Group::Unit) {
             self.unit = if matches!(code.tenths, 200 | 700) { INCH } else { MM };
@@ -122,7 +122,7 @@ impl Modal {
                 _ => FeedMode::PerRevolution,
             };
             if mode != self.feed_mode {
-                // A number said in one measure means nothing in the other.
+                // A feed is meaningless in another feed mode.
                 self.feed = None;
             }
             self.feed_mode = mode;

@@ -1,4 +1,4 @@
-//! G0 to G3: from the words of a line to segments, each with its pace.
+//! G0 to G3: from the words of a line to segments with their pace.
 
 use super::arc::{Arc, Misfit, SAME};
 use super::block::Block;
@@ -13,13 +13,13 @@ use crate::path::program::{Move, MovePace};
 use crate::units::{INCH, MM};
 use nalgebra::Vector3;
 
-/// Most moves of a program: more would not fit a browser's memory.
+/// Most moves in a program; more would not fit a browser's memory.
 const MOST_MOVES: usize = 2_000_000;
-/// Most turns of one helix (P).
+/// Most turns of a helix (P).
 const MOST_TURNS: u32 = 1000;
 
 impl Interpreter<'_> {
-    /// Notes the unit of the first coordinates, and what is odd about it.
+    /// Records the unit of the first coordinates, with remarks about a missing or changed unit.
     pub(super) fn note_unit(&mut self) {
         let unit = if self.modal.unit == INCH { "inch" } else { "mm" };
         if !self.modal.unit_said {
@@ -34,11 +34,11 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The point that the axis words name; with `machine` they count from machine zero (G53),
-    /// whatever G91 says.
+    /// The point given by the axis words. With `machine` (G53) they are relative to machine zero,
+    /// even under G91.
     ///
-    /// An axis without a word stays where it is. The words are not taken, so that a repeated cycle
-    /// reads them again.
+    /// An axis without a word keeps its position. The words are not consumed, because a repeated
+    /// cycle reads them again.
     pub(super) fn target(&mut self, block: &Block, machine: bool) -> Result<Vector3<f64>, WordFault> {
         self.note_unit();
         let mut target = self.position;
@@ -61,7 +61,7 @@ impl Interpreter<'_> {
         Ok(target)
     }
 
-    /// Makes the motion in force, where the line has words for one.
+    /// Executes the active motion if the line has words for one.
     pub(super) fn motion(&mut self, block: &mut Block) -> Result<(), WordFault> {
         let machine = block.has(Group::NonModal, 530);
         let axis_word = block.first_of(&AXES);
@@ -106,7 +106,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Fails before the tool's place is known.
+    /// Fails if the tool position is not fully known.
     fn all_known(&self, block: &Block) -> Result<(), WordFault> {
         match AXES.iter().zip(self.known).find(|(_, known)| !known) {
             None => Ok(()),
@@ -120,8 +120,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// G0 and G1. What leads to the first full position is not part of the path: where the machine
-    /// stood before is not known.
+    /// G0 and G1. The moves up to the first full position are not part of the path, because the
+    /// machine's previous position is unknown.
     fn straight(&mut self, block: &mut Block, machine: bool) -> Result<(), WordFault> {
         let rapid = self.modal.motion == Some(Motion::Rapid);
         let to = self.target(block, machine)?;
@@ -146,12 +146,12 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Moves straight without cutting.
+    /// A straight move without cutting.
     pub(super) fn rapid(&mut self, to: Vector3<f64>) -> Result<(), WordFault> {
         self.line_to(to, MovePace::Rapid)
     }
 
-    /// Cuts straight; `at` is the place of an error about the feed.
+    /// A straight cut; `at` is the place of an error about the feed.
     pub(super) fn feed(&mut self, to: Vector3<f64>, at: usize) -> Result<(), WordFault> {
         let pace = self.pace((to - self.tip).norm(), at)?;
         self.line_to(to, pace)
@@ -182,13 +182,13 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// The feed of a cutting move of this length [m].
+    /// The pace of a cutting move of this length [m].
     fn pace(&mut self, length: f64, at: usize) -> Result<MovePace, WordFault> {
         if self.modal.spindle_stopped() {
             self.remark("spindle-stopped", || "a feed move while the spindle stands still".into());
         }
         match (self.modal.feed_mode, self.modal.feed) {
-            // No move comes of it.
+            // The move is too short to keep.
             (FeedMode::InverseTime, Some(_)) if length <= SAME => Ok(MovePace::JobFeed),
             (FeedMode::InverseTime, Some(rate)) => believed(length * rate, at),
             (FeedMode::InverseTime, None) => Err(WordFault {
@@ -253,7 +253,9 @@ impl Interpreter<'_> {
         let segments = segments.map_err(|misfit| self.misfit(misfit, word, block))?;
         if arc.is_nearly_full(&segments, absolute) {
             self.remark("nearly-full-circle", || {
-                "this arc is read as almost a full circle: its end lies just before its start; if a short arc is meant, its ends are rounded too coarsely".into()
+                "this arc is read as almost a full circle: its end lies just before its start; \
+                 if a short arc is meant, its ends are rounded too coarsely"
+                    .into()
             });
         }
         let pace = self.pace(segments.iter().map(Segment::length).sum(), block.start())?;
@@ -264,7 +266,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// The centre that I, J and K give: from the start (G91.1), or as a point (G90.1).
+    /// The centre given by I, J and K: relative to the start (G91.1) or absolute (G90.1).
     fn center(
         &self,
         words: [(usize, Option<Word>); 2],
@@ -313,7 +315,8 @@ impl Interpreter<'_> {
                     at_end / MM
                 ),
                 format!(
-                    "both distances agree within {:.4} mm; check the centre, the plane (G17 to G19) and whether the centre counts from the start (G91.1) or is a point (G90.1)",
+                    "both distances agree within {:.4} mm; check the centre, the plane (G17 to G19) \
+                     and whether the centre counts from the start (G91.1) or is a point (G90.1)",
                     allowed / MM
                 ),
             ),
@@ -322,7 +325,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// A feed [m/s] that comes out of other numbers.
+/// A feed [m/s] computed from other values, if it is in range.
 fn believed(feed: f64, at: usize) -> Result<MovePace, WordFault> {
     let fault = |fault: builder::Fault| WordFault { at, found: fault.found, expected: fault.expected };
     builder::feed(feed).map(MovePace::Feed).map_err(fault)

@@ -1,5 +1,5 @@
-//! What lies between the numbers of a program and the workpiece frame: work offsets, G52, G92 and
-//! tool lengths.
+//! Offsets between program coordinates and the workpiece frame: work offsets, G52, G92 and tool
+//! length.
 
 use super::block::Block;
 use super::code::Group;
@@ -8,7 +8,7 @@ use super::word::{Word, WordFault};
 use nalgebra::Vector3;
 
 impl Interpreter<'_> {
-    /// Where the program's zero lies in the workpiece frame [m].
+    /// Program zero in the workpiece frame [m].
     pub(super) fn origin(&self) -> Vector3<f64> {
         self.work + self.local + self.shift + Vector3::z() * self.tool_length
     }
@@ -68,7 +68,10 @@ impl Interpreter<'_> {
             None if number == 0 => 0.0,
             None if table.is_empty() => {
                 self.remark("tool-length-missing", || {
-                    format!("the job gives no tool length offsets: that of H{number} is taken as 0, so that the program's points are those of the tool's tip")
+                    format!(
+                        "the job gives no tool length offsets: that of H{number} is taken as 0, \
+                         so that the program's points are those of the tool's tip"
+                    )
                 });
                 0.0
             }
@@ -97,8 +100,8 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// G92: the place where the tool is gets these coordinates; where the place is not known yet,
-    /// they give it.
+    /// G92: assigns these coordinates to the current tool position. If the position is unknown,
+    /// they define it.
     fn set_shift(&mut self, code: Word, block: &mut Block) -> Result<(), WordFault> {
         if self.local != Vector3::zeros() {
             return Err(code.fault(

@@ -1,24 +1,25 @@
-//! A line of G-code as tokens: its words and comments, each with its place.
+//! Splits a line of G-code into tokens: words and comments, each with its place.
 //!
-//! Any text has tokens. [`word`](super::word) decides which of them a control would understand; the
-//! export that rewrites a program keeps lines that no control runs (behind a slash, after the end).
+//! Any text can be split into tokens. [`word`](super::word) decides which of them a controller
+//! would understand. The export that rewrites a program also keeps lines that no controller runs
+//! (behind a slash, after the end).
 
-/// What a token is.
+/// Kind of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// A letter with its number, if one follows. Any other sign that stands in a letter's place is
-    /// taken for one.
+    /// A letter and its number, if one follows. Any other character that is not part of a number or
+    /// a comment also starts a word.
     Word,
-    /// A comment with its round brackets, one of which may be missing.
+    /// A comment in round brackets, one of which may be missing.
     Comment,
     /// A comment from its semicolon to the end of the line.
     LineComment,
 }
 
-/// A part of a line; between tokens there are only blanks.
+/// A part of a line. Only blanks separate tokens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Token<'t> {
-    /// What it is.
+    /// Kind of the token.
     pub(crate) kind: Kind,
     /// Byte of the line at which it starts.
     pub(crate) start: usize,
@@ -50,8 +51,8 @@ pub(crate) fn tokens(line: &str, from: usize) -> impl Iterator<Item = Token<'_>>
     })
 }
 
-/// How many bytes of `text` the number takes that may follow a letter. Blanks may stand before it,
-/// not inside.
+/// Length in bytes of the number that follows a letter in `text`. Blanks may precede it, but not
+/// split it.
 fn number(text: &str) -> usize {
     let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
     let mut at = text.len() - text.trim_ascii_start().len();

@@ -1,13 +1,13 @@
-//! The words that a control would understand: a letter and a number, each with its place.
+//! Words that a controller would understand: a letter and a number, each with its place.
 
 use super::token::{Kind, Token, tokens};
 
-/// One letter with its number.
+/// A letter and its number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Word {
     /// Capital letter.
     pub(super) letter: char,
-    /// The number, in the program's own unit.
+    /// The number, in the program's unit.
     pub(super) value: f64,
     /// Byte of the line at which the word starts.
     pub(super) start: usize,
@@ -15,19 +15,19 @@ pub(super) struct Word {
     pub(super) end: usize,
 }
 
-/// What is wrong with a line, and where; the reader adds the line's number.
+/// What is wrong with a line, and where. The reader adds the line number.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct WordFault {
     /// Byte of the line.
     pub(super) at: usize,
-    /// What stands there.
+    /// The text at that place.
     pub(super) found: String,
     /// What would be accepted.
     pub(super) expected: String,
 }
 
-/// Largest magnitude of a number: beyond it no machine has travel, and doubles no longer resolve a
-/// micrometre of what is added up.
+/// Largest magnitude of a number. No machine travels farther, and sums of larger doubles no longer
+/// resolve a micrometre.
 pub(super) const LARGEST: f64 = 1e9;
 
 impl Word {
@@ -36,12 +36,12 @@ impl Word {
         &line[self.start..self.end]
     }
 
-    /// This word is wrong here.
+    /// A fault at this word.
     pub(super) fn fault(&self, line: &str, expected: impl Into<String>) -> WordFault {
         WordFault { at: self.start, found: format!("\"{}\"", self.text(line)), expected: expected.into() }
     }
 
-    /// The number as a whole one from `least` to `most`.
+    /// The number, which must be whole and from `least` to `most`.
     pub(super) fn whole(&self, line: &str, least: u32, most: u32) -> Result<u32, WordFault> {
         if self.value.fract() == 0.0 && self.value >= f64::from(least) && self.value <= f64::from(most) {
             Ok(self.value as u32)
@@ -52,7 +52,7 @@ impl Word {
     }
 }
 
-/// Collects the words of `line` from the byte `from` on, comments left out.
+/// Collects the words of `line` from the byte `from` on, without comments.
 pub(super) fn words(line: &str, from: usize, words: &mut Vec<Word>) -> Result<(), WordFault> {
     for token in tokens(line, from) {
         match token.kind {
@@ -81,7 +81,7 @@ const MACRO: &str = "variables and macros are not followed; have the CAM system 
 const EXPRESSION: &str =
     "expressions are not computed; have the CAM system post plain numbers (comments stand in round brackets)";
 
-/// Fails unless a comment opens and closes once.
+/// Fails unless the comment opens and closes exactly once.
 fn check_comment(line: &str, comment: &Token) -> Result<(), WordFault> {
     let Some(inside) = comment.text.strip_prefix('(') else { return Err(stray(line, comment.start)) };
     match inside.find(['(', ')']) {
@@ -102,8 +102,7 @@ fn check_comment(line: &str, comment: &Token) -> Result<(), WordFault> {
     }
 }
 
-/// Whether what follows an O is a number and no other word, as where a program is numbered
-/// (`O1000`).
+/// Whether O is followed by a number and no other word, as in a numbered program (`O1000`).
 fn numbers_program(rest: &str) -> bool {
     let rest = rest.trim_start();
     let after = rest.trim_start_matches(|c: char| c.is_ascii_digit());
@@ -125,7 +124,8 @@ fn word(line: &str, token: &Token) -> Result<Word, WordFault> {
             found: format!("\"{}\"", token.text),
             expected: format!("numbers lie within -{LARGEST:e} and {LARGEST:e}"),
         }),
-        // `#5`, `[1+2]`, `<name>`: the stray sign says more than the letter before it.
+        // `#5`, `[1+2]`, `<name>`: an error at the stray character says more than one at the letter
+        // before it.
         Err(_) if matches!(number, "" | "+" | "-") && line[end..].starts_with(['#', '[', '<']) => {
             Err(stray(line, end))
         }
@@ -137,7 +137,7 @@ fn word(line: &str, token: &Token) -> Result<Word, WordFault> {
     }
 }
 
-/// A sign that starts no word.
+/// A character that cannot start a word.
 fn stray(line: &str, at: usize) -> WordFault {
     let found = line[at..].chars().next().map_or_else(String::new, |sign| sign.to_string());
     let expected = match found.as_str() {
