@@ -28,7 +28,7 @@ pub struct ErrorsBySource {
 /// sample of the reference.
 pub fn simulate(plan: &Plan, reference: &Reference, q: &[Joints], progress: &mut Progress) -> Deviation {
     let mut total = DeviationBuilder::new(&plan.path, reference, reference.acting);
-    send(plan, reference, q, progress, |k, pose, given_way| total.push(k, pose, given_way));
+    send(plan, reference, q, progress, |k, pose, deflected| total.push(k, pose, deflected));
     total.finish()
 }
 
@@ -43,10 +43,10 @@ pub fn simulate_by_source(
     let mut total = DeviationBuilder::new(&plan.path, reference, reference.acting);
     let mut shaping = DeviationBuilder::new(&plan.path, reference, Sources::only(Source::Shaping));
     let mut deflection = Vec::with_capacity(reference.force.len());
-    send(plan, reference, q, progress, |k, pose, given_way| {
+    send(plan, reference, q, progress, |k, pose, deflected| {
         shaping.push(k, pose, &Default::default());
-        total.push(k, pose, given_way);
-        deflection.push(given_way.0);
+        total.push(k, pose, deflected);
+        deflection.push(deflected.0);
     });
     ErrorsBySource { total: total.finish().into(), shaping: shaping.finish().into(), deflection }
 }
@@ -69,16 +69,16 @@ fn send(
         let frames = forward::frames(&plan.robot, &q);
         let tcp = frames[5].compose(plan.robot.tool());
         let axis: Vector3<f64> = -tcp.rotation.column(2);
-        let mut given_way = Default::default();
+        let mut deflected = Default::default();
         if reference.acting.deflection {
             let force = &reference.force[k];
-            given_way = compliance::deflection(&plan.robot, &q, &frames, &tcp.position, force);
+            deflected = compliance::deflection(&plan.robot, &q, &frames, &tcp.position, force);
             if let Some(bending) = &plan.setup.bending {
                 let (moved, turned) = bending.deflection(&axis, force);
-                given_way = (given_way.0 + moved, given_way.1 + turned);
+                deflected = (deflected.0 + moved, deflected.1 + turned);
             }
         }
-        arrived(k, &(tcp.position, axis), &given_way);
+        arrived(k, &(tcp.position, axis), &deflected);
         progress.sample(k, reference.arc_length.len());
     }
 }

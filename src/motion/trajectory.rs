@@ -75,7 +75,7 @@ impl TimingLaw {
         }
     }
 
-    /// The path's points, one a sample [m].
+    /// The path's points, one per sample [m].
     pub fn points(&self, path: &Path) -> Vec<Vector3<f64>> {
         let places = self.index.iter().zip(&self.arc_length);
         places.map(|(&index, &s)| path.point_at(path.within(index as usize, s))).collect()
