@@ -51,7 +51,7 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// Notes that sample `k` of `count` is done; reports one sample in [`STRIDE`].
+    /// Notes that sample `k` of `count` is done; reports only every `STRIDE` samples.
     pub fn sample(&mut self, k: usize, count: usize) {
         if (k + 1).is_multiple_of(STRIDE) {
             self.at((k + 1) as f64 / count as f64);
