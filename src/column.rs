@@ -1,15 +1,15 @@
-//! A named series of numbers: the one currency of report, charts, files and page.
+//! A named series of numbers: the common currency of report, charts, files and page.
 
 /// One quantity over all samples; the same index is the same instant in every column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
     /// Stable name with the unit in it, e.g. `contour_error_mm`: CSV header and lookup key.
     pub key: String,
-    /// What a person reads, e.g. `Contour error`.
+    /// Display label, e.g. `Contour error`.
     pub label: String,
     /// Unit as printed, e.g. `mm`; empty for a pure number.
     pub unit: &'static str,
-    /// One value a sample.
+    /// One value per sample.
     pub values: Vec<f64>,
 }
 

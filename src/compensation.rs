@@ -1,11 +1,14 @@
-//! What to command: the path bent the other way until the actual one comes out right (thesis eq. 5.4, Figs. 5.12, 5.16).
+//! What to command: the path, bent the opposite way until the actual one comes out right (thesis
+//! eq. 5.4, Figs. 5.12, 5.16).
 //!
-//! Each pass sends the commands through the whole model and adds the contour error that is left to the correction.
-//! Shaping delays the motion, so an error seen now belongs to commands that were given a while (on the thesis's circle 15 mm)
-//! ago: [`Shaper::undo`] files it under them. The error corrected is the tip's way to the point of the path where the shaped
-//! motion should be, not only eq. 5.2's way to the closest point: it is smooth around corners and brings ends and corners where
-//! they belong, which the contour error cannot see. What is reported stays the contour error. Along a path whose tool axis turns, the
-//! axis is corrected in the same way. Once it has arrived at the end the command rests, so that a program can say it.
+//! Each pass simulates the commands with the whole model and adds the remaining error to the
+//! correction. Shaping delays the motion, so an error seen now was caused by earlier commands (15
+//! mm earlier on the thesis's circle); [`Shaper::undo`] attributes it to them. The error corrected
+//! is the distance from the tip to the path point where the shaped motion should be, not eq. 5.2's
+//! distance to the closest point. It is smooth around corners and puts ends and corners where they
+//! belong, which the contour error cannot see. The report still states the contour error. If the
+//! tool axis turns along the path, it is corrected in the same way. The command rests once it has
+//! arrived at the end, so that a program can express it.
 //!
 //! [`Shaper::undo`]: crate::motion::Shaper::undo
 
@@ -22,14 +25,14 @@ use crate::setup::Goal;
 use nalgebra::Vector3;
 use std::sync::Arc;
 
-/// What is asked of a compensation.
+/// The input of a compensation.
 #[derive(Debug, Clone, Copy)]
 pub struct Question<'a> {
-    /// Where the tool is meant to be; the sources that act in it are compensated.
+    /// Where the tool should be; the sources that act in it are compensated.
     pub reference: &'a Reference<'a>,
     /// Joint commands for the desired path [rad].
     pub q: &'a Arc<Vec<Joints>>,
-    /// Their outcome under the same sources: [`simulate`] of them.
+    /// Their result under the same sources, from [`simulate`].
     pub before: &'a Arc<Deviation>,
     /// When to stop.
     pub goal: Goal,
@@ -38,34 +41,35 @@ pub struct Question<'a> {
 /// The path to command and how it was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Compensation {
-    /// Correction of the desired position, one a sample, base frame [m].
+    /// Correction of the desired position, one per sample, base frame [m].
     pub correction: Vec<Vector3<f64>>,
-    /// Tool axis to command, base frame; the desired one where the path keeps one axis all along.
+    /// Tool axis to command, base frame; the desired one if the path keeps a constant axis.
     pub axis: Axes,
     /// Joint commands for the corrected path [rad].
     pub q: Arc<Vec<Joints>>,
-    /// What becomes of them: the same model, sent through again.
+    /// Their result in the same model.
     pub result: Arc<Deviation>,
-    /// Largest contour error before the first pass and after each [m].
+    /// Largest contour error before the first pass and after each pass [m].
     pub history_max: Vec<f64>,
-    /// Mean contour error before the first pass and after each [m].
+    /// Mean contour error before the first pass and after each pass [m].
     pub history_mean: Vec<f64>,
     /// Number of the pass whose path is commanded (0: the desired path itself).
     pub passes: usize,
     /// Whether the tolerance was reached.
     pub converged: bool,
-    /// Why a pass could not be carried out, if one could not.
+    /// Why a pass failed, if one did.
     pub stopped: Option<Error>,
 }
 
-/// Share of the tolerance at which the passes end: the rest is left to what no model knows, and costs a pass or two.
+/// Share of the tolerance at which the passes end. The rest is left for what no model covers.
+/// Reaching the aim costs a pass or two.
 const AIM: f64 = 0.1;
 /// A pass that leaves more than this share of the error is no improvement.
 const IMPROVEMENT: f64 = 0.99;
 
-/// Corrects the path until the largest contour error is well within the tolerance (a tenth of it), the
-/// passes are used up, or a pass no longer improves; the best pass is kept. A path that is within the
-/// tolerance is left alone.
+/// Corrects the path until the largest contour error is well within the tolerance (a tenth of it),
+/// the passes are used up, or a pass brings no more improvement. The best pass is kept. A path
+/// already within the tolerance stays as it is.
 pub fn compensate(plan: &Plan, question: &Question, progress: &mut Progress) -> Compensation {
     let Question { reference, q, before, goal } = *question;
     let mut best = Compensation {
@@ -89,7 +93,7 @@ pub fn compensate(plan: &Plan, question: &Question, progress: &mut Progress) -> 
             pass as f64 / goal.max_passes as f64,
         );
         let (correction, axis) = next_correction(plan, reference, &best);
-        // A pass is one half inverse model, one half all that comes after it.
+        // Half of a pass is the inverse model, the other half everything after it.
         let commands = match commands(plan, &correction, &axis, &mut progress.part("", 0.0, 0.5)) {
             Ok(commands) => commands,
             Err(error) => {
@@ -141,8 +145,8 @@ fn commands(
     Ok(joint_trajectory(&plan.robot, &targets, plan.setup.start, progress)?.q)
 }
 
-/// A correction [m] and tool axes, one a sample, with what `result` is missing of the tips and axes wanted: `undone` turns the vectors that are
-/// missing into those to add to the commands.
+/// A correction [m] and tool axes, one per sample, plus what `result` lacks of the desired tips and
+/// axes. `undone` converts the missing vectors into those to add to the commands.
 pub(crate) fn corrected(
     path: &Path,
     (target, wanted): (&[Vector3<f64>], &Axes),
@@ -158,7 +162,8 @@ pub(crate) fn corrected(
     if !path.is_multi_axis() {
         return (bent, axis.clone());
     }
-    // The turn that is missing, as a rotation vector: its size is the sine of the angle, small and soon exact.
+    // The missing turn as a rotation vector. Its length is the sine of the angle, nearly exact for
+    // small angles.
     let missing = result.axis.iter().enumerate().map(|(k, actual)| actual.cross(wanted.at(k)));
     let turns = undone(missing.collect());
     let turned = turns.iter().enumerate().map(|(k, turn)| {

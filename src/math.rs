@@ -1,7 +1,8 @@
 //! Functions and frames that give the same bits natively and in every browser.
 //!
-//! std leaves the precision of its transcendental functions to the platform, so all of ours go through the
-//! `libm` crate; only `+ - * /` and `sqrt`, which IEEE 754 fixes, are taken from the language.
+//! The standard library leaves the precision of its transcendental functions to the platform, so
+//! all of ours go through the `libm` crate. Only `+ - * /` and `sqrt`, which IEEE 754 fixes, come
+//! from the language.
 
 use nalgebra::{Matrix3, Vector3};
 pub use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -31,7 +32,7 @@ pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)
 }
 
-/// Arc cosine [rad]; the argument is limited to [-1, 1], which rounding may leave by a hair.
+/// Arc cosine [rad]; the argument is clamped to [-1, 1], which rounding may exceed slightly.
 pub fn acos(x: f64) -> f64 {
     libm::acos(x.clamp(-1.0, 1.0))
 }
@@ -64,11 +65,11 @@ pub fn pow(x: f64, y: f64) -> f64 {
 /// The angle equal to `angle` modulo a full turn that is nearest to `near` [rad].
 pub fn nearest_turn(angle: f64, near: f64) -> f64 {
     let turns = (angle - near) / TAU;
-    // Rounded by what WebAssembly has an instruction for; `round` is a call there.
+    // WebAssembly has an instruction for `trunc`; `round` is a function call there.
     angle - TAU * (turns + 0.5_f64.copysign(turns)).trunc()
 }
 
-/// An angle by its sine and cosine: what a closed form finds first, and what a rotation is made of.
+/// An angle as its sine and cosine: what a closed form yields and a rotation needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turn {
     /// Sine.
@@ -78,13 +79,14 @@ pub struct Turn {
 }
 
 impl Turn {
-    /// Of an angle [rad].
+    /// The turn by an angle [rad].
     pub fn of(angle: f64) -> Self {
         let (sin, cos) = sin_cos(angle);
         Self { sin, cos }
     }
 
-    /// From the direction of one point (x, y) to that of another; none where a point is the origin.
+    /// The turn from the direction of one point (x, y) to that of another; zero if a point is the
+    /// origin.
     pub fn between(from: (f64, f64), to: (f64, f64)) -> Self {
         let (dot, cross) = (from.0 * to.0 + from.1 * to.1, from.0 * to.1 - from.1 * to.0);
         let size = (dot * dot + cross * cross).sqrt();
@@ -109,7 +111,8 @@ pub fn rotation_about(axis: &Vector3<f64>, angle: f64) -> Matrix3<f64> {
     Matrix3::identity() + k * s + k * k * (1.0 - c)
 }
 
-/// A unit vector across `axis` (a unit vector): the projection of `preferred`, or of `other` where the two are parallel.
+/// A unit vector across `axis` (a unit vector): the projection of `preferred`, or of `other` if the
+/// two are parallel.
 pub fn across(axis: &Vector3<f64>, preferred: &Vector3<f64>, other: &Vector3<f64>) -> Vector3<f64> {
     let projection = preferred - axis * axis.dot(preferred);
     if projection.norm() > 1e-6 * preferred.norm() {
@@ -119,7 +122,8 @@ pub fn across(axis: &Vector3<f64>, preferred: &Vector3<f64>, other: &Vector3<f64
     }
 }
 
-/// Position and orientation of one frame in another: the homogeneous transformation of eq. 3.3 without its last row.
+/// Position and orientation of one frame in another: the homogeneous transformation of eq. 3.3
+/// without its last row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
     /// The frame's axes (n, s, a of eq. 3.3) as columns.
@@ -129,12 +133,13 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The frame itself.
+    /// The identity: the frame itself.
     pub fn identity() -> Self {
         Self { rotation: Matrix3::identity(), position: Vector3::zeros() }
     }
 
-    /// A frame at `position` [m], turned by roll, pitch and yaw [rad] about the fixed x, y and z axes in this order.
+    /// A frame at `position` [m], turned by roll, pitch and yaw [rad] about the fixed x, y and z
+    /// axes in this order.
     pub fn from_xyz_rpy(position: Vector3<f64>, rpy: [f64; 3]) -> Self {
         let rotation = rotation_about(&Vector3::z(), rpy[2])
             * rotation_about(&Vector3::y(), rpy[1])
@@ -142,23 +147,23 @@ impl Pose {
         Self { rotation, position }
     }
 
-    /// This transformation after `inner`: a point given in the inner frame, seen from outside.
+    /// This transformation after `inner`: from the inner frame to the outer one.
     pub fn compose(&self, inner: &Pose) -> Pose {
         Pose { rotation: self.rotation * inner.rotation, position: self.point(&inner.position) }
     }
 
-    /// The transformation back.
+    /// The inverse transformation.
     pub fn inverse(&self) -> Pose {
         let rotation = self.rotation.transpose();
         Pose { rotation, position: -(rotation * self.position) }
     }
 
-    /// A point of the frame [m], seen from outside.
+    /// A point [m] given in this frame, in the outer frame.
     pub fn point(&self, p: &Vector3<f64>) -> Vector3<f64> {
         self.rotation * p + self.position
     }
 
-    /// A direction of the frame, seen from outside.
+    /// A direction given in this frame, in the outer frame.
     pub fn direction(&self, v: &Vector3<f64>) -> Vector3<f64> {
         self.rotation * v
     }

@@ -1,4 +1,4 @@
-//! The plan: everything that is known before the robot moves. It owns what a run is made from.
+//! The plan: everything known before the robot moves. It owns all inputs of a run.
 
 use crate::error::Error;
 use crate::job::Sources;
@@ -11,27 +11,27 @@ use crate::setup::Setup;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// Arm, path and motion, and the setup that they come from. Clones share motion and setup.
+/// Arm, path and motion, with the setup they come from. Clones share motion and setup.
 #[derive(Debug, Clone)]
 pub struct Plan {
-    /// The question in SI.
+    /// The job in SI.
     pub setup: Arc<Setup>,
-    /// The arm with its tool; its sag counts from where the workpiece was touched off.
+    /// The arm with its tool; its sag is measured from where the workpiece was touched off.
     pub robot: Robot,
-    /// The desired path in the base frame, with the roll about the tool axis that is chosen.
+    /// The desired path in the base frame, with the chosen roll about the tool axis.
     pub path: Path,
     /// The desired motion.
     pub trajectory: Arc<Trajectory>,
 }
 
 impl Plan {
-    /// A plan to travel the path of a setup, all of it.
+    /// A plan for the whole path of a setup.
     pub fn new(setup: Arc<Setup>) -> Self {
         let trajectory = Arc::new(Trajectory::new(&setup.path, &setup.limits));
         Self { robot: setup.robot.clone(), path: setup.path.clone(), trajectory, setup }
     }
 
-    /// The same along another course of the path, at `count` stations instead of every sample.
+    /// This plan along `path`, at `count` stations instead of every sample.
     pub fn at_stations(&self, path: Path, count: usize) -> Self {
         let trajectory = Arc::new(Trajectory::stations(&path, &self.setup.limits, count));
         Self { path, trajectory, ..self.clone() }
@@ -42,7 +42,8 @@ impl Plan {
         &self.setup.shaper
     }
 
-    /// What acts while the correction is sought: what is to be compensated; all, if nothing is.
+    /// The sources that act while the correction is computed: those to compensate, or all if there
+    /// are none.
     pub fn sought(&self) -> Sources {
         if self.setup.sources == Sources::NONE { Sources::ALL } else { self.setup.sources }
     }
@@ -56,7 +57,7 @@ impl Plan {
         joint_trajectory(&self.robot, &targets, self.setup.start, progress)
     }
 
-    /// Where along the path the tool is over time: behind the command if shaping acts.
+    /// Timing law of the tool along the path; it lags the command if shaping acts.
     pub fn timing(&self, acting: Sources) -> Cow<'_, TimingLaw> {
         let Trajectory { timing, sample_time, .. } = &*self.trajectory;
         if acting.shaping {
@@ -66,7 +67,7 @@ impl Plan {
         }
     }
 
-    /// Whether joint values lie within the arm's ranges, where these are known.
+    /// Whether joint values lie within the arm's ranges; true if these are unknown.
     pub fn is_within_limits(&self, q: &Joints) -> bool {
         let ranges = self.robot.limits().into_iter().flatten();
         ranges.zip(q.iter()).all(|((low, high), q)| (low..=high).contains(&q))

@@ -1,39 +1,39 @@
-//! How far a computation has come, for the person or page that waits for it.
+//! Progress of a running computation.
 
-/// A state of the work.
+/// A progress report.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stage {
-    /// Share of the work done, from 0 to 1, if every pass is needed.
+    /// Share of the work done, from 0 to 1, assuming that every pass is needed.
     pub fraction: f64,
-    /// What is being done.
+    /// Name of the current part.
     pub name: &'static str,
 }
 
 /// Samples between two reports of a loop over samples.
 const STRIDE: usize = 1 << 15;
 
-/// Reports the progress of one part of the work to a listener, if there is one.
+/// Reports the progress of one part of the work to an optional listener.
 pub struct Progress<'a> {
     listener: Option<&'a mut (dyn FnMut(Stage) + 'a)>,
     name: &'static str,
-    /// Where in the whole work this part begins and ends.
+    /// Where this part begins and ends, as shares of the whole work.
     from: f64,
     to: f64,
 }
 
 impl<'a> Progress<'a> {
-    /// Without a listener.
+    /// Progress without a listener.
     pub fn none() -> Self {
         Self { listener: None, name: "", from: 0.0, to: 1.0 }
     }
 
-    /// The whole work.
+    /// Progress of the whole work.
     pub fn new(listener: &'a mut (dyn FnMut(Stage) + 'a)) -> Self {
         Self { listener: Some(listener), ..Self::none() }
     }
 
-    /// The part of this work from the share `from` to the share `to`, under its own name; an empty
-    /// name keeps the present one.
+    /// The part of this work from the share `from` to the share `to`, with its own name; an empty
+    /// name keeps the current one.
     pub fn part(&mut self, name: &'static str, from: f64, to: f64) -> Progress<'_> {
         let place = |share: f64| self.from + (self.to - self.from) * share;
         let (from, to) = (place(from), place(to));
@@ -44,14 +44,14 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// The share `share` of this part is done.
+    /// Reports that the share `share` of this part is done.
     pub fn at(&mut self, share: f64) {
         if let Some(listener) = &mut self.listener {
             listener(Stage { fraction: self.from + (self.to - self.from) * share, name: self.name });
         }
     }
 
-    /// The sample `k` of `count` is done; reports one in [`STRIDE`].
+    /// Notes that sample `k` of `count` is done; reports only every `STRIDE` samples.
     pub fn sample(&mut self, k: usize, count: usize) {
         if (k + 1).is_multiple_of(STRIDE) {
             self.at((k + 1) as f64 / count as f64);

@@ -1,4 +1,4 @@
-//! Every conversion factor, once: the value in SI of one unit that a person types or reads.
+//! All conversion factors: the SI value of each unit used in input and output.
 
 /// One millimetre [m].
 pub const MM: f64 = 1e-3;
@@ -10,7 +10,7 @@ pub const MINUTE: f64 = 60.0;
 pub const DEG: f64 = std::f64::consts::PI / 180.0;
 /// One minute of arc [rad].
 pub const ARCMIN: f64 = DEG / 60.0;
-/// One revolution a minute [1/s].
+/// One revolution per minute [1/s].
 pub const RPM: f64 = 1.0 / 60.0;
 /// One newton per square millimetre [N/m^2].
 pub const N_PER_MM2: f64 = 1e6;

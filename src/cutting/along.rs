@@ -5,22 +5,23 @@ use crate::motion::TimingLaw;
 use crate::path::Path;
 use nalgebra::Vector3;
 
-/// What sets the chip.
+/// What sets the feed per tooth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ChipLoad {
-    /// The same feed per tooth all along [m], as the thesis has it.
+    /// A constant feed per tooth [m], as in the thesis.
     Fixed(f64),
-    /// The local speed divided by the teeth that pass in a second.
+    /// The local speed divided by the number of teeth that pass per second.
     FromFeed {
         /// Number of flutes.
         flutes: f64,
-        /// Revolutions in a second [1/s], where a program says none.
+        /// Spindle speed [1/s], if the program states none.
         spindle: f64,
     },
 }
 
 impl ChipLoad {
-    /// Feed per tooth [m] at the speed `v` [m/s] and the program's spindle speed [1/s], if it states one.
+    /// Feed per tooth [m] at the speed `v` [m/s] and the program's spindle speed [1/s], if it
+    /// states one.
     pub fn at(&self, v: f64, programmed: Option<f64>) -> f64 {
         match self {
             ChipLoad::Fixed(c) => *c,
@@ -29,10 +30,12 @@ impl ChipLoad {
     }
 }
 
-/// Mean force on the tool [N] in the base frame, one a sample, where `timing` says the tool is; none on rapid moves.
+/// Mean force on the tool [N] in the base frame, one per sample, where the tool is by `timing`;
+/// zero on rapid moves.
 ///
-/// {T} is turned with the local feed: x = feed across the tool axis, z = tool axis, y = z x x (eq. 4.11). Where the tool moves
-/// along its own axis x is undefined; the last direction holds (at the start: the first one that follows), and the report warns.
+/// {T} follows the local feed: x = feed across the tool axis, z = tool axis, y = z x x (eq. 4.11).
+/// Where the tool moves along its own axis, x is undefined: the last direction is kept (at the
+/// start, the first one that follows), and the report warns.
 pub fn forces(path: &Path, timing: &TimingLaw, mean: &LinearForce, chip: &ChipLoad) -> Vec<Vector3<f64>> {
     let mut forces = Vec::with_capacity(timing.heading.len());
     each(path, timing, |k, x, axis| {
@@ -43,7 +46,8 @@ pub fn forces(path: &Path, timing: &TimingLaw, mean: &LinearForce, chip: &ChipLo
     forces
 }
 
-/// Calls `at` for every sample with its number and the directions x and z of {T} there, in the base frame.
+/// Calls `at` for every sample with its number and the directions x and z of {T} there, in the base
+/// frame.
 pub fn each(path: &Path, timing: &TimingLaw, mut at: impl FnMut(usize, Vector3<f64>, Vector3<f64>)) {
     let across = |heading: &Vector3<f64>, axis: &Vector3<f64>| {
         (heading - axis * axis.dot(heading)).try_normalize(1e-6)

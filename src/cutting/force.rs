@@ -1,8 +1,9 @@
 //! Milling force in the cutting frame {T} (thesis eqs. 4.1-4.7).
 //!
-//! {T}: x = feed direction across the tool axis, z = tool axis from tip to spindle, y = z x x. The spindle turns
-//! clockwise seen from itself; the immersion angle phi counts clockwise from +y. Forces act on the tool.
-//! Not modelled: vibration, wear, the tool's bottom edges, deflection's own effect on the chip.
+//! {T}: x = feed direction across the tool axis, z = tool axis from tip to spindle, y = z x x. The
+//! spindle turns clockwise seen from itself; the immersion angle phi counts clockwise from +y.
+//! Forces act on the tool. Not modelled: vibration, wear, the tool's bottom edges, deflection's own
+//! effect on the chip.
 
 use crate::cutting::tool::Slice;
 use crate::cutting::{Coefficients, Engagement};
@@ -18,22 +19,23 @@ pub struct Cut {
     pub flutes: u32,
     /// Helix angle beta [rad]; every edge winds evenly about the axis, on the corner too.
     pub helix: f64,
-    /// Radius of the corner between side and bottom [m]: 0 of a flat end mill, D / 2 of a ball nose, between them of a bull nose.
+    /// Radius of the corner between side and bottom [m]: 0 of a flat end mill, D / 2 of a ball
+    /// nose, between them of a bull nose.
     pub corner_radius: f64,
-    /// How far the tool's axis is off the spindle's, towards the first tooth [m].
+    /// Offset of the tool's axis from the spindle's, towards the first tooth [m].
     pub runout: f64,
     /// Cutting coefficients.
     pub coefficients: Coefficients,
     /// Axial depth of cut a [m].
     pub axial_depth: f64,
-    /// Where the material stands.
+    /// Where the material is.
     pub engagement: Engagement,
 }
 
 /// A force in {T} that is linear in the feed per tooth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearForce {
-    /// Cutting part: force for each metre of feed per tooth [N/m].
+    /// Cutting part: force per metre of feed per tooth [N/m].
     pub cutting: Vector3<f64>,
     /// Edge part [N].
     pub edge: Vector3<f64>,
@@ -55,14 +57,14 @@ impl LinearForce {
     }
 }
 
-/// Slices of a corner for means: on a corner they are within 1e-4 of the force (the rest is in closed form).
+/// Slices of a corner for means, accurate to 1e-4 of the force there (the rest is in closed form).
 const FINE: usize = 256;
 /// Slices of a corner for the force at an instant.
 const COARSE: usize = 48;
-/// Steps of the immersion angle in which the largest force is looked for.
+/// Steps of the immersion angle in the search for the largest force.
 const STEPS: usize = 360;
 
-/// The angle in the first turn [rad].
+/// The angle reduced to the first turn [rad].
 fn wrapped(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).floor()
 }
@@ -73,7 +75,8 @@ fn project(phi: f64, t: f64, r: f64, a: f64) -> Vector3<f64> {
     Vector3::new(-t * cos - r * sin, t * sin - r * cos, a)
 }
 
-/// Antiderivative over phi of the force per height [N/m] on one edge (eqs. 4.1-4.3): for 1 m of feed per tooth, and of the edge.
+/// Antiderivative over phi of the force per height [N/m] on one edge (eqs. 4.1-4.3): cutting part
+/// for 1 m of feed per tooth, and edge part.
 fn primitive(k: &Coefficients, phi: f64) -> (Vector3<f64>, Vector3<f64>) {
     let (sin, cos) = math::sin_cos(phi);
     let (sin_2, cos_2) = math::sin_cos(2.0 * phi);
@@ -100,8 +103,8 @@ impl Cut {
         self.slices(COARSE, 1)
     }
 
-    /// Mean force over a revolution (eqs. 4.6, 4.7), in closed form over the angle; the helix does not change it, nor does runout: what one
-    /// tooth leaves the next one takes.
+    /// Mean force over a revolution (eqs. 4.6, 4.7), in closed form over the angle. Neither helix
+    /// nor runout changes it: what one tooth leaves, the next one cuts.
     pub fn mean_force(&self) -> LinearForce {
         let mut mean = LinearForce::zero();
         for slice in self.profile() {
@@ -112,14 +115,16 @@ impl Cut {
         mean
     }
 
-    /// Force [N] in {T} at the instant when the first tooth's tip is at the immersion angle `phi`, for the feed per tooth `c` [m].
+    /// Force [N] in {T} at the instant when the first tooth's tip is at the immersion angle `phi`,
+    /// for the feed per tooth `c` [m].
     ///
-    /// All teeth and the whole height add up (eq. 4.4).
+    /// The sum over all teeth and the whole height (eq. 4.4).
     pub fn force(&self, phi: f64, c: f64) -> Vector3<f64> {
         self.revolution_at(&[phi], c).1[0]
     }
 
-    /// The same without runout, each slice integrated over its height in closed form.
+    /// The force in {T} at an instant without runout, with each slice integrated over its height in
+    /// closed form.
     pub(super) fn instant(&self, slices: &[Slice], phi: f64) -> LinearForce {
         let pitch = TAU / f64::from(self.flutes);
         let mut total = LinearForce::zero();
@@ -137,7 +142,8 @@ impl Cut {
                     }
                     continue;
                 }
-                // The slice covers the angles from top - swept to top; count each turn of the engagement that it meets.
+                // The slice covers the angles from top - swept to top; add each turn of the
+                // engagement that they overlap.
                 let mut turn = 0.0;
                 while slice.exit - turn * TAU > top - swept {
                     let from = (slice.entry - turn * TAU).max(top - swept);
@@ -154,8 +160,9 @@ impl Cut {
 
     /// Force [N] in {T} with runout: each tooth cuts what the ones before it left.
     ///
-    /// Radius of a tooth R_i = R + rho cos(angle between it and the offset); chip of tooth i along the radius min over m of
-    /// (m c sin(phi) + R_i - R_(i-m)), none where that is negative (W. Kline, R. DeVor, Int. J. Mach. Tool Des. Res. 23 (1983)).
+    /// The radius of tooth i is R_i = R + rho cos(angle between it and the offset). Its chip along
+    /// the radius is the minimum over m of (m c sin(phi) + R_i - R_(i-m)), or none if that is
+    /// negative (W. Kline, R. DeVor, Int. J. Mach. Tool Des. Res. 23 (1983)).
     fn instant_with_runout(&self, slices: &[Slice], phi: f64, c: f64) -> Vector3<f64> {
         let pitch = TAU / f64::from(self.flutes);
         let mut total = Vector3::zeros();
@@ -188,7 +195,8 @@ impl Cut {
         total
     }
 
-    /// Force over one revolution in `steps` even steps of the immersion angle (Fig. 4.2): angles [rad] and forces [N] in {T}.
+    /// Force over one revolution in `steps` even steps of the immersion angle (Fig. 4.2): angles
+    /// [rad] and forces [N] in {T}.
     pub fn revolution(&self, steps: usize, c: f64) -> (Vec<f64>, Vec<Vector3<f64>>) {
         let angles: Vec<f64> = (0..=steps).map(|step| TAU * step as f64 / steps as f64).collect();
         self.revolution_at(&angles, c)

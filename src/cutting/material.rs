@@ -1,8 +1,8 @@
-//! Materials: how much force a chip of a given size costs.
+//! Materials: the force that a chip of a given size takes.
 //!
-//! dF_t = (k_tc h + k_te) dz, likewise radial and axial (eq. 4.1 with the edge terms of
-//! Y. Altintas, Manufacturing Automation, 2nd ed. 2012, section 2.8). Kienzle's and orthogonal-cutting materials become such
-//! coefficients for one thickness of chip.
+//! dF_t = (k_tc h + k_te) dz, likewise radial and axial (eq. 4.1 with the edge terms of Y.
+//! Altintas, Manufacturing Automation, 2nd ed. 2012, section 2.8). Kienzle's and orthogonal-cutting
+//! materials are converted to such coefficients for one chip thickness.
 
 use crate::cutting::kienzle::Kienzle;
 use crate::cutting::oblique::Orthogonal;
@@ -40,19 +40,19 @@ impl Coefficients {
     }
 }
 
-/// How a material's numbers are to be read.
+/// Force model of a material's numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Model {
-    /// Coefficients as identified with a tool like the one they are used for.
+    /// Coefficients identified with a tool like the one in use.
     Linear(Coefficients),
-    /// Specific cutting force over the thickness of chip.
+    /// Specific cutting force over chip thickness.
     Kienzle(Kienzle),
     /// Shear stress, friction and shear angle, for any helix and rake.
     Orthogonal(Orthogonal),
 }
 
 impl Model {
-    /// What materials of this kind have in common, for lists.
+    /// Heading of materials of this kind in lists.
     pub fn heading(&self) -> &'static str {
         match self {
             Model::Linear(_) => "Identified in milling",
@@ -61,7 +61,7 @@ impl Model {
         }
     }
 
-    /// Whether the coefficients depend on the thickness of chip they are made for.
+    /// Whether the coefficients depend on the chip thickness.
     pub fn needs_chip(&self) -> bool {
         !matches!(self, Model::Linear(_))
     }
@@ -72,17 +72,17 @@ impl Model {
 pub struct Material {
     /// Key used in jobs.
     pub id: &'static str,
-    /// Name as read.
+    /// Display name.
     pub name: &'static str,
     /// Its numbers.
     pub model: Model,
-    /// How far a force may be off, either way [%].
+    /// Possible error of a force, either way [%].
     pub spread: f64,
     /// How far to trust the record: high, medium or low.
     pub confidence: &'static str,
     /// Where the numbers come from.
     pub source: &'static str,
-    /// What else to know.
+    /// Further remarks.
     pub remark: &'static str,
 }
 
@@ -112,7 +112,7 @@ pub fn library() -> &'static [Material] {
     })
 }
 
-/// One line of the data file; a comment is none.
+/// Parses one line of the data file; `None` for a comment.
 fn material(line: &'static str, sources: &[(&'static str, &'static str)]) -> Option<Material> {
     let mut parts = line.split(';').map(str::trim);
     let (id, name, model) = (parts.next()?, parts.next()?, parts.next()?);

@@ -1,4 +1,5 @@
-//! What pushes: milling forces from tool, material and engagement (thesis section 4.2), and their direction along the path (eq. 4.11).
+//! Milling forces from tool, material and engagement (thesis section 4.2), and their direction
+//! along the path (eq. 4.11).
 
 pub mod material;
 pub mod kienzle;

@@ -1,13 +1,14 @@
 //! From orthogonal cutting tests to an oblique edge: coefficients for any helix and rake.
 //!
-//! E. Budak, Y. Altintas, E. J. A. Armarego, Prediction of Milling Force Coefficients From Orthogonal Cutting Data, ASME J. Manuf. Sci. Eng. 118
-//! (1996), eqs. 8 to 11; with the chip flow rule of Stabler: the chip flows at the angle of obliquity, which is the helix angle.
+//! E. Budak, Y. Altintas, E. J. A. Armarego, Prediction of Milling Force Coefficients From
+//! Orthogonal Cutting Data, ASME J. Manuf. Sci. Eng. 118 (1996), eqs. 8 to 11, with Stabler's rule:
+//! the chip flow angle equals the obliquity, which is the helix angle.
 
 use crate::cutting::Coefficients;
 use crate::math;
 use crate::units::{DEG, MINUTE, MM, N_PER_MM, N_PER_MM2};
 
-/// A material as turned across its edge.
+/// Orthogonal cutting data of a material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Orthogonal {
     /// The numbers of the data file, in its order and units.
@@ -15,7 +16,8 @@ pub struct Orthogonal {
 }
 
 impl Orthogonal {
-    /// Coefficients at the chip thickness `h` [m] and cutting speed `v` [m/s], for an edge of this rake and helix [rad].
+    /// Coefficients at the chip thickness `h` [m] and cutting speed `v` [m/s], for an edge with
+    /// this rake and helix [rad].
     pub fn linear(&self, h: f64, v: f64, rake: f64, helix: f64) -> Coefficients {
         let [t0, t_rake, b0, b_h, b_v, b_rake, p0, p_h, p_v, p_rake, r0, r_rake, a0, a_rake, kte, kre] =
             self.numbers;
@@ -35,7 +37,8 @@ impl Orthogonal {
     }
 }
 
-/// Cutting coefficients of an oblique edge from the shear stress [N/m^2], shear angle, friction angle, normal rake and obliquity [rad].
+/// Cutting coefficients of an oblique edge from the shear stress [N/m^2], shear angle, friction
+/// angle, normal rake and obliquity [rad].
 pub fn oblique(
     shear_stress: f64,
     shear_angle: f64,

@@ -1,12 +1,13 @@
-//! The force at the instants when the edge generates the wall that stays.
+//! The force at the instants when the edge generates the finished wall.
 //!
-//! Within a revolution the force rises and falls. A point of the wall is left by the edge that passes it last, at 0 or 180 deg of
-//! immersion, and where the tool is at that instant, the wall is (W. Kline, R. DeVor, I. Shareef, The Prediction of Surface Accuracy in End
-//! Milling, ASME J. Eng. Ind. 104 (1982); Altintas 2012, section 2.10). With a helix every height has its own instant.
+//! The force varies within a revolution. The edge that passes a point of the wall last, at 0 or 180
+//! deg of immersion, leaves it, so the tool's position at that instant determines the wall (W.
+//! Kline, R. DeVor, I. Shareef, The Prediction of Surface Accuracy in End Milling, ASME J. Eng.
+//! Ind. 104 (1982); Altintas 2012, section 2.10). With a helix, every height has its own instant.
 
 use crate::cutting::{Cut, LinearForce};
 
-/// A wall and the forces that make it.
+/// A wall and the forces at its generation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wall {
     /// Direction from the tool into the part along y of {T}: 1 is left of the feed, -1 right of it.
@@ -15,11 +16,12 @@ pub struct Wall {
     pub instants: Vec<LinearForce>,
 }
 
-/// Heights at which the wall is looked at.
+/// Number of heights at which the wall is evaluated.
 const HEIGHTS: usize = 24;
 
 impl Cut {
-    /// The walls that the engagement leaves; above the corner where the cut is deeper. Runout is left out.
+    /// The walls that the engagement leaves, above the corner if the cut is deeper than that.
+    /// Runout is ignored.
     pub fn walls(&self) -> Vec<Wall> {
         let from = if self.axial_depth > self.corner_radius { self.corner_radius } else { 0.0 };
         let slices = self.coarse();

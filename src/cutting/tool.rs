@@ -5,7 +5,7 @@ use crate::math;
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// A piece of every edge that is cut as on a cylinder, with coefficients of its own.
+/// A piece of every edge that cuts like a cylinder's, with its own coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Slice {
     /// Height of its lower end above the tip [m].
@@ -16,7 +16,7 @@ pub(super) struct Slice {
     pub(super) edge: f64,
     /// Distance of the edge from the axis [m].
     pub(super) radius: f64,
-    /// Force per height.
+    /// Coefficients for force per height.
     pub(super) coefficients: Coefficients,
     /// Entry and exit [rad].
     pub(super) entry: f64,
@@ -29,12 +29,15 @@ impl Cut {
         self.diameter / 2.0
     }
 
-    /// The engaged edge from the tip up: the corner in `count` slices, then the cylinder in `above`.
+    /// The engaged edge from the tip up: the corner in `count` slices, then the cylinder in
+    /// `above`.
     ///
-    /// On a corner of the radius r_c the edge's normal is at the angle kappa to the tool axis: height r_c (1 - cos kappa), chip
-    /// h = c sin(phi) sin(kappa), chip width dz / sin(kappa), so that a slice of height dz takes the chip section c sin(phi) dz of a cylinder. Radial force
-    /// acts along the normal, axial force along the profile (P. Lee, Y. Altintas, Int. J. Mach. Tools Manufact. 36 (1996), eqs. 8 to 14;
-    /// Altintas 2012, section 2.9; the axial force has the thesis's sign): turned by kappa they are those of a cylinder with other coefficients.
+    /// On a corner of radius r_c the edge's normal is at the angle kappa to the tool axis: height
+    /// r_c (1 - cos kappa), chip h = c sin(phi) sin(kappa), chip width dz / sin(kappa). A slice of
+    /// height dz thus takes the chip section c sin(phi) dz of a cylinder. Radial force acts along
+    /// the normal, axial force along the profile (P. Lee, Y. Altintas, Int. J. Mach. Tools
+    /// Manufact. 36 (1996), eqs. 8 to 14; Altintas 2012, section 2.9; the axial force has the
+    /// thesis's sign). Turned by kappa, they are those of a cylinder with other coefficients.
     pub(super) fn slices(&self, count: usize, above: usize) -> Vec<Slice> {
         let (outer, corner, depth) = (self.radius(), self.corner_radius, self.axial_depth);
         let mut slices = Vec::new();
@@ -79,25 +82,27 @@ impl Cut {
     }
 }
 
-/// How far a force on the tip, across the axis, bends the tool out of its holder.
+/// Compliance of the tool in its holder to a force on the tip across the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bending {
-    /// Displacement of the tip for each newton [m/N].
+    /// Displacement of the tip per newton [m/N].
     pub displacement: f64,
-    /// Turn of the tip for each newton [rad/N].
+    /// Rotation of the tip per newton [rad/N].
     pub turn: f64,
 }
 
-/// Diameter of the bar that bends like the fluted part, as a share of the tool's diameter.
-/// L. Kops, D. T. Vo, CIRP Annals 39 (1990): about 0.8 for end mills of two to four flutes.
+/// Diameter of the bar that bends like the fluted part, as a share of the tool's diameter (L. Kops,
+/// D. T. Vo, CIRP Annals 39 (1990): about 0.8 for end mills with two to four flutes).
 pub const FLUTED: f64 = 0.8;
 
 impl Bending {
-    /// A bar of the length `length` clamped in its holder [m], of Young's modulus `modulus` [N/m^2]: fluted over `flute_length` from the tip, then round
-    /// with the diameter `shank`.
+    /// A bar clamped in its holder: `length` is the length out of the holder [m], `modulus` Young's
+    /// modulus [N/m^2]. It is fluted over `flute_length` [m] from the tip, on the tool's `diameter`
+    /// [m], then round with the diameter `shank` [m].
     ///
-    /// Sum over both parts of the integral of x^2 / (E I) and x / (E I) from the tip, I = pi d^4 / 64; a single one gives F L^3 / (3 E I)
-    /// (S. Timoshenko, Strength of Materials I, section 36).
+    /// The sum over both parts of the integrals of x^2 / (E I) and x / (E I) from the tip, with I =
+    /// pi d^4 / 64. A single part gives F L^3 / (3 E I) (S. Timoshenko, Strength of Materials I,
+    /// section 36).
     pub fn of(modulus: f64, length: f64, flute_length: f64, diameter: f64, shank: f64) -> Self {
         let stiffness = |d: f64| modulus * PI * d * d * d * d / 64.0;
         let (fluted, round) = (stiffness(FLUTED * diameter), stiffness(shank));
@@ -110,8 +115,8 @@ impl Bending {
         }
     }
 
-    /// Displacement [m] and rotation [rad] of the tip under a force [N] on it, for a tool along `axis` (from tip to spindle): the part of the force
-    /// across the axis bends, the part along it does not.
+    /// Displacement [m] and rotation [rad] of the tip under a force [N] on it, for a tool along
+    /// `axis` (from tip to spindle): only the part of the force across the axis bends it.
     pub fn deflection(&self, axis: &Vector3<f64>, force: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
         let across = force - axis * axis.dot(force);
         // The tip moves with the force; the axis, seen from the tip, then leans the other way.

@@ -1,13 +1,14 @@
-//! Contour error: how far the tip is from the desired path, wherever along it (thesis eqs. 5.1, 5.2).
+//! Contour error: distance of the tip from the desired path, regardless of timing (thesis eqs. 5.1,
+//! 5.2).
 
 use crate::path::Path;
 use nalgebra::Vector3;
 
-/// Contour error vector epsilon = P_c - P_a [m] (eq. 5.2) of a tip that is meant to be at `target`, the
+/// Contour error vector epsilon = P_c - P_a [m] (eq. 5.2) of a tip that should be at `target`, the
 /// path's point at the arc length `s` [m].
 ///
-/// P_c is searched around there. The target is at some distance d from the tip, the closest point is at
-/// most that far, so the two are at most 2 d apart; 3 d leaves room for the path's bends.
+/// P_c is searched near `target`. If the target is at the distance d from the tip, the closest
+/// point is no further away, so the two are at most 2 d apart; 3 d allows for the path's bends.
 pub fn contour_error(path: &Path, (s, target): (f64, &Vector3<f64>), tip: &Vector3<f64>) -> Vector3<f64> {
     let distance = (tip - target).norm();
     path.closest(tip, s, 3.0 * distance + 1e-6).point - tip
@@ -23,7 +24,7 @@ pub struct MeanMax {
 }
 
 impl MeanMax {
-    /// Of error vectors [m].
+    /// Mean and largest length of error vectors [m].
     pub fn of(errors: &[Vector3<f64>]) -> Self {
         let (mut sum, mut max) = (0.0, 0.0_f64);
         for error in errors {

@@ -1,5 +1,5 @@
-//! What gives way: deflection by cutting forces, distortion by the input shaper, and the contour error
-//! of both (thesis sections 4.3-4.5, 5.2).
+//! Deviation from the path: deflection by cutting forces, distortion by the input shaper, and the
+//! contour error of both (thesis sections 4.3-4.5, 5.2).
 
 pub mod contour;
 pub mod reference;
@@ -14,23 +14,24 @@ use crate::path::Path;
 use contour::MeanMax;
 use nalgebra::Vector3;
 
-/// The outcome of joint commands.
+/// The result of joint commands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Deviation {
     /// Actual tip in the base frame [m].
     pub actual: Vec<Vector3<f64>>,
-    /// Actual tool axis, from tip to spindle, in the base frame; empty along a path that keeps one axis.
+    /// Actual tool axis, from tip to spindle, in the base frame; empty if the path keeps a constant
+    /// axis.
     pub axis: Vec<Vector3<f64>>,
     /// Contour error, from the actual tip to the closest point of the desired path [m].
     pub contour_error: Vec<Vector3<f64>>,
-    /// Its mean and largest length.
+    /// Mean and largest length of the contour error.
     pub statistics: MeanMax,
-    /// Angle between the actual and the desired tool axis where the tool is along the path [rad]; empty
-    /// unless every source acts.
+    /// Angle between the actual tool axis and the desired one at the tool's place on the path
+    /// [rad]; empty unless every source acts.
     pub axis_error: Vec<f64>,
 }
 
-/// Where a shaped command and what gives way bring the tool: tip or displacement [m], axis or turn [rad].
+/// A tip [m] with its tool axis, or their displacement [m] and rotation [rad] by deflection.
 type TipAndAxis = (Vector3<f64>, Vector3<f64>);
 
 /// Collects a [`Deviation`] sample by sample.
@@ -56,7 +57,7 @@ impl<'a> DeviationBuilder<'a> {
         Self { path, reference, keeps_axes, keeps_angles, deviation }
     }
 
-    /// Adds the sample `k`: the shaped pose, moved [m] and turned [rad].
+    /// Adds the sample `k`: the shaped pose, displaced [m] and rotated [rad] by deflection.
     fn push(&mut self, k: usize, (tip, axis): &TipAndAxis, (moved, turned): &TipAndAxis) {
         let Self { path, reference, deviation, .. } = self;
         let tip = tip + moved;

@@ -1,8 +1,8 @@
 //! The forward model: joint commands sent through shaper, arm and cut (Figs. 4.7, 5.14, 5.16).
 //!
-//! Actual tip = shaped pose + C F. Eq. 5.3 subtracts the displacement; a force pushes the tip its own
-//! way, so it is added here. Force and compliance are taken where the shaped command puts the arm; where
-//! deflection does not act, nothing gives way to force or weight.
+//! Actual tip = shaped pose + C F. Eq. 5.3 subtracts the displacement; a force moves the tip in its
+//! own direction, so it is added here. Force and compliance are those at the shaped pose. If
+//! deflection does not act, the arm yields to neither force nor weight.
 
 use crate::deviation::{Deviation, DeviationBuilder, Reference, TipAndAxis};
 use crate::job::{Source, Sources};
@@ -13,27 +13,27 @@ use crate::robot::{Joints, compliance, forward};
 use nalgebra::Vector3;
 use std::sync::Arc;
 
-/// The outcome of joint commands while every source acts, taken apart.
+/// The result of joint commands while every source acts, split by source.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ErrorsBySource {
-    /// By every source.
+    /// Deviation by every source.
     pub total: Arc<Deviation>,
-    /// By the shaper, if nothing gave way to forces.
+    /// Deviation by the shaper alone, without deflection.
     pub shaping: Arc<Deviation>,
     /// Displacement of the tip by the force [m].
     pub deflection: Vec<Vector3<f64>>,
 }
 
-/// The deviation that joint commands end in, under the sources that act in the reference; `q` has one
-/// row for each of its samples.
+/// Simulates joint commands under the sources that act in the reference; `q` has one row for each
+/// sample of the reference.
 pub fn simulate(plan: &Plan, reference: &Reference, q: &[Joints], progress: &mut Progress) -> Deviation {
     let mut total = DeviationBuilder::new(&plan.path, reference, reference.acting);
-    send(plan, reference, q, progress, |k, pose, given_way| total.push(k, pose, given_way));
+    send(plan, reference, q, progress, |k, pose, deflected| total.push(k, pose, deflected));
     total.finish()
 }
 
-/// The same for a reference where every source acts and, from the same poses, the shaper alone and how
-/// far forces move the shaped tip.
+/// Simulates joint commands with every source acting. The same poses also give the deviation by the
+/// shaper alone and the displacement of the shaped tip by forces.
 pub fn simulate_by_source(
     plan: &Plan,
     reference: &Reference,
@@ -43,16 +43,16 @@ pub fn simulate_by_source(
     let mut total = DeviationBuilder::new(&plan.path, reference, reference.acting);
     let mut shaping = DeviationBuilder::new(&plan.path, reference, Sources::only(Source::Shaping));
     let mut deflection = Vec::with_capacity(reference.force.len());
-    send(plan, reference, q, progress, |k, pose, given_way| {
+    send(plan, reference, q, progress, |k, pose, deflected| {
         shaping.push(k, pose, &Default::default());
-        total.push(k, pose, given_way);
-        deflection.push(given_way.0);
+        total.push(k, pose, deflected);
+        deflection.push(deflected.0);
     });
     ErrorsBySource { total: total.finish().into(), shaping: shaping.finish().into(), deflection }
 }
 
-/// Calls `arrived` for each sample with its number, the shaped tip with the tool axis, and how far they
-/// give way: moved [m] and turned [rad].
+/// Calls `arrived` for each sample with its number, the shaped tip with the tool axis, and their
+/// displacement [m] and rotation [rad] by deflection.
 fn send(
     plan: &Plan,
     reference: &Reference,
@@ -69,16 +69,16 @@ fn send(
         let frames = forward::frames(&plan.robot, &q);
         let tcp = frames[5].compose(plan.robot.tool());
         let axis: Vector3<f64> = -tcp.rotation.column(2);
-        let mut given_way = Default::default();
+        let mut deflected = Default::default();
         if reference.acting.deflection {
             let force = &reference.force[k];
-            given_way = compliance::deflection(&plan.robot, &q, &frames, &tcp.position, force);
+            deflected = compliance::deflection(&plan.robot, &q, &frames, &tcp.position, force);
             if let Some(bending) = &plan.setup.bending {
                 let (moved, turned) = bending.deflection(&axis, force);
-                given_way = (given_way.0 + moved, given_way.1 + turned);
+                deflected = (deflected.0 + moved, deflected.1 + turned);
             }
         }
-        arrived(k, &(tcp.position, axis), &given_way);
+        arrived(k, &(tcp.position, axis), &deflected);
         progress.sample(k, reference.arc_length.len());
     }
 }

@@ -1,4 +1,5 @@
-//! Joint commands along the trajectory: the inverse model at every sample, on one continuous branch (thesis Fig. 5.4).
+//! Joint commands along the trajectory: the inverse model at every sample, on one continuous branch
+//! (thesis Fig. 5.4).
 
 use crate::error::Error;
 use crate::math::Pose;
@@ -10,21 +11,21 @@ use crate::robot::{Joints, Robot};
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 
-/// Which of the up to eight solutions the motion starts on.
+/// Which of the up to eight solutions the motion starts from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StartBranch {
     /// The arm faces the point.
     pub front: bool,
-    /// The elbow angle from the stretched arm is positive.
+    /// The elbow angle, measured from the stretched arm, is positive.
     pub elbow_positive: bool,
     /// The wrist with the smaller |q4|.
     pub wrist_near: bool,
 }
 
-/// Joint commands, one a sample.
+/// Joint commands, one per sample.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointTrajectory {
-    /// Joint values [rad]; they run on beyond full turns rather than jump.
+    /// Joint values [rad]; continuous beyond full turns.
     pub q: Arc<Vec<Joints>>,
     /// Distance from the singularities at each sample.
     pub margin: Vec<Margin>,
@@ -32,12 +33,12 @@ pub struct JointTrajectory {
     pub start: inverse::Branch,
 }
 
-/// TCPs to reach, one a sample.
+/// Target TCPs, one per sample.
 #[derive(Clone, Copy)]
 pub struct Targets<'a> {
-    /// The path that gives orientation and roll.
+    /// The path, for orientation and roll.
     pub path: &'a Path,
-    /// Where along it each sample is [m].
+    /// Arc length of each sample along the path [m].
     pub arc_length: &'a [f64],
     /// Positions in the base frame [m].
     pub position: &'a [Vector3<f64>],
@@ -46,18 +47,18 @@ pub struct Targets<'a> {
 }
 
 impl<'a> Targets<'a> {
-    /// A trajectory's own positions and axes along a path.
+    /// The positions and axes of a trajectory along a path.
     pub fn desired(path: &'a Path, trajectory: &'a Trajectory) -> Self {
         let Trajectory { timing, position, axis, .. } = trajectory;
         Self { path, arc_length: &timing.arc_length, position, axis }
     }
 }
 
-/// Solves the inverse model for each target, each sample nearest to the one before.
+/// Solves the inverse model for each target, with each solution nearest to the one before.
 ///
 /// # Errors
-/// [`Error::Unreachable`] with the sample and its arc length; [`Error::Invalid`] if the start has no
-/// solution on the branch asked for.
+/// [`Error::Unreachable`] with the sample and its arc length; [`Error::Invalid`] if the start has
+/// no solution on the requested branch.
 pub fn joint_trajectory(
     robot: &Robot,
     targets: &Targets,
@@ -70,7 +71,7 @@ pub fn joint_trajectory(
     let mut margin = Vec::with_capacity(positions.len());
     let mut previous: Option<Solution> = None;
     let mut first = None;
-    // Axis, roll and orientation of the last sample: mostly the next one's too.
+    // Axis, roll and orientation of the last sample; mostly the next sample has the same.
     let mut held = (Vector3::zeros(), 0.0, Matrix3::zeros());
     for (k, position) in positions.iter().enumerate() {
         let s = arc_length[k];
@@ -96,7 +97,7 @@ pub fn joint_trajectory(
     }
 }
 
-/// The solution that a motion starts on.
+/// The solution that a motion starts from.
 pub(crate) fn first_solution(robot: &Robot, tcp: &Pose, start: StartBranch) -> Result<Solution, Error> {
     let solutions = inverse::inverse(robot, tcp, &Joints::zeros())?;
     let (near, flipped) = {

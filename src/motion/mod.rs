@@ -1,4 +1,4 @@
-//! When: speed along the path, the trajectory in time, the joint trajectory, and the input shaper.
+//! Motion in time: speed along the path, trajectory, joint trajectory and input shaper.
 
 pub mod profile;
 pub mod trajectory;

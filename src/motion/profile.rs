@@ -1,4 +1,5 @@
-//! Trapezoidal speed along the path (thesis section 5.2), triangular where the path is too short for the feed.
+//! Trapezoidal speed along the path (thesis section 5.2), triangular if the path is too short to
+//! reach the feed.
 
 /// Distance over time along one move.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,19 +15,21 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// From rest over `length` [m] to rest, at most `feed` [m/s] fast, speeding up and slowing down by `acceleration` [m/s^2].
+    /// From rest to rest over `length` [m], at no more than `feed` [m/s], accelerating and braking
+    /// at `acceleration` [m/s^2].
     ///
-    /// All three are positive. If the length does not suffice to reach the feed, the profile is a triangle.
+    /// All three are positive. If the length is too short to reach the feed, the profile is a
+    /// triangle.
     pub fn new(length: f64, feed: f64, acceleration: f64) -> Self {
         Self::between(length, (0.0, 0.0), feed, acceleration)
     }
 
-    /// The same from the speed `entry` to the speed `exit` [m/s].
+    /// From the speed `entry` to the speed `exit` [m/s] over `length` [m].
     ///
-    /// Both are at most the feed, and so near to each other that the length suffices for the change.
+    /// Both are at most the feed, and the length must suffice for the change between them.
     pub fn between(length: f64, (entry, exit): (f64, f64), feed: f64, acceleration: f64) -> Self {
         let top = (length * acceleration + (entry * entry + exit * exit) / 2.0).sqrt();
-        // Rounding must not put the peak below the ends.
+        // Rounding must not put the peak below the speeds at the ends.
         let peak = feed.min(top).max(entry).max(exit);
         let (ramp_up, ramp_down) = ((peak - entry) / acceleration, (peak - exit) / acceleration);
         let ramps = ramp_up * (peak + entry) / 2.0 + ramp_down * (peak + exit) / 2.0;
@@ -34,7 +37,7 @@ impl Profile {
         Self { length, acceleration, entry, exit, peak, ramp_up, ramp_down, duration }
     }
 
-    /// Time that it takes [s].
+    /// Duration [s].
     pub fn duration(&self) -> f64 {
         self.duration
     }
@@ -44,7 +47,8 @@ impl Profile {
         self.peak
     }
 
-    /// Distance covered [m] and speed [m/s] at the time `t` [s]; the start's before it begins, the end's after it ends.
+    /// Distance covered [m] and speed [m/s] at the time `t` [s], with the values of the start
+    /// before it and those of the end after it.
     pub fn at(&self, t: f64) -> (f64, f64) {
         let left = self.duration - t;
         if t <= 0.0 {
@@ -68,7 +72,8 @@ mod tests {
 
     #[test]
     fn the_published_blend_is_met() {
-        // golden.json, lspb_1_2_11steps: from 1 to 2 in 10 s at 0.15/s with acceleration 0.045/s^2 (tolerance 1e-8 there).
+        // golden.json, lspb_1_2_11steps: from 1 to 2 in 10 s at 0.15/s with acceleration 0.045/s^2
+        // (tolerance 1e-8 there).
         let profile = Profile::new(1.0, 0.15, 0.045);
         assert!((profile.duration() - 10.0).abs() < 1e-12);
         let s = [0.0, 0.0225, 0.09, 0.2025, 0.35, 0.5, 0.65, 0.7975, 0.91, 0.9775, 1.0];
@@ -92,7 +97,8 @@ mod tests {
 
     #[test]
     fn a_short_path_between_two_speeds_is_a_triangle_too() {
-        // v^2 = v_0^2 + 2 a s: from 0.1 m/s up to 0.5 in 0.12 m, from there down to 0.3 in 0.08 m, at 1 m/s^2.
+        // v^2 = v_0^2 + 2 a s: from 0.1 m/s up to 0.5 in 0.12 m, from there down to 0.3 in 0.08 m,
+        // at 1 m/s^2.
         let profile = Profile::between(0.2, (0.1, 0.3), 1.0, 1.0);
         assert!((profile.peak() - 0.5).abs() < 1e-15 && (profile.duration() - 0.6).abs() < 1e-15);
         let (distance, speed) = profile.at(0.4);

@@ -1,8 +1,10 @@
-//! Free roll: the angle about the tool axis that the cut leaves open, chosen along the path for the joints or for the contour.
+//! Free roll: the angle about the tool axis, which the cut leaves free, chosen along the path for
+//! the joints or for the contour.
 //!
-//! At stations along the path a grid of angles is sent through the inverse model; dynamic programming (the algorithm of A. Viterbi,
-//! IEEE Trans. Inf. Theory 13(2), 1967, on trellises of joint values) finds the way through the grid with the least cost, and finer grids
-//! around it refine it. Between stations the angle follows a smooth curve, [`Roll::through`].
+//! The inverse model is solved for a grid of angles at stations along the path. Dynamic programming
+//! (A. Viterbi, IEEE Trans. Inf. Theory 13(2), 1967, on trellises of joint values) finds the
+//! cheapest way through the grid; finer grids around it refine it. Between stations the angle
+//! follows a smooth curve, [`Roll::through`].
 
 use crate::error::Error;
 use crate::math::{self, PI, Pose};
@@ -14,30 +16,30 @@ use crate::robot::inverse::{self, Margin, Solution};
 use crate::robot::{Joints, Robot};
 use crate::units::{DEG, MM};
 
-/// What a free roll is chosen for.
+/// The goal of a free roll.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RollGoal {
-    /// The joints turn as little and as evenly as can be.
+    /// The joints turn as little and as evenly as possible.
     SmoothJoints,
-    /// The cutting force moves the tip as little as can be from the path.
+    /// The cutting force moves the tip off the path as little as possible.
     LeastError,
 }
 
-/// A roll that is free.
+/// Range and goal of a free roll.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollRange {
     /// Smallest angle [rad].
     pub low: f64,
     /// Largest angle [rad].
     pub high: f64,
-    /// What it is chosen for.
+    /// Its goal.
     pub goal: RollGoal,
 }
 
-/// Squares of the error [m^2] that the cutting force makes at stations (by their index) with joint values.
+/// Squared errors [m^2] by the cutting force, from indices of stations and joint values there.
 pub type Errors<'a> = &'a dyn Fn(&[usize], &[Joints]) -> Vec<f64>;
 
-/// Stations that are enough for a roll.
+/// Number of stations that suffices for a roll.
 pub const STATIONS: usize = 121;
 /// Step of the first grid [rad].
 const STEP: f64 = 10.0 * DEG;
@@ -45,13 +47,14 @@ const STEP: f64 = 10.0 * DEG;
 const FINER: i32 = 4;
 /// Number of finer grids: the last step is 0.16 deg.
 const PASSES: usize = 3;
-/// From one station to the next the roll changes by at most this [rad].
+/// Largest change of the roll from one station to the next [rad].
 const WINDOW: f64 = 30.0 * DEG;
 /// A joint that turns further than this from one station to the next has changed its branch [rad].
 const JUMP: f64 = 90.0 * DEG;
-/// Weights of the joints' turning that are worth trying where the error is the goal: a roll in haste bends the path by the shaper.
+/// Weights of joint motion to try for the least error: a fast roll bends the path through the
+/// shaper.
 pub const SMOOTHNESS: [f64; 4] = [0.03, 0.3, 3.0, 30.0];
-/// Within this of a joint's limit the cost rises [rad].
+/// Distance from a joint's limit below which the cost rises [rad].
 const LIMIT_MARGIN: f64 = 5.0 * DEG;
 /// Sine of the elbow and wrist angles below which the cost rises: 5 deg.
 const ANGLE_MARGIN: f64 = 0.087;
@@ -60,39 +63,40 @@ const SHOULDER_MARGIN: f64 = 10.0 * MM;
 /// Cost of a station beyond a joint's limit: more than any motion costs.
 const BEYOND: f64 = 1e4;
 
-/// One search: everything that stays the same.
+/// The constant inputs of one search.
 pub struct Search<'a> {
     /// The arm with its tool.
     pub robot: &'a Robot,
     /// The desired path in the base frame.
     pub path: &'a Path,
-    /// [`Trajectory::stations`] of it.
+    /// Its [`Trajectory::stations`].
     pub stations: &'a Trajectory,
     /// Branch at the start.
     pub start: StartBranch,
     /// Range and goal.
     pub range: RollRange,
-    /// Weight of the joints' turning; 1 where that alone is the goal.
+    /// Weight of joint motion; 1 if that alone is the goal.
     pub smoothness: f64,
-    /// What the force does; not asked for smooth joints.
+    /// Errors by the force; not evaluated for smooth joints.
     pub errors: Errors<'a>,
 }
 
-/// What stands at one station for one angle: the ways to get there and what each costs by itself.
+/// Solutions at one station for one angle, each with its own cost.
 type Cell = Vec<(Solution, f64)>;
 
-/// The best way to a solution of a cell.
+/// The cheapest way to a solution of a cell.
 #[derive(Clone, Copy)]
 struct Label {
     cost: f64,
-    /// Joint values, full turns counted from the start.
+    /// Joint values, continuous from the start.
     q: Joints,
-    /// Angle and label at the station before.
+    /// Angle and label at the previous station.
     from: (usize, usize),
 }
 
 impl Search<'_> {
-    /// The best roll, never worse than `fixed` [rad] if that is in the range; `None` if no angle leads from one end of the path to the other.
+    /// The best roll, never worse than `fixed` [rad] if that is in the range; `None` if none leads
+    /// along the whole path.
     pub fn best(&self, fixed: f64) -> Option<Roll> {
         let RollRange { low, high, .. } = self.range;
         let count = self.stations.len();
@@ -116,7 +120,7 @@ impl Search<'_> {
                 (-FINER..=FINER).map(|i| (angle + f64::from(i) * step).clamp(low, high)).collect()
             };
             let grids: Vec<Vec<f64>> = angles.iter().map(around).collect();
-            // The present way is in the finer grid; none is found only where rounding opens a gap.
+            // The finer grid contains the current way; only rounding can open a gap in it.
             let Some(finer) = self.through(&grids, &mut scale) else { break };
             found = Some(finer);
         }
@@ -130,7 +134,7 @@ impl Search<'_> {
         [constant, free].into_iter().flatten().min_by(|a, b| cost(a).total_cmp(&cost(b)))
     }
 
-    /// The cost of a roll; `scale` is the square of the error that counts as one.
+    /// The cost of a roll; `scale` is the squared error that counts as one [m^2].
     ///
     /// # Errors
     /// See [`joint_trajectory`].
@@ -153,8 +157,8 @@ impl Search<'_> {
         }
     }
 
-    /// Cost of a pose by itself: the mean over all stations counts, so that it does not depend on their number; of the error the
-    /// fourth power, so that the largest tell.
+    /// Own cost of a pose: its share of the mean over all stations. The error counts by its fourth
+    /// power, so that the largest errors dominate.
     fn own(&self, margin: &Margin, error: f64) -> f64 {
         let near = |value: f64, limit: f64| ((limit - value) / limit).max(0.0);
         let singular = [
@@ -175,8 +179,8 @@ impl Search<'_> {
         cost.sum::<f64>() / self.stations.len() as f64
     }
 
-    /// Cost of a turn of the joints from one station to the next: all of them together come to the mean square of the turning, in
-    /// half turns over the whole path.
+    /// Cost of a turn of the joints from one station to the next. The sum over the path is the mean
+    /// square joint speed, in half turns per path.
     fn turning(&self, turn: &Joints) -> f64 {
         self.smoothness * turn.norm_squared() * (self.stations.len() - 1) as f64 / (PI * PI)
     }
@@ -213,7 +217,7 @@ impl Search<'_> {
         cells
     }
 
-    /// The cheapest way through the grids, one angle a station.
+    /// The cheapest way through the grids, one angle per station.
     fn through(&self, grids: &[Vec<f64>], scale: &mut Option<f64>) -> Option<Vec<f64>> {
         let cells = self.cells(grids, scale);
         let first = |(&angle, cell): (&f64, &Cell)| {
@@ -258,7 +262,8 @@ impl Search<'_> {
         Some(angles)
     }
 
-    /// From a label to the solution of a cell that the motion takes: the nearest one, as in [`joint_trajectory`].
+    /// Steps from a label to the nearest solution of a cell, as the motion in [`joint_trajectory`]
+    /// does.
     fn step(&self, label: &Label, cell: &Cell, from: (usize, usize)) -> Option<(usize, Label)> {
         let turns = cell.iter().enumerate().map(|(b, (solution, own))| {
             let turn = Joints::from_fn(|i, _| math::nearest_turn(solution.q[i], label.q[i]) - label.q[i]);
@@ -303,7 +308,7 @@ mod tests {
     fn the_way_through_the_grid_is_the_best_of_all_ways() {
         let (robot, path, limits) = case();
         let stations = Trajectory::stations(&path, &limits, 6);
-        // Any error that favours other angles here than there.
+        // An error that favours different angles at different stations.
         let errors = |at: &[usize], q: &[Joints]| {
             at.iter().zip(q).map(|(&k, q)| (q[3] - 0.3 * k as f64).powi(2)).collect()
         };
@@ -321,7 +326,7 @@ mod tests {
             let grid: Vec<f64> = [-40.0, -20.0, 0.0, 20.0, 40.0].map(|a| a * DEG).into();
             let mut scale = None;
             let found = search.through(&vec![grid.clone(); 6], &mut scale).unwrap();
-            // The window is between angles, not between their numbers in the grids.
+            // The window limits angles, not their indices in the grids.
             let turned = |by: f64| [0.0, 0.0, 0.0, by, by, by].map(|angle| vec![angle * DEG]);
             assert!(search.through(&turned(29.0), &mut scale).is_some());
             assert!(search.through(&turned(31.0), &mut scale).is_none());
@@ -332,7 +337,7 @@ mod tests {
                 Roll::through(&points)
             };
             let ours = search.cost_of(&roll(&found), scale).unwrap();
-            // All 5^6 ways, each by the joint trajectory itself.
+            // All 5^6 ways, each costed by its joint trajectory.
             let mut least = f64::INFINITY;
             for way in 0..5_usize.pow(6) {
                 let angles: Vec<f64> = (0..6).map(|k| grid[way / 5_usize.pow(k) % 5]).collect();
@@ -364,7 +369,7 @@ mod tests {
             let (robot, path, errors) = (&robot, &path, &errors);
             let found =
                 Search { robot, path, stations, start, range, smoothness: 1e-9, errors }.best(0.0).unwrap();
-            // The error counts by its fourth power, which is flat there.
+            // The error counts by its fourth power, which is flat near the minimum.
             assert!(stations.timing.arc_length.iter().all(|&s| (found.at(s) - angle).abs() < 0.7 * DEG));
         }
     }
@@ -380,7 +385,7 @@ mod tests {
         let ours = search(&robot);
         let close =
             |ours: f64, expected: f64| assert!((ours - expected).abs() < 1e-9, "{ours} for {expected}");
-        // The mean square of the error over all poses is the scale of it, or 1 where there is none.
+        // The scale is the mean squared error over all poses, or 1 without errors.
         let scale = |of: f64| {
             let errors = |at: &[usize], _: &[Joints]| (0..at.len()).map(|k| of * (k % 2) as f64).collect();
             let mut scale = None;
@@ -393,20 +398,21 @@ mod tests {
             scale.unwrap()
         };
         assert_eq!([0.0, 8.0].map(scale), [1.0, 4.0]);
-        // A fifth for each of five stations: the error's square, then the squares of what is missing to a margin, as a share of it.
+        // A fifth for each of five stations: the squared error, then the squared shortfalls of each
+        // margin.
         let margin = |shoulder, elbow, wrist| Margin { shoulder, elbow, wrist };
         close(ours.own(&margin(1.0, 1.0, 1.0), 3.0), 9.0 / 5.0);
         close(ours.own(&margin(5.0 * MM, 0.75 * 0.087, 0.0), 0.0), (0.25 + 0.0625 + 1.0) / 5.0);
-        // The room that is missing to 5 deg before a limit; beyond it, the price of that.
+        // The shortfall of 5 deg before a limit; beyond the limit, BEYOND is added.
         let (low, high) = robot.limits().unwrap()[0];
         for (q, cost) in
             [(0.0, 0.0), (high - 2.0 * DEG, 0.36), (low + 4.0 * DEG, 0.04), (low - DEG, 1.44 + BEYOND)]
         {
             close(ours.limits(&Joints::new(q, 0.0, 0.0, 0.0, 0.0, 0.0)), cost / 5.0);
         }
-        // In half turns over the whole path: the same turn in each of four steps is four of it.
+        // In half turns per path: the same turn in each of four steps adds up to four of them.
         close(4.0 * ours.turning(&Joints::new(0.0, PI, 0.0, 0.0, 0.5 * PI, 0.0)), 2.0 * 1.25 * 16.0);
-        // A roll that keeps joint 1 out of its range at every station costs that much.
+        // A roll that keeps joint 1 out of its range at every station costs more than BEYOND.
         let mut limits = *robot.limits().unwrap();
         limits[0] = (3.0, 3.1);
         let narrow = Robot::new("", *robot.links(), Some(limits), [0.0; 6]).unwrap().with_tool(*robot.tool());
@@ -433,7 +439,7 @@ mod tests {
         let mut last = fixed;
         for width in [1.0, 5.0, 30.0, 90.0] {
             let free = cost(&search(10.0 - width, 10.0 + width).best(10.0 * DEG).unwrap());
-            // The grids of two ranges do not fall on the same angles: their last step is 0.16 deg.
+            // The grids of two ranges differ in their angles; their last step is 0.16 deg.
             assert!(free <= last * 1.001, "+-{width} deg: {free} after {last}");
             last = free;
         }

@@ -1,11 +1,12 @@
 //! Input shapers: impulse sequences that cancel the vibration they start (thesis eqs. 4.12-4.15).
 //!
-//! A shaper splits every command into a few delayed parts. The delay bends the path; that is why Armill is interested.
+//! A shaper splits every command into a few delayed parts. The delay bends the path, which is what
+//! Armill corrects.
 
 use crate::math::{self, PI};
 use nalgebra::Vector3;
 
-/// One part of the command: which share of it comes how late.
+/// One part of the command: its share and its delay.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Impulse {
     /// Share of the command; the shares of a shaper add up to 1.
@@ -19,20 +20,23 @@ pub struct Impulse {
 pub struct ShaperType {
     /// Key used in jobs.
     pub id: &'static str,
-    /// Name as read.
+    /// Display name.
     pub name: &'static str,
-    /// Largest damping ratio the formula holds for.
+    /// Largest damping ratio for which the formula holds.
     pub damping_max: f64,
     /// Impulses from the undamped natural frequency [rad/s] and the damping ratio.
     pub impulses: fn(f64, f64) -> Vec<Impulse>,
 }
 
-/// All kinds.
+/// All kinds of shaper.
 ///
-/// ZV, ZVD, ZVDD: N. Singer, W. Seering, Preshaping Command Inputs to Reduce System Vibration, ASME J. Dyn. Syst. Meas.
-/// Control 112 (1990); exact for any damping below 1 (limited to 0.9 here, beyond which nothing vibrates).
-/// EI: W. Singhose, W. Seering, N. Singer, Residual Vibration Reduction Using Vector Diagrams to Generate Shaped Inputs,
-/// ASME J. Mech. Des. 116 (1994), with the damped fit for 5 % residual vibration, given for damping up to 0.3.
+/// ZV, ZVD, ZVDD: N. Singer, W. Seering, Preshaping Command Inputs to Reduce System Vibration, ASME
+/// J. Dyn. Syst. Meas. Control 112 (1990); exact for any damping below 1 (limited to 0.9 here,
+/// beyond which nothing vibrates).
+///
+/// EI: W. Singhose, W. Seering, N. Singer, Residual Vibration Reduction Using Vector Diagrams to
+/// Generate Shaped Inputs, ASME J. Mech. Des. 116 (1994), with the damped fit for 5 % residual
+/// vibration, given for damping up to 0.3.
 pub const TYPES: [ShaperType; 4] = [
     ShaperType {
         id: "zv",
@@ -70,7 +74,8 @@ pub fn damped_period(frequency: f64, damping: f64) -> f64 {
     2.0 * PI / (frequency * (1.0 - damping * damping).sqrt())
 }
 
-/// ZV convolved with itself: impulses half a damped period apart with the coefficients of (1 + K)^n (eq. 4.13 for n = 2).
+/// ZV convolved with itself: impulses half a damped period apart with the coefficients of (1 + K)^n
+/// (eq. 4.13 for n = 2).
 fn binomial(n: u32, frequency: f64, damping: f64) -> Vec<Impulse> {
     let half_period = damped_period(frequency, damping) / 2.0;
     let k = math::exp(-PI * damping / (1.0 - damping * damping).sqrt());
@@ -87,7 +92,8 @@ fn binomial(n: u32, frequency: f64, damping: f64) -> Vec<Impulse> {
     amplitudes.into_iter().enumerate().map(place).collect()
 }
 
-/// EI with a residual vibration of 5 % at the design frequency, so that the band of little vibration is wide.
+/// EI with a residual vibration of 5 % at the design frequency, which widens the band of low
+/// vibration.
 fn extra_insensitive(frequency: f64, damping: f64) -> Vec<Impulse> {
     let v = 0.05;
     let z = damping;
@@ -104,28 +110,30 @@ fn extra_insensitive(frequency: f64, damping: f64) -> Vec<Impulse> {
     ]
 }
 
-/// Iterations of [`Shaper::undo`]: enough to leave 1e-3 of what passes the shaper at more than 70 % of its amplitude.
+/// Iterations of [`Shaper::undo`]: enough to leave 1e-3 of the frequencies that pass the shaper at
+/// more than 70 % of their amplitude.
 const UNDO_STEPS: usize = 10;
-/// Samples that are shaped together.
+/// Samples shaped in one block.
 const STRETCH: usize = 256;
 
-/// What a shaper can take shares of and add up.
+/// Values that a shaper can scale and add.
 pub trait Shapeable: Copy + std::ops::Add<Output = Self> + std::ops::Mul<f64, Output = Self> {}
 impl<T: Copy + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>> Shapeable for T {}
 
-/// A shaper ready for use: the same for all joints.
+/// A shaper ready for use, the same for all joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shaper {
     impulses: Vec<Impulse>,
 }
 
 impl Shaper {
-    /// No shaping: the command as it is.
+    /// No shaping: the command passes unchanged.
     pub fn none() -> Self {
         Self { impulses: vec![Impulse { amplitude: 1.0, time: 0.0 }] }
     }
 
-    /// A shaper of a kind, for a mode of the undamped natural frequency `frequency` [rad/s] and the damping ratio `damping`.
+    /// A shaper of the given kind, for a mode with the undamped natural frequency `frequency`
+    /// [rad/s] and the damping ratio `damping`.
     pub fn new(kind: &ShaperType, frequency: f64, damping: f64) -> Self {
         Self { impulses: (kind.impulses)(frequency, damping) }
     }
@@ -140,8 +148,9 @@ impl Shaper {
         self.impulses.last().map_or(0.0, |impulse| impulse.time)
     }
 
-    /// Vibration that a shaped step leaves in a mode of the given frequency [rad/s] and damping, as a share of the unshaped step's
-    /// (N. Singer, W. Seering 1990, eq. 11): 0 at the design frequency for ZV, ZVD, ZVDD.
+    /// Vibration that a shaped step leaves in a mode with this frequency [rad/s] and damping, as a
+    /// share of the unshaped step's (N. Singer, W. Seering 1990, eq. 11): 0 at the design frequency
+    /// for ZV, ZVD, ZVDD.
     pub fn residual_vibration(&self, frequency: f64, damping: f64) -> f64 {
         let damped = frequency * (1.0 - damping * damping).sqrt();
         let (mut cosine, mut sine) = (0.0, 0.0);
@@ -154,21 +163,23 @@ impl Shaper {
         math::hypot(cosine, sine)
     }
 
-    /// Convolution with a command that is sampled every `sample_time` and held before its first sample (eq. 4.14).
+    /// Convolution with a command that is sampled every `sample_time` [s] and constant before its
+    /// first sample (eq. 4.14).
     ///
-    /// Where an impulse falls between samples, the command is taken to be straight in between.
+    /// Where an impulse falls between samples, the command is interpolated linearly.
     pub fn apply<T: Shapeable>(&self, command: &[T], sample_time: f64) -> Vec<T> {
         let mut shaped = Vec::with_capacity(command.len());
         stretches(&self.taps(sample_time), command, |_, stretch| shaped.extend_from_slice(stretch));
         shaped
     }
 
-    /// The same, sample by sample as they are asked for.
+    /// The shaped command, with each sample computed on demand.
     pub fn shaped<'a, T: Shapeable>(&self, command: &'a [T], sample_time: f64) -> Shaped<'a, T> {
         Shaped { taps: self.taps(sample_time), command }
     }
 
-    /// Each delay as whole samples plus a fraction: how many samples late comes which share.
+    /// The impulses as delays in samples with their shares; a fractional delay is split over two
+    /// samples.
     fn taps(&self, sample_time: f64) -> Vec<(usize, f64)> {
         let mut taps = Vec::with_capacity(2 * self.impulses.len());
         for Impulse { amplitude, time } in &self.impulses {
@@ -183,19 +194,22 @@ impl Shaper {
         taps
     }
 
-    /// The change of a command after which its shaped form has changed by `wanted`, as nearly as a shaper allows.
+    /// The change of a command that changes its shaped form by `wanted`, as closely as the shaper
+    /// allows.
     ///
-    /// A shaper blocks the frequency it is made for, so it has no full inverse. With S the shaper and S* the shaper run backwards in
-    /// time, x is corrected by S*(wanted - S x) a fixed number of times (L. Landweber, An iteration formula for Fredholm integral
-    /// equations of the first kind, Amer. J. Math. 73, 1951): what is left at a frequency shrinks by 1 - |S|^2 a time and never grows,
-    /// because the amplitudes are positive and add up to 1.
+    /// A shaper blocks its design frequency, so it has no full inverse. With S the shaper and S*
+    /// the shaper run backwards in time, x is corrected by S*(wanted - S x) a fixed number of times
+    /// (L. Landweber, An iteration formula for Fredholm integral equations of the first kind, Amer.
+    /// J. Math. 73, 1951). Each time, the residual at a frequency shrinks by the factor 1 - |S|^2.
+    /// It never grows, because the amplitudes are positive and add up to 1.
     ///
-    /// The change rests from sample `moving` (at least 1) on: each step is followed by what it holds there.
+    /// From sample `moving` (at least 1) on the change is constant: each step holds the value
+    /// reached there.
     pub fn undo(&self, wanted: &[Vector3<f64>], sample_time: f64, moving: usize) -> Vec<Vector3<f64>> {
         let taps = self.taps(sample_time);
         let mut command = vec![Vector3::zeros(); wanted.len()];
         let last = wanted.len().saturating_sub(1);
-        // What is missing, backwards in time.
+        // The residual, backwards in time.
         let mut missing = command.clone();
         for _ in 0..UNDO_STEPS {
             stretches(&taps, &command, |from, shaped| {
@@ -215,7 +229,7 @@ impl Shaper {
     }
 }
 
-/// A shaped command; for joint values theta_shp of eq. 4.14.
+/// A shaped command; of joint values, theta_shp of eq. 4.14.
 #[derive(Debug, Clone)]
 pub struct Shaped<'a, T> {
     taps: Vec<(usize, f64)>,
@@ -230,17 +244,18 @@ impl<T: Shapeable> Shaped<'_, T> {
 
     /// A part of the sample `k`.
     pub fn part_at<U: Shapeable>(&self, k: usize, part: impl Fn(&T) -> U) -> U {
-        let told = |delay: usize| part(&self.command[k.saturating_sub(delay)]);
+        let delayed = |delay: usize| part(&self.command[k.saturating_sub(delay)]);
         match self.taps.split_first() {
             Some((&(first, share), rest)) => {
-                rest.iter().fold(told(first) * share, |sum, &(delay, share)| sum + told(delay) * share)
+                rest.iter().fold(delayed(first) * share, |sum, &(delay, share)| sum + delayed(delay) * share)
             }
-            None => told(0),
+            None => delayed(0),
         }
     }
 }
 
-/// Calls `take` with the shaped command, a stretch that stays in the processor's cache at a time, and the number of its first sample.
+/// Shapes the command in stretches that fit the processor's cache, and calls `take` with the number
+/// of each stretch's first sample and the stretch.
 fn stretches<T: Shapeable>(taps: &[(usize, f64)], command: &[T], mut take: impl FnMut(usize, &[T])) {
     let (Some((&(first, share), rest)), Some(&start)) = (taps.split_first(), command.first()) else {
         return take(0, command);

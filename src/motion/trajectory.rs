@@ -1,13 +1,13 @@
-//! The desired motion: where along the path, and where in space, at each sample (thesis section 5.2, Figs. 5.2, 5.3).
+//! The desired motion: arc length and position at each sample (thesis section 5.2, Figs. 5.2, 5.3).
 
 use crate::motion::{Profile, Shaper};
 use crate::path::{Axes, Corner, Move, MovePace, Path};
 use nalgebra::Vector3;
 
-/// How the path is travelled.
+/// Limits of the motion along the path, and its times at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionLimits {
-    /// Highest speed of moves that state none [m/s].
+    /// Highest speed of moves that state no feed [m/s].
     pub feed: f64,
     /// Speed of rapid moves [m/s].
     pub rapid: f64,
@@ -17,29 +17,30 @@ pub struct MotionLimits {
     pub sample_time: f64,
     /// A corner sharper than this is a full stop [rad].
     pub corner_angle: f64,
-    /// Time at rest in such a corner [s].
+    /// Time at rest at such a corner [s].
     pub corner_dwell: f64,
-    /// Time added at rest after the end, until a shaped command has settled [s].
+    /// Time at rest after the end, for a shaped command to settle [s].
     pub settle: f64,
 }
 
-/// Timing law: progress along the path over time, one value a sample.
+/// Timing law: progress along the path over time, one value per sample.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TimingLaw {
     /// Arc length [m].
     pub arc_length: Vec<f64>,
-    /// The path's move that holds it.
+    /// Index of the path's move that contains it.
     pub index: Vec<u32>,
     /// Speed along the path [m/s].
     pub speed: Vec<f64>,
-    /// Direction of the feed, a vector of at most unit length; it turns evenly while the tool waits in a corner.
+    /// Direction of the feed, a vector of at most unit length; it turns evenly while the tool waits
+    /// at a corner.
     pub heading: Vec<Vector3<f64>>,
     /// 1 where the tool cuts, 0 on rapid moves.
     pub engaged: Vec<f64>,
 }
 
 impl TimingLaw {
-    /// A law without samples yet, with room for `count`.
+    /// An empty law with room for `count` samples.
     fn with_capacity(count: usize) -> Self {
         Self {
             arc_length: Vec::with_capacity(count),
@@ -50,7 +51,7 @@ impl TimingLaw {
         }
     }
 
-    /// The same at some samples, in any order and number.
+    /// The law at selected samples, in any order and number.
     pub fn at(&self, samples: &[usize]) -> Self {
         let numbers = |all: &[f64]| samples.iter().map(|&k| all[k]).collect();
         Self {
@@ -62,7 +63,7 @@ impl TimingLaw {
         }
     }
 
-    /// Where along the path a shaped motion is, to first order in the curvature: every value shaped.
+    /// The timing law of the shaped motion, to first order in the curvature: every value is shaped.
     pub fn shaped(&self, shaper: &Shaper, path: &Path, sample_time: f64) -> Self {
         let arc_length = shaper.apply(&self.arc_length, sample_time);
         Self {
@@ -74,14 +75,14 @@ impl TimingLaw {
         }
     }
 
-    /// The path's points, one a sample [m].
+    /// The path's points, one per sample [m].
     pub fn points(&self, path: &Path) -> Vec<Vector3<f64>> {
         let places = self.index.iter().zip(&self.arc_length);
         places.map(|(&index, &s)| path.point_at(path.within(index as usize, s))).collect()
     }
 }
 
-/// The move that holds each of these arc lengths [m], which seldom go back.
+/// Index of the move that contains each arc length [m]; fast if they mostly rise.
 pub(crate) fn indices(path: &Path, arc_length: &[f64]) -> Vec<u32> {
     let mut near = 0;
     let index = |&s: &f64| {
@@ -91,7 +92,8 @@ pub(crate) fn indices(path: &Path, arc_length: &[f64]) -> Vec<u32> {
     arc_length.iter().map(index).collect()
 }
 
-/// The desired motion, sampled evenly; the last sample of the motion is the exact end of the path, samples at rest follow.
+/// The desired motion, sampled evenly; its last sample in motion is the exact end of the path, and
+/// samples at rest follow.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
     /// Sample time [s].
@@ -104,7 +106,7 @@ pub struct Trajectory {
     pub axis: Axes,
     /// Corners with a full stop.
     pub stops: Vec<Corner>,
-    /// Samples up to and with the exact end of the path; the rest is settling.
+    /// Number of samples up to and including the exact end of the path; the rest is settling.
     pub moving: usize,
 }
 
@@ -115,7 +117,8 @@ impl Trajectory {
         (moving + limits.settle) / limits.sample_time + 2.0
     }
 
-    /// Travels the path by the trapezoidal profile, from rest to rest between the corners that are stops and the program's waits.
+    /// Travels the path with trapezoidal profiles, from rest to rest between full stops: sharp
+    /// corners and the program's waits.
     pub fn new(path: &Path, limits: &MotionLimits) -> Self {
         let stretches = stretches(path, limits);
         let dt = limits.sample_time;
@@ -173,8 +176,8 @@ impl Trajectory {
         Self { sample_time: dt, timing, position, axis, stops, moving }
     }
 
-    /// A few places along the path instead of every sample, evenly spaced over its length, each at the full speed of its move: for
-    /// searches over many poses.
+    /// A few stations instead of every sample, for searches over many poses. They are evenly spaced
+    /// along the path, each at the full speed of its move.
     pub fn stations(path: &Path, limits: &MotionLimits, count: usize) -> Self {
         let mut timing = TimingLaw::with_capacity(count);
         let mut position = Vec::with_capacity(count);
@@ -198,7 +201,7 @@ impl Trajectory {
         self.position.len()
     }
 
-    /// Whether there are no samples; there always are.
+    /// Whether there are no samples, which never happens.
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }
@@ -228,16 +231,16 @@ fn stretches(path: &Path, limits: &MotionLimits) -> Vec<Stretch> {
     let mut stretches = Vec::new();
     let mut first = 0;
     let mut waits = path.waits().iter().peekable();
-    // Waits before the first move are no part of the motion.
+    // Waits before the first move are not part of the motion.
     while waits.next_if(|wait| wait.s <= 0.0).is_some() {}
     for (index, corner) in path.corners().enumerate() {
-        let mut asked = 0.0;
+        let mut dwell = 0.0;
         while let Some(wait) = waits.next_if(|wait| wait.s <= corner.s) {
-            asked += wait.time;
+            dwell += wait.time;
         }
         let sharp = corner.angle > limits.corner_angle;
-        if sharp || asked > 0.0 {
-            let time = if sharp { asked.max(limits.corner_dwell) } else { asked };
+        if sharp || dwell > 0.0 {
+            let time = if sharp { dwell.max(limits.corner_dwell) } else { dwell };
             let profiles = profiles(path, limits, first..index + 1);
             stretches.push(Stretch { profiles, stop: Some(Stop { corner, time }) });
             first = index + 1;
@@ -256,8 +259,8 @@ fn limit(step: &Move, limits: &MotionLimits) -> f64 {
     }
 }
 
-/// Profiles of moves that are travelled without a stop: each junction is passed as fast as both its feeds and the braking distance
-/// behind it allow.
+/// Profiles of moves travelled without a stop. Each junction is passed as fast as the feeds on both
+/// sides and the braking distance after it allow.
 fn profiles(path: &Path, limits: &MotionLimits, range: std::ops::Range<usize>) -> Vec<(usize, Profile)> {
     let moves = &path.moves()[range.clone()];
     let limit = |step: &Move| limit(step, limits);

@@ -1,20 +1,22 @@
-//! How the arm gives way: joint springs seen at the tool tip (thesis eqs. 3.41-3.50).
+//! Compliance of the arm: joint springs seen at the tool tip (thesis eqs. 3.41-3.50).
 
 use crate::math::Pose;
 use crate::robot::equilibrium::equilibrium;
 use crate::robot::{Elbow, Joints, Robot, jacobian};
 use nalgebra::{Matrix6, Vector3};
 
-/// Cartesian compliance C_x = J C_theta J^T (eq. 3.48), 6x6, in the base frame:
-/// translations [m] and rotations [rad] of the TCP from forces [N] and moments [N m] on it.
+/// Cartesian compliance C_x = J C_theta J^T (eq. 3.48), 6x6, in the base frame: translations [m]
+/// and rotations [rad] of the TCP from forces [N] and moments [N m] on it.
 pub fn cartesian_compliance(robot: &Robot, q: &Joints) -> Matrix6<f64> {
     let j = jacobian::spring_jacobian(robot, q);
     j * Matrix6::from_diagonal(robot.compliance()) * j.transpose()
 }
 
-/// Displacement [m] and rotation [rad] of the TCP under the force `force` [N] on it, all in the base frame (eqs. 3.47, 4.8-4.10).
+/// Displacement [m] and rotation [rad] of the TCP under the force `force` [N] on it, all in the
+/// base frame (eqs. 3.47, 4.8-4.10).
 ///
-/// The same as the first three columns of [`cartesian_compliance`] times the force, without building the matrix.
+/// Equal to the first three columns of [`cartesian_compliance`] times the force, without building
+/// the matrix.
 pub(crate) fn deflection(
     robot: &Robot,
     q: &Joints,
@@ -24,7 +26,7 @@ pub(crate) fn deflection(
 ) -> (Vector3<f64>, Vector3<f64>) {
     let (mut displacement, mut rotation) = (Vector3::zeros(), Vector3::zeros());
     if robot.statics().is_none() && robot.elbow() != Elbow::Parallelogram {
-        // The usual arm, without a table of its joints: this runs for every sample of every pass.
+        // The usual arm needs no array of its joints: this runs for every sample of every pass.
         for (frame, c) in frames.iter().zip(robot.compliance().iter()) {
             let (k, v) = jacobian::turn(frame, tip);
             let turned = c * v.dot(force);
@@ -40,10 +42,12 @@ pub(crate) fn deflection(
     (displacement, rotation)
 }
 
-/// What each joint's spring adds to [`deflection`]: J C_theta J^T F is a sum over the joints of J_i c_i J_i^T F.
+/// Contribution of each joint's spring to [`deflection`]: J C_theta J^T F is the sum over the
+/// joints of J_i c_i J_i^T F.
 ///
-/// Joint torque tau_i = v_i . F (eq. 3.47), joint rotation c_i tau_i (eq. 3.42), so v_i c_i tau_i and k_i c_i tau_i (eq. 3.41).
-/// With other springs or weight the turns are those of the [equilibrium](crate::robot::equilibrium), less the sag where the part was touched off.
+/// Joint torque tau_i = v_i . F (eq. 3.47), joint rotation c_i tau_i (eq. 3.42), so v_i c_i tau_i
+/// and k_i c_i tau_i (eq. 3.41). With other springs or with weight, the joint rotations are those
+/// of the [equilibrium](crate::robot::equilibrium), minus the sag where the part was touched off.
 pub(crate) fn by_joint(
     robot: &Robot,
     q: &Joints,

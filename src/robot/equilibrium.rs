@@ -1,40 +1,40 @@
-//! Where the joints come to rest under force and weight when their springs are not straight lines.
+//! Static equilibrium of the joints under force and weight, for springs that are not linear.
 //!
-//! The torques are taken at the pose that the joints give way to, so the turns are sought until
-//! they no longer change: each round puts the turns of the last into the arm and reads the springs
-//! again. A round shrinks the error by about compliance x force x reach (1e-3 for a milling robot),
-//! so a few are enough; an arm so soft that it does not settle is reported as not converged.
+//! The torques depend on the deflected pose, so the rotations are iterated until they no longer
+//! change: each pass applies the last rotations to the arm and evaluates the springs again. A pass
+//! shrinks the error by about compliance x force x reach (1e-3 for a milling robot), so a few are
+//! enough. An arm too soft to settle is reported as not converged.
 
 use crate::robot::{Elbow, JointStatics, Joints, Robot, forward, jacobian, load};
 use nalgebra::Vector3;
 
-/// Turns at which springs, force and weight are in balance.
+/// Joint rotations at which springs, force and weight are in balance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Equilibrium {
-    /// Turn of each joint about its axis [rad].
+    /// Rotation of each joint about its axis [rad].
     pub turns: [f64; 6],
-    /// What each turn moves [m] and turns [rad] the TCP, base frame; together they take it where
-    /// the turned joints put it.
+    /// Displacement [m] and rotation [rad] of the TCP by each joint, base frame. Their sum takes
+    /// the TCP to where the rotated joints put it.
     pub parts: [(Vector3<f64>, Vector3<f64>); 6],
-    /// Rounds.
+    /// Number of passes.
     pub passes: usize,
-    /// Largest change of a turn in the last round [rad].
+    /// Largest change of a rotation in the last pass [rad].
     pub residual: f64,
-    /// Whether that is no more than [`SETTLED`].
+    /// Whether the residual is at most [`SETTLED`].
     pub converged: bool,
 }
 
-/// Change of a turn that ends the search [rad]: a nanometre at a kilometre.
+/// Residual that ends the iteration [rad]: a nanometre at a kilometre.
 pub const SETTLED: f64 = 1e-12;
-/// Most rounds.
+/// Maximum number of passes.
 const ROUNDS: usize = 60;
 
-/// The balance for joint commands `q` [rad] and a force on the TCP [N], base frame.
+/// The equilibrium for joint commands `q` [rad] and a force on the TCP [N], base frame.
 pub fn equilibrium(robot: &Robot, statics: &JointStatics, q: &Joints, force: &Vector3<f64>) -> Equilibrium {
     let bent = |turns: &[f64; 6], share: f64| {
         let turned = Joints::from_fn(|i, _| robot.links()[i].sign * turns[i] * share);
-        // A parallelogram's springs turn the joints as the controller counts them; the others those
-        // of the serial arm.
+        // A parallelogram's springs turn the controller's joint values; other springs turn those of
+        // the serial arm.
         let q = if robot.elbow() == Elbow::Pendant { q + robot.to_controller(&turned) } else { q + turned };
         let frames = forward::frames(robot, &q);
         let tip = frames[5].compose(robot.tool()).position;
@@ -55,8 +55,8 @@ pub fn equilibrium(robot: &Robot, statics: &JointStatics, q: &Joints, force: &Ve
         turns = next;
         passes += 1;
     }
-    // Half way, the levers are the mean of those before and after: what the joints add up to is
-    // exact to the third power of the turns.
+    // Half way, the levers are the mean of those before and after, so the sum over the joints is
+    // exact to the third power of the rotations.
     let (frames, tip) = bent(&turns, 0.5);
     let mut joint = turns.iter();
     let parts = jacobian::springs(robot, &frames, &tip).map(|(k, v)| {

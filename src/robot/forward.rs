@@ -4,7 +4,8 @@ use crate::math::{Pose, Turn};
 use crate::robot::{Joints, Robot};
 use nalgebra::{Matrix3, Vector3};
 
-/// The frames 1 to 6 in the base frame for the joint values `q` [rad]: 0T1, 0T2, ... 0T6 (eqs. 3.1, 3.2).
+/// The frames 1 to 6 in the base frame for the joint values `q` [rad]: 0T1, 0T2, ... 0T6 (eqs. 3.1,
+/// 3.2).
 pub fn frames(robot: &Robot, q: &Joints) -> [Pose; 6] {
     let q = robot.to_serial(q);
     let mut frame = Pose::identity();
@@ -14,8 +15,9 @@ pub fn frames(robot: &Robot, q: &Joints) -> [Pose; 6] {
     })
 }
 
-/// The frame after the link `i` (from 0), by its angle theta about z.
-#[inline(always)] // In WebAssembly a frame that is returned from a call is copied twice, which takes as long as making it.
+/// The frame after the link `i` (from 0), from its angle theta about z.
+// WebAssembly copies a frame twice when a call returns it, which takes as long as computing it.
+#[inline(always)]
 pub(crate) fn next(robot: &Robot, i: usize, outer: &Pose, theta: Turn) -> Pose {
     let link = &robot.links()[i];
     let rotation = turned(&outer.rotation, robot.twists[i], theta);
@@ -23,7 +25,8 @@ pub(crate) fn next(robot: &Robot, i: usize, outer: &Pose, theta: Turn) -> Pose {
     Pose { rotation, position }
 }
 
-/// The rotation after one more link, by its twist (cosine, sine) about x and its angle about z: eq. 3.1, multiplied out onto the columns.
+/// The rotation after one more link, from its twist (cosine, sine) about x and its angle about z:
+/// eq. 3.1, multiplied out by columns.
 pub(crate) fn turned(outer: &Matrix3<f64>, (cos_alpha, sin_alpha): (f64, f64), theta: Turn) -> Matrix3<f64> {
     let (x, y, z) = (outer.column(0), outer.column(1), outer.column(2));
     let y_turned: Vector3<f64> = y * cos_alpha + z * sin_alpha;

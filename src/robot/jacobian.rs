@@ -1,15 +1,15 @@
 //! Geometric Jacobian (thesis eqs. 3.23-3.40).
 //!
-//! Eq. 3.34 takes axis i-1 for joint i; with modified Denavit-Hartenberg frames joint i turns about
-//! z_i, so the axes k_i and origins p_i are used. Eqs. 3.35-3.40 agree with that, but for the sign
-//! of J_4's x row.
+//! Eq. 3.34 uses axis i-1 for joint i. With modified Denavit-Hartenberg frames joint i turns about
+//! z_i, so the axes k_i and origins p_i are used here. Eqs. 3.35-3.40 agree with that, except for
+//! the sign of J_4's x row.
 
 use crate::math::Pose;
 use crate::robot::{Elbow, Joints, Robot, forward};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-/// The 6x6 Jacobian of the TCP in the base frame, by the joint values as the controller counts
-/// them: rows v_x, v_y, v_z [m/rad], omega_x, omega_y, omega_z [1].
+/// The 6x6 Jacobian of the TCP in the base frame, with respect to the controller's joint values:
+/// rows v_x, v_y, v_z [m/rad], omega_x, omega_y, omega_z [1].
 pub fn jacobian(robot: &Robot, q: &Joints) -> Matrix6<f64> {
     let (frames, tip) = frames_and_tip(robot, q);
     let mut j = columns(robot, frames.each_ref().map(|frame| turn(frame, &tip)));
@@ -20,9 +20,9 @@ pub fn jacobian(robot: &Robot, q: &Joints) -> Matrix6<f64> {
     j
 }
 
-/// The Jacobian of the joints' springs: its columns belong to the drives. Where a parallelogram
-/// holds the forearm, what gives way at joint 2 turns the upper arm alone; where only the count
-/// differs, the springs are those of the serial arm.
+/// The Jacobian of the joint springs, one column for each drive. Where a parallelogram holds the
+/// forearm, the spring of joint 2 turns only the upper arm. Where joint 3 is merely measured from
+/// the base, the springs are those of the serial arm.
 pub fn spring_jacobian(robot: &Robot, q: &Joints) -> Matrix6<f64> {
     let (frames, tip) = frames_and_tip(robot, q);
     columns(robot, springs(robot, &frames, &tip))
@@ -35,7 +35,8 @@ fn frames_and_tip(robot: &Robot, q: &Joints) -> ([Pose; 6], Vector3<f64>) {
     (frames, tip)
 }
 
-/// What unit turns about the joints' axes turn and move, as a matrix by the joints' own count.
+/// The Jacobian from rotation and displacement per unit turn of each axis, with the joint signs
+/// applied.
 fn columns(robot: &Robot, parts: [(Vector3<f64>, Vector3<f64>); 6]) -> Matrix6<f64> {
     let mut j = Matrix6::zeros();
     for (i, (k, v)) in parts.into_iter().enumerate() {
@@ -45,14 +46,14 @@ fn columns(robot: &Robot, parts: [(Vector3<f64>, Vector3<f64>); 6]) -> Matrix6<f
     j
 }
 
-/// What a unit turn about a frame's own axis turns [1] and moves [m] the point `tip` by.
+/// Rotation [1] and displacement [m] of the point `tip` per unit turn about a frame's z axis.
 pub(crate) fn turn(frame: &Pose, tip: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
     let k: Vector3<f64> = frame.rotation.column(2).into();
     (k, k.cross(&(tip - frame.position)))
 }
 
-/// What a unit turn of each spring turns [1] and moves [m] the point `tip` by, base frame, counted
-/// about the joint's own axis.
+/// Rotation [1] and displacement [m] of the point `tip` per unit turn of each spring about its
+/// joint's axis, base frame.
 pub(crate) fn springs(
     robot: &Robot,
     frames: &[Pose; 6],
@@ -68,8 +69,8 @@ pub(crate) fn springs(
     springs
 }
 
-/// How far axis 3 turns, about its own direction, while a parallelogram holds the forearm and axis
-/// 2 turns by one.
+/// Turn of axis 3, about its own direction, per unit turn of axis 2 while a parallelogram holds the
+/// forearm; 0 without a parallelogram.
 pub(crate) fn parallelogram_coupling(robot: &Robot) -> f64 {
     let [_, second, third, ..] = robot.links();
     if robot.elbow() == Elbow::Parallelogram {

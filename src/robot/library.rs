@@ -1,4 +1,5 @@
-//! Robots that come with Armill, each with the source of its numbers and how far to trust them. The data stand in `library/`.
+//! Built-in robots, each with the source of its numbers and how far to trust them. The data are in
+//! `library/`.
 
 use crate::error::Error;
 use crate::math;
@@ -6,7 +7,6 @@ use crate::robot::Opw;
 use crate::robot::model::{Elbow, Link};
 use crate::units::DEG;
 
-// The small core has only the thesis's robot, which stands first.
 const ROBOTS: &str = include_str!("library/robots.csv");
 const ZEROS: &str = include_str!("library/zeros.csv");
 const STIFFNESS: &str = include_str!("library/stiffness.csv");
@@ -17,30 +17,30 @@ const SOURCES: &str = include_str!("library/sources.txt");
 pub struct Preset {
     /// Key used in jobs.
     pub id: &'static str,
-    /// Who makes it.
+    /// Manufacturer.
     pub maker: &'static str,
-    /// The maker's name for it.
+    /// The manufacturer's name for it.
     pub model: &'static str,
     /// Lengths, joint signs and zero offsets.
     pub opw: Opw,
-    /// What joint 3 is counted from.
+    /// Where joint 3 is measured from.
     pub elbow: Elbow,
-    /// Joint ranges [deg], where they are known.
+    /// Joint ranges [deg], if known.
     pub joint_limits_deg: Option<[[f64; 2]; 6]>,
     /// Joint compliances [rad/(N m)].
     pub joint_compliance: [f64; 6],
-    /// Whether the compliance is only the order of magnitude of [`assumed_compliance`].
+    /// Whether the compliance is only the order-of-magnitude estimate of [`assumed_compliance`].
     pub stiffness_assumed: bool,
     /// Where the geometry comes from and how far to trust it.
     pub geometry_note: String,
-    /// The same of the compliance.
+    /// Where the compliance comes from and how far to trust it.
     pub stiffness_note: String,
-    /// The same of the first natural frequency.
+    /// The first natural frequency, where it was measured; empty otherwise.
     pub mode_note: String,
 }
 
 impl Preset {
-    /// Name as read.
+    /// Display name.
     pub fn name(&self) -> String {
         format!("{} {}", self.maker, self.model)
     }
@@ -50,7 +50,7 @@ impl Preset {
         self.opw.links()
     }
 
-    /// The joint ranges in SI, where they are known.
+    /// The joint ranges in SI, if known.
     pub fn limits(&self) -> Option<[(f64, f64); 6]> {
         self.joint_limits_deg.map(|ranges| ranges.map(|[low, high]| (low * DEG, high * DEG)))
     }
@@ -69,7 +69,7 @@ pub fn robots() -> impl Iterator<Item = Preset> {
 /// The robot with this key.
 ///
 /// # Errors
-/// [`Error::Invalid`] with the keys most like it: there are too many to name.
+/// [`Error::Invalid`] with the most similar keys; there are too many to list.
 pub fn robot(id: &str) -> Result<Preset, Error> {
     if let Some((row, _)) = rows(ROBOTS).zip(names()).find(|(_, [key, ..])| *key == id) {
         return Ok(preset(row));
@@ -81,16 +81,19 @@ pub fn robot(id: &str) -> Result<Preset, Error> {
     Err(Error::invalid("robot.preset", format!("\"{id}\""), expected))
 }
 
-/// Joint stiffness at [`RULE_PAYLOAD`] [Nm/rad]: geometric means of the measured values in `stiffness.csv`, each brought to that payload.
+/// Joint stiffness at [`RULE_PAYLOAD`] [Nm/rad]: geometric means of the measured values in
+/// `stiffness.csv`, each scaled to that payload.
 pub const RULE_STIFFNESS: [f64; 6] = [2.3e6, 3.2e6, 2.1e6, 4.4e5, 3.3e5, 3.4e5];
-/// Payload that [`RULE_STIFFNESS`] is for [kg].
+/// Payload of [`RULE_STIFFNESS`] [kg].
 pub const RULE_PAYLOAD: f64 = 200.0;
 
-/// Joint compliance [rad/(N m)] of an arm whose stiffness is not published, by its rated payload [kg]: an order of magnitude.
+/// Order-of-magnitude joint compliance [rad/(N m)] of an arm without published stiffness, from its
+/// rated payload [kg].
 ///
-/// k_i = K_i (payload / 200 kg)^(1/3). The exponent and K_i are the least-squares fit (in logarithms; 0.29, rounded up) over the eight
-/// published sets in `stiffness.csv`, from 6 to 500 kg; single values lie off by a factor of 1.9 (one standard deviation) and of up to 8.
-/// More than one digit of the result would mean nothing.
+/// k_i = K_i (payload / 200 kg)^(1/3). The exponent and K_i are a least-squares fit (in logarithms;
+/// 0.29, rounded up) to the eight published sets in `stiffness.csv`, from 6 to 500 kg. Single
+/// values deviate by a factor of 1.9 (one standard deviation) and by up to 8, so the result has
+/// only one digit.
 pub fn assumed_compliance(payload: f64) -> [f64; 6] {
     let scale = math::pow(payload / RULE_PAYLOAD, 1.0 / 3.0);
     RULE_STIFFNESS.map(|k| number(&format!("{:.0e}", 1.0 / (k * scale))))
@@ -99,15 +102,15 @@ pub fn assumed_compliance(payload: f64) -> [f64; 6] {
 /// A published set of joint stiffnesses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Published {
-    /// Key used in `robots.csv`; empty if no robot of the library has it.
+    /// Key used in `robots.csv`; empty if no robot of the library uses it.
     pub key: &'static str,
     /// Rated payload of the robot [kg].
     pub payload: f64,
-    /// Joint compliances [rad/(N m)], where they are given.
+    /// Joint compliances [rad/(N m)], where given.
     pub compliance: [Option<f64>; 6],
-    /// Which of them are measurements of the joint.
+    /// Which of them were measured on the joint.
     pub measured: [bool; 6],
-    /// First natural frequency and damping ratio in words; empty where they were not measured.
+    /// First natural frequency and damping ratio in words; empty if not measured.
     pub mode: &'static str,
     /// How far to trust it.
     pub confidence: &'static str,
@@ -122,7 +125,7 @@ pub fn published() -> impl Iterator<Item = Published> {
         let values: [&str; 6] = std::array::from_fn(|_| row());
         let compliance = values.map(|text| {
             let value = number(text.trim_end_matches('?'));
-            // More than four digits are nowhere measured.
+            // No source measures more than four digits.
             let compliance = if unit == "rad/Nm" { value } else { number(&format!("{:.3e}", 1.0 / value)) };
             (!text.is_empty()).then_some(compliance)
         });
@@ -131,7 +134,7 @@ pub fn published() -> impl Iterator<Item = Published> {
     })
 }
 
-/// The data lines of a table, each as a giver of one cell after the other.
+/// The data lines of a table, each as a function that returns its cells one by one.
 fn rows(table: &'static str) -> impl Iterator<Item = impl FnMut() -> &'static str> {
     table.lines().skip(1).map(|line| {
         let mut cells = line.split(';');
@@ -157,7 +160,9 @@ fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
     let stiffness_note = match &known {
         Some(set) => format!("Joint stiffness: {} ({}).", set.source, set.confidence),
         None => format!(
-            "Joint stiffness: not known for this robot. The values are an order of magnitude for {payload} kg of payload, from eight published sets of other arms, which scatter by a factor of 2, single joints by 8: identify your own."
+            "Joint stiffness: not known for this robot. The values are an order of magnitude for \
+             {payload} kg of payload, from eight published sets of other arms, which scatter by a \
+             factor of 2, single joints by 8: identify your own."
         ),
     };
     let mode_note = match known.as_ref().map(|set| set.mode).filter(|mode| !mode.is_empty()) {

@@ -1,4 +1,4 @@
-//! Weight that the joints carry: the links' own, and the spindle's on the flange.
+//! Weight on the joints: that of the links, and that of the spindle on the flange.
 
 use crate::math::Pose;
 use crate::robot::jacobian;
@@ -18,8 +18,10 @@ pub struct Load {
     pub center: Vector3<f64>,
 }
 
-/// Torque [N m] of the loads about each joint's axis in the base frame, with the acceleration of gravity `gravity` [m/s^2]: for joint i
-/// the sum over the masses it carries of k_i . (r x m g), r from the axis to the mass (Siciliano et al., Robotics, 2009, eq. 7.39).
+/// Torque [N m] of the loads about each joint's axis. `gravity` is the acceleration of gravity in
+/// the base frame [m/s^2]. For joint i the torque is the sum of k_i . (r x m g) over the masses
+/// that the joint carries, with r from the axis to the mass (Siciliano et al., Robotics, 2009, eq.
+/// 7.39).
 pub(crate) fn torques(frames: &[Pose; 6], loads: &[Load], gravity: &Vector3<f64>) -> [f64; 6] {
     let mut torques = [0.0; 6];
     for load in loads {

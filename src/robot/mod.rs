@@ -1,8 +1,9 @@
-//! A robot and how it gives way (thesis chapter 3).
+//! The robot: its kinematics and its compliance (thesis chapter 3).
 //!
 //! [`Robot`] is the geometry (modified Denavit-Hartenberg) with the compliance of its joints;
 //! [`forward`](forward::forward) and [`inverse`](inverse::inverse) kinematics, the
-//! [Jacobian](jacobian::jacobian) and the [Cartesian compliance](compliance::cartesian_compliance) follow from it.
+//! [Jacobian](jacobian::jacobian) and the [Cartesian compliance](compliance::cartesian_compliance)
+//! follow from it.
 
 pub mod model;
 pub mod opw;

@@ -4,7 +4,7 @@
 //! Armill solves arms of the RX-90's family in closed form: an ortho-parallel base (axes 1 and 2 at
 //! right angles, crossing or offset; axes 2 and 3 parallel) and a spherical wrist (axes 4, 5, 6
 //! meet in one point). Other six-joint arms are solved by iteration; [`Robot::closed_form`] names
-//! the row that breaks the rule.
+//! the row of the table that does not fit.
 
 use crate::error::Error;
 use crate::math::{self, Pose};
@@ -27,7 +27,7 @@ pub struct Link {
     pub d: f64,
     /// Constant part of the angle about z_i [rad]: theta_i = sign * q_i + theta_offset.
     pub theta_offset: f64,
-    /// +1, or -1 where the maker counts the joint the other way round.
+    /// +1, or -1 where the manufacturer counts the joint in the other direction.
     pub sign: f64,
 }
 
@@ -54,16 +54,15 @@ impl Link {
     }
 }
 
-/// The number of quarter turns (0 to 3) in an angle, or `None` if it is no multiple of 90 degrees
-/// within 1e-9 rad.
+/// The number of quarter turns (0 to 3) in an angle, or `None` if it is not a multiple of 90
+/// degrees within 1e-9 rad.
 fn quarter_turns(angle: f64) -> Option<u8> {
     let turns = angle / math::FRAC_PI_2;
     let whole = turns.round();
     ((turns - whole).abs() < 1e-9).then(|| whole.rem_euclid(4.0) as u8)
 }
 
-/// What the closed-form inverse needs of the table: signs of the twists and the lengths of the
-/// planar arm.
+/// Parameters of the closed-form inverse: signs of the twists and lengths of the planar arm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Geometry {
     /// Sines of the twists alpha_1, alpha_3, alpha_4, alpha_5: +1 or -1.
@@ -76,22 +75,22 @@ pub(crate) struct Geometry {
     pub(crate) upper: f64,
     /// Distance from axis 3 to the wrist centre [m].
     pub(crate) fore: f64,
-    /// The wrist centre in frame 3: its x and y [m].
+    /// x and y of the wrist centre in frame 3 [m].
     pub(crate) fore_direction: (f64, f64),
     /// Offset of the arm's plane from axis 1, along axis 2 [m].
     pub(crate) lateral: f64,
 }
 
-/// What joint 3 is counted from, and where its drive sits.
+/// Where joint 3 is measured from, and where its drive sits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Elbow {
-    /// From the upper arm; the drive is at the elbow.
+    /// Measured from the upper arm; the drive is at the elbow.
     #[default]
     Serial,
-    /// From the base: the controller counts the forearm's own inclination (FANUC's pendants), but
-    /// the drive is at the elbow.
+    /// Measured from the base: the controller reports the forearm's inclination (FANUC's pendants),
+    /// but the drive is at the elbow.
     Pendant,
-    /// From the base, where the drive is, which holds the forearm's inclination through a
+    /// Measured from the base, where the drive sits and holds the forearm's inclination through a
     /// parallelogram.
     Parallelogram,
 }
@@ -116,13 +115,12 @@ pub struct Robot {
 impl Robot {
     /// An arm from its modified DH table.
     ///
-    /// `limits` are the joints' ranges [rad], `compliance` the joints' compliances C_theta
-    /// [rad/(N m)] (eq. 3.43).
+    /// `limits` are the joints' ranges [rad], `compliance` the joints' compliances C_theta [rad/(N
+    /// m)] (eq. 3.43).
     ///
     /// # Errors
-    /// [`Error::Invalid`] naming the row and the value if a number of the table, a limit or a
-    /// compliance is not legal. Field names are those of the job
-    /// (`robot.modified_dh[1].alpha_deg`).
+    /// [`Error::Invalid`] with the row and the value if an entry of the table, a limit or a
+    /// compliance is invalid. Field names are those of the job (`robot.modified_dh[1].alpha_deg`).
     pub fn new(
         name: impl Into<String>,
         links: [Link; 6],
@@ -173,18 +171,18 @@ impl Robot {
         })
     }
 
-    /// The same arm with its TCP placed on the flange.
+    /// This arm with a tool: the TCP in the flange frame.
     pub fn with_tool(mut self, tool: Pose) -> Self {
         self.tool = tool;
         self.flange = tool.inverse();
         self
     }
 
-    /// The same arm with its joint 3 counted from elsewhere.
+    /// This arm with joint 3 measured from elsewhere.
     ///
     /// # Errors
-    /// [`Error::Invalid`] if axes 2 and 3 are not parallel: the forearm has no inclination of its
-    /// own then.
+    /// [`Error::Invalid`] if axes 2 and 3 are not parallel: the forearm's inclination is then
+    /// undefined.
     pub fn with_elbow(mut self, elbow: Elbow) -> Result<Self, Error> {
         if elbow != Elbow::Serial && quarter_turns(self.links[2].alpha).is_none_or(|turns| turns % 2 != 0) {
             let expected = "axes 2 and 3 that are parallel: alpha of row 3 is 0 or 180";
@@ -194,21 +192,20 @@ impl Robot {
         Ok(self)
     }
 
-    /// What joint 3 is counted from, and where its drive sits.
+    /// Where joint 3 is measured from, and where its drive sits.
     pub fn elbow(&self) -> Elbow {
         self.elbow
     }
 
-    /// How far axis 3 turns from the upper arm, in joint 3's own count, for each turn of joint 2
-    /// while joint 3 is commanded to stand still: with the forearm's inclination s_2 q_2
-    /// cos(alpha_2) + s_3 q_3 held, -s_2 s_3 cos(alpha_2).
+    /// How far axis 3 turns relative to the upper arm, in joint 3's own direction, for each turn of
+    /// joint 2 while joint 3 is commanded constant. Holding the forearm's inclination s_2 q_2
+    /// cos(alpha_2) + s_3 q_3 constant gives -s_2 s_3 cos(alpha_2).
     pub(crate) fn elbow_coupling(&self) -> f64 {
         let (cos_2, _) = self.twists[2];
         if self.elbow == Elbow::Serial { 0.0 } else { -self.links[1].sign * self.links[2].sign * cos_2 }
     }
 
-    /// Joint values with joint 3 counted from the upper arm, for values as the controller counts
-    /// them.
+    /// Converts the controller's joint values to values with joint 3 measured from the upper arm.
     pub(crate) fn to_serial(&self, q: &Joints) -> Joints {
         let mut q = *q;
         if self.elbow != Elbow::Serial {
@@ -217,8 +214,7 @@ impl Robot {
         q
     }
 
-    /// Joint values as the controller counts them, for values with joint 3 counted from the upper
-    /// arm.
+    /// Converts values with joint 3 measured from the upper arm to the controller's joint values.
     pub(crate) fn to_controller(&self, q: &Joints) -> Joints {
         let mut q = *q;
         if self.elbow != Elbow::Serial {
@@ -227,14 +223,14 @@ impl Robot {
         q
     }
 
-    /// The same arm with springs that are no straight lines, or with the weight it carries.
+    /// This arm with nonlinear springs, or with the weight it carries.
     pub fn with_statics(mut self, statics: JointStatics) -> Self {
         self.statics = Some(Box::new(statics));
         self
     }
 
-    /// The same arm with its sag at the joint commands `q` [rad] taken for zero, if the workpiece
-    /// was touched off there.
+    /// This arm with its sag at the joint commands `q` [rad] taken as zero, if the workpiece was
+    /// touched off there.
     pub fn touched_off_at(mut self, q: &Joints) -> Self {
         if let Some(statics) = self.statics().filter(|statics| statics.touched_off) {
             self.sag = equilibrium(&self, statics, q, &Vector3::zeros()).parts;
@@ -242,12 +238,12 @@ impl Robot {
         self
     }
 
-    /// Springs and weight, where they are more than [`Robot::compliance`].
+    /// Springs and weight, if the arm has more than [`Robot::compliance`].
     pub fn statics(&self) -> Option<&JointStatics> {
         self.statics.as_deref()
     }
 
-    /// What each joint's sag has moved [m] and turned [rad] the TCP by where the workpiece was
+    /// Displacement [m] and rotation [rad] of the TCP by each joint's sag where the workpiece was
     /// touched off.
     pub(crate) fn sag(&self) -> &[(Vector3<f64>, Vector3<f64>); 6] {
         &self.sag
@@ -263,7 +259,7 @@ impl Robot {
         &self.links
     }
 
-    /// The joints' ranges [rad], where they are known.
+    /// The joints' ranges [rad], if known.
     pub fn limits(&self) -> Option<&[(f64, f64); 6]> {
         self.limits.as_ref()
     }
@@ -283,8 +279,8 @@ impl Robot {
         &self.flange
     }
 
-    /// Smallest and largest distance of the wrist centre from axis 2 [m]; of an arm that is solved
-    /// numerically a bound: from frame 1's origin, all links in line.
+    /// Smallest and largest distance of the wrist centre from axis 2 [m]. For an arm that is solved
+    /// numerically this is a bound: the distance from frame 1's origin with all links in line.
     pub fn reach(&self) -> (f64, f64) {
         match self.geometry {
             Ok(Geometry { upper, fore, .. }) => ((upper.abs() - fore).abs(), upper.abs() + fore),
@@ -295,13 +291,13 @@ impl Robot {
         }
     }
 
-    /// What the closed form works with; the error says what keeps this arm from it.
+    /// Parameters of the closed form; the error says why this arm has none.
     pub(crate) fn geometry(&self) -> Result<&Geometry, &Error> {
         self.geometry.as_ref()
     }
 
-    /// Whether the inverse has a closed form; otherwise the row of the table that keeps it from
-    /// one.
+    /// Whether the inverse has a closed form; the error names the row of the table that prevents
+    /// it.
     ///
     /// # Errors
     /// [`Error::Invalid`] with the row, its value and what the closed form needs there.
@@ -311,10 +307,10 @@ impl Robot {
 }
 
 impl Geometry {
-    /// Reads the family's parameters out of the table, or says which row does not fit.
+    /// Derives the family's parameters from the table, or names the row that does not fit.
     fn of(links: &[Link; 6]) -> Result<Self, Error> {
-        let turn = |i: usize, legal: [u8; 2], expected: &'static str| match quarter_turns(links[i].alpha) {
-            Some(turns) if legal.contains(&turns) => Ok(if turns == legal[0] { 1.0 } else { -1.0 }),
+        let turn = |i: usize, allowed: [u8; 2], expected: &'static str| match quarter_turns(links[i].alpha) {
+            Some(turns) if allowed.contains(&turns) => Ok(if turns == allowed[0] { 1.0 } else { -1.0 }),
             _ => Err(Error::invalid(cell(i, "alpha_deg"), links[i].alpha / DEG, expected)),
         };
         turn(0, [0, 2], "the closed form needs axis 1 vertical in the base frame: 0 or 180")?;
@@ -352,7 +348,7 @@ impl Geometry {
     }
 }
 
-/// JSON path of a number of the modified DH table.
+/// JSON path of an entry of the modified DH table.
 fn cell(row: usize, key: &str) -> String {
     format!("robot.modified_dh[{row}].{key}")
 }

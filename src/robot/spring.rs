@@ -1,25 +1,28 @@
-//! A joint's spring: how far the joint turns under a torque, as a straight line or as a table with lost motion and hardening.
+//! A joint's spring: rotation under a torque, either linear or as a table with lost motion and
+//! hardening.
 
 use crate::error::Error;
 
-/// Turn against torque, the same both ways: straight between its points and from rest to the first, and on along the last piece behind them.
+/// Rotation against torque, the same in both directions. It is linear from zero to the first point
+/// and between points; beyond them the last piece is extrapolated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spring {
-    /// Torque [N m] and turn [rad]: torques rise from above 0, turns do not fall.
+    /// Torque [N m] and rotation [rad]. Torques are positive and rise; rotations do not fall.
     points: Vec<(f64, f64)>,
 }
 
 impl Spring {
-    /// The spring of eq. 3.42: turn = compliance [rad/(N m)] times torque.
+    /// The spring of eq. 3.42: rotation = compliance [rad/(N m)] times torque.
     pub fn linear(compliance: f64) -> Self {
         Self { points: vec![(1.0, compliance)] }
     }
 
-    /// A spring through points of torque [N m] and turn [rad]. Backlash is a first point at the small torque that takes it up, hardening
-    /// a last piece that is steeper in torque.
+    /// A spring through points of torque [N m] and rotation [rad]. Backlash is a first point at the
+    /// small torque that takes it up; hardening is a last piece that is steeper in torque.
     ///
     /// # Errors
-    /// [`Error::Invalid`] naming `field` and the point if there is none, a torque does not rise from above 0, or a turn falls.
+    /// [`Error::Invalid`] with `field` and the point if there are no points, if torques do not rise
+    /// from above 0, or if a rotation falls.
     pub fn through(field: &str, points: Vec<(f64, f64)>) -> Result<Self, Error> {
         if points.is_empty() {
             return Err(Error::invalid(field, "no point", "a torque and its turn, at least once"));
@@ -45,7 +48,7 @@ impl Spring {
         Ok(Self { points })
     }
 
-    /// How far the joint turns [rad] under a torque [N m].
+    /// Rotation of the joint [rad] under a torque [N m].
     pub fn turn(&self, torque: f64) -> f64 {
         let load = torque.abs();
         let behind = self.points.partition_point(|point| point.0 < load).min(self.points.len() - 1);

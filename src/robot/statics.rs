@@ -1,17 +1,18 @@
-//! What loads the joints at rest and how their springs give way to it.
+//! Static loads on the joints, and the springs that yield to them.
 
 use crate::robot::{Load, Spring};
 use nalgebra::Vector3;
 
-/// Springs and weight of an arm, where they are more than six compliances.
+/// Springs and weight of an arm that takes more than six compliances to describe.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointStatics {
-    /// One for each joint.
+    /// One spring for each joint.
     pub springs: [Spring; 6],
-    /// What the joints carry.
+    /// Masses that the joints carry.
     pub loads: Vec<Load>,
     /// Acceleration of gravity in the base frame [m/s^2].
     pub gravity: Vector3<f64>,
-    /// Whether the sag at the start of the path is no error: the workpiece was touched off there.
+    /// Whether the workpiece was touched off at the start of the path, so that the sag there is no
+    /// error.
     pub touched_off: bool,
 }

@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// Computes a job.
 ///
 /// # Errors
-/// What is wrong with the job, or where its path is out of reach.
+/// An [`Error`] with the invalid field of the job, or the place where its path is out of reach.
 pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     let steps = Steps::of(job);
     let setup = Setup::of(job, &mut steps.reading(progress))?;
@@ -27,7 +27,7 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     plan.robot = plan.robot.touched_off_at(&joints.q[0]);
     let singular = warning::singularities(&plan, &joints.q, &joints.margin);
     let (q, branch) = (joints.q, joints.start);
-    // In a browser a long run has little memory, so what is no longer needed goes at once.
+    // Memory is scarce for a long run in a browser, so drop what is no longer needed.
     drop(joints.margin);
     let reference = Reference::along(&plan, Sources::ALL);
     let mut model = steps.part(progress, "deflection and shaping", 1.0, 2.0);
@@ -58,9 +58,10 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     Ok(report)
 }
 
-/// The compensation, its outcome under every source, and the desired path under forces alone.
+/// The compensation, its result under every source, and that of the desired path under forces
+/// alone.
 ///
-/// Deflection alone comes last, unless the passes start from it.
+/// Deflection alone is simulated last, unless the passes start from it.
 fn correct(
     plan: &Plan,
     reference: Reference,
@@ -93,7 +94,7 @@ fn correct(
     (compensation, after, deflection_only)
 }
 
-/// The desired path under cutting forces alone: their reference, and the outcome.
+/// The desired path under cutting forces alone: its reference and its result.
 fn deflection_alone<'a>(
     plan: &'a Plan,
     q: &[Joints],
@@ -104,7 +105,7 @@ fn deflection_alone<'a>(
     (on_time, errors)
 }
 
-/// The job's goal; no pass, if nothing is to be compensated.
+/// The job's goal, without passes if nothing is to be compensated.
 fn goal(plan: &Plan) -> Goal {
     match plan.setup.sources {
         Sources::NONE => Goal { max_passes: 0, ..plan.setup.goal },
@@ -112,8 +113,9 @@ fn goal(plan: &Plan) -> Goal {
     }
 }
 
-/// The parts of a run by the time they take: reading, if there is a program to read, the inverse model,
-/// all sources together, deflection alone; a pass is as much as inverse and forward model.
+/// The parts of a run, weighted by the time they take. Reading a program, the inverse model, all
+/// sources together and deflection alone count 1 each; a pass is an inverse and a forward model and
+/// counts 2.
 struct Steps {
     reading: f64,
     passes: f64,
@@ -125,7 +127,7 @@ impl Steps {
         Self { reading, passes: f64::from(job.compensation.max_passes) }
     }
 
-    /// Where deflection alone begins, if it comes last, counted from the end of reading.
+    /// Where deflection alone begins if it comes last, relative to the end of reading.
     fn last(&self) -> f64 {
         2.0 + 2.0 * self.passes
     }
@@ -134,21 +136,21 @@ impl Steps {
         self.part(progress, "reading the program", -self.reading, 0.0)
     }
 
-    /// The passes; deflection alone is done before them, or not.
+    /// The passes, with deflection alone before them or not.
     fn passes<'b>(&self, progress: &'b mut Progress, after_deflection: bool) -> Progress<'b> {
         let from = if after_deflection { 3.0 } else { 2.0 };
         self.part(progress, "compensation", from, from + 2.0 * self.passes)
     }
 
-    /// The part between two steps, counted from the end of reading.
+    /// The part between two steps, relative to the end of reading.
     fn part<'b>(&self, progress: &'b mut Progress, name: &'static str, from: f64, to: f64) -> Progress<'b> {
         let share = |step: f64| (self.reading + step) / (self.reading + self.last() + 1.0);
         progress.part(name, share(from), share(to))
     }
 }
 
-/// Reads a job from JSON text and computes it; the report remarks the keys that the text leaves to
-/// their default.
+/// Reads a job from JSON text and computes it; the report lists the keys that the text leaves at
+/// their defaults.
 ///
 /// # Errors
 /// See [`Job::from_json`] and [`run`].

@@ -1,5 +1,5 @@
-//! A free roll about the tool axis in the pipeline: chosen before the run, compared with the fixed one
-//! after it.
+//! A free roll about the tool axis in the pipeline: chosen before the run, compared with the fixed
+//! one after it.
 
 use crate::deviation::{Deviation, Reference, Source, Sources, simulate};
 use crate::motion::roll::{self, RollGoal, RollRange};
@@ -10,8 +10,9 @@ use crate::report::{RollGain, RollOutcome};
 use crate::robot::Joints;
 use crate::units::DEG;
 
-/// The path with the roll that suits it best: the fixed one if it is not free or if no other leads to
-/// the end, so that the error says where. Reports before each roll that is tried.
+/// The path with the roll that suits it best. It is the fixed roll if the roll is not free, or if
+/// no other leads to the end, so that the error says where. Reports progress before each roll
+/// tried.
 pub(super) fn chosen(plan: &Plan, progress: &mut Progress) -> Path {
     let Some(range) = plan.setup.roll_range else { return plan.path.clone() };
     progress.at(0.0);
@@ -32,7 +33,7 @@ pub(super) fn chosen(plan: &Plan, progress: &mut Progress) -> Path {
     let chosen = match range.goal {
         RollGoal::SmoothJoints => best(1.0),
         RollGoal::LeastError => {
-            // Stations have no timing that a shaper could bend: the whole model decides.
+            // Stations have no timing for a shaper to act on, so the whole model decides.
             let candidates = held(&coarse, &range).into_iter();
             let candidates = candidates.chain(roll::SMOOTHNESS.into_iter().filter_map(best));
             Some(least_error(plan, nearest.clone(), candidates, progress))
@@ -41,7 +42,7 @@ pub(super) fn chosen(plan: &Plan, progress: &mut Progress) -> Path {
     plan.path.clone().with_roll(chosen.unwrap_or(nearest))
 }
 
-/// The roll with the least contour error; `first` is left only for something clearly better.
+/// The roll with the least contour error; `first` is replaced only by a clearly better one.
 fn least_error(
     plan: &Plan,
     first: Roll,
@@ -60,7 +61,7 @@ fn least_error(
     best.1
 }
 
-/// The best angle to be held all along, in steps of about 10 deg, judged at the stations of `coarse`.
+/// The best constant angle, in steps of about 10 deg, judged at the stations of `coarse`.
 fn held(coarse: &Plan, range: &RollRange) -> Option<Roll> {
     let RollRange { low, high, .. } = *range;
     let steps = ((high - low) / (10.0 * DEG)).ceil().max(1.0);
@@ -69,8 +70,8 @@ fn held(coarse: &Plan, range: &RollRange) -> Option<Roll> {
     judged.min_by(|(a, _), (b, _)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))).map(|(_, roll)| roll)
 }
 
-/// Whether a joint leaves its range with a roll, and the largest contour error before compensation [m];
-/// infinite where it leads out of reach.
+/// Whether a joint leaves its range with a roll, and the largest contour error before compensation
+/// [m]; infinite if it leads out of reach.
 fn outcome(plan: &Plan, acting: Sources, roll: &Roll) -> (bool, f64) {
     let tried = Plan { path: plan.path.clone().with_roll(roll.clone()), ..plan.clone() };
     let Ok(joints) = tried.joints(&mut Progress::none()) else { return (true, f64::INFINITY) };
@@ -78,7 +79,8 @@ fn outcome(plan: &Plan, acting: Sources, roll: &Roll) -> (bool, f64) {
     (!joints.q.iter().all(|q| tried.is_within_limits(q)), before.statistics.max)
 }
 
-/// What the free roll of a plan's path brings, if it is free; `q` and `before` are of it.
+/// The gain by the roll of a plan's path over the fixed one, if it is free; `q` and `before` belong
+/// to the plan.
 pub(super) fn gain(plan: &Plan, q: &[Joints], before: &Deviation) -> Option<RollGain> {
     let range = plan.setup.roll_range?;
     let fixed = Plan { path: plan.setup.path.clone(), ..plan.clone() };

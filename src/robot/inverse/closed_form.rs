@@ -14,12 +14,13 @@ use nalgebra::{Matrix3, Vector3};
 /// |sin q5| below which only the sum of q4 and q6 is determined.
 const WRIST_SINGULAR: f64 = 1e-10;
 
-/// Calls `take` with the solution of every branch, or of one, that the forward model confirms.
+/// Calls `take` with each solution that the forward model confirms, on every branch or on `only`
+/// one.
 ///
-/// Angles are carried as sines and cosines; what they are in radians is asked once, at the end.
+/// Works on sines and cosines; angles in radians are computed only at the end.
 ///
 /// # Errors
-/// [`Error::Unreachable`] if the wrist centre is too near to axis 1, or out of reach of all elbows.
+/// [`Error::Unreachable`] if the wrist centre is too close to axis 1, or out of the arm's reach.
 pub(super) fn each(
     robot: &Robot,
     geometry: &Geometry,
@@ -29,10 +30,10 @@ pub(super) fn each(
     take: &mut dyn FnMut(Solution),
 ) -> Result<(), Error> {
     let flange = tcp.compose(robot.flange());
-    let question = PoseProblem { robot, geometry, tcp, flange, near, serial: robot.to_serial(near), only };
-    let [x, y, z] = question.wrist_centre();
+    let problem = PoseProblem { robot, geometry, tcp, flange, near, serial: robot.to_serial(near), only };
+    let [x, y, z] = problem.wrist_centre();
     let beside = -geometry.sin_1 * geometry.lateral;
-    let forward_reach = question.forward_reach((x, y), beside)?;
+    let forward_reach = problem.forward_reach((x, y), beside)?;
 
     let mut reached = false;
     let mut nearest_miss: Option<f64> = None;
@@ -47,13 +48,13 @@ pub(super) fn each(
             theta_1: Turn::between((ahead, beside), (x, y)),
             wrist: (ahead - robot.links()[1].a, geometry.sin_1 * z),
         };
-        match question.elbow_cosine(&shoulder) {
+        match problem.elbow_cosine(&shoulder) {
             Ok(cos_elbow) => {
                 reached = true;
-                question.elbows(&shoulder, cos_elbow, take);
+                problem.elbows(&shoulder, cos_elbow, take);
             }
             Err(distance) => {
-                let is_nearer = |known| question.miss(distance) < question.miss(known);
+                let is_nearer = |known| problem.miss(distance) < problem.miss(known);
                 if nearest_miss.is_none_or(is_nearer) {
                     nearest_miss = Some(distance);
                 }
@@ -66,41 +67,41 @@ pub(super) fn each(
     }
 }
 
-/// The pose asked for, and the arm that is to take it.
+/// The target pose, and the arm that should reach it.
 struct PoseProblem<'a> {
     robot: &'a Robot,
     geometry: &'a Geometry,
     tcp: &'a Pose,
-    /// The flange's frame where the TCP is at `tcp`.
+    /// Flange frame with the TCP at `tcp`.
     flange: Pose,
-    /// Joint values [rad] that the answer stays near to.
+    /// Joint values [rad] that select the full turn of each angle.
     near: &'a Joints,
-    /// The same with joint 3 counted from the upper arm.
+    /// `near` with joint 3 measured from the upper arm.
     serial: Joints,
-    /// The one branch asked for, if it is one.
+    /// The only branch wanted; all if `None`.
     only: Option<Branch>,
 }
 
-/// The arm turned to the wrist centre, or with its back to it.
+/// The arm facing the wrist centre, or with its back to it.
 struct Shoulder {
     front: bool,
     /// Distance of the wrist centre from the plane through axis 1 along axis 2 [m].
     forward_reach: f64,
-    /// By which axis 1 brings the arm's plane to the wrist centre.
+    /// Turn of axis 1 that brings the arm's plane onto the wrist centre.
     theta_1: Turn,
-    /// The wrist centre in the plane of the arm, from axis 2 [m].
+    /// Wrist centre in the arm's plane, relative to axis 2 [m].
     wrist: (f64, f64),
 }
 
-/// Upper arm and forearm on their way to the wrist centre.
+/// Upper arm and forearm placed to reach the wrist centre.
 struct ShoulderAndElbow {
     front: bool,
     elbow_positive: bool,
     /// Theta_1, theta_2, theta_3.
     turns: [Turn; 3],
-    /// The same in radians.
+    /// The same three angles [rad].
     angles: [f64; 3],
-    /// Margins of shoulder [m] and elbow.
+    /// Margins of the shoulder [m] and of the elbow.
     margins: (f64, f64),
 }
 
@@ -116,8 +117,8 @@ impl PoseProblem<'_> {
         [x, y, z]
     }
 
-    /// How far ahead of axis 1 the wrist centre lies once it is turned back by theta_1 (eq. 3.13)
-    /// into the arm's plane, which lies `beside` axis 1 [m].
+    /// Distance of the wrist centre ahead of axis 1 [m] after turning it back by theta_1 (eq. 3.13)
+    /// into the arm's plane, which is offset from axis 1 by `beside` [m].
     fn forward_reach(&self, (x, y): (f64, f64), beside: f64) -> Result<f64, Error> {
         let radius_squared = x * x + y * y;
         let forward_squared = radius_squared - beside * beside;
@@ -127,8 +128,8 @@ impl PoseProblem<'_> {
         Ok(forward_squared.max(0.0).sqrt())
     }
 
-    /// Cosine of the elbow angle by the law of cosines between upper arm and forearm (eq. 3.15);
-    /// the wrist centre's distance from axis 2 [m] where it is out of their reach.
+    /// Cosine of the elbow angle, by the law of cosines for upper arm and forearm (eq. 3.15). If
+    /// the wrist centre is out of their reach, the error is its distance from axis 2 [m].
     fn elbow_cosine(&self, shoulder: &Shoulder) -> Result<f64, f64> {
         let g = self.geometry;
         let (px, py) = shoulder.wrist;
@@ -140,7 +141,7 @@ impl PoseProblem<'_> {
         Ok(cos_elbow.clamp(-1.0, 1.0))
     }
 
-    /// How much too far or too near a wrist centre at this distance from axis 2 is [m].
+    /// How far out of reach a wrist centre at this distance from axis 2 [m] is [m].
     fn miss(&self, distance: f64) -> f64 {
         let (nearest, furthest) = self.robot.reach();
         if distance > self.geometry.upper.abs() { distance - furthest } else { nearest - distance }
@@ -157,7 +158,7 @@ impl PoseProblem<'_> {
                 continue;
             }
             let theta_3 = Turn::between(g.fore_direction, (cos_elbow, sin_elbow));
-            // The direction to the wrist centre less the arm's own.
+            // The direction to the wrist centre, minus the arm's own direction.
             let own = (g.upper + g.fore * cos_elbow, g.cos_2 * g.fore * sin_elbow);
             let theta_2 = Turn::between(own, wrist);
             let turns = [theta_1, theta_2, theta_3];
@@ -167,7 +168,7 @@ impl PoseProblem<'_> {
         }
     }
 
-    /// Theta_4, theta_5 and theta_6 (eqs. 3.16-3.21) of both wrists, put back into the forward
+    /// Theta_4, theta_5 and theta_6 (eqs. 3.16-3.21) of both wrists, checked with the forward
     /// model.
     fn wrists(&self, arm: &ShoulderAndElbow, take: &mut dyn FnMut(Solution)) {
         let robot = self.robot;
@@ -200,8 +201,7 @@ impl PoseProblem<'_> {
         }
     }
 
-    /// The joint values for theta_1 to theta_6 [rad], each in the full turn that is nearest to the
-    /// one asked for.
+    /// The joint values for theta_1 to theta_6 [rad], each in the full turn nearest to `near`.
     fn joints(&self, arm: [f64; 3], wrist: [f64; 3]) -> Joints {
         let theta = [arm[0], arm[1], arm[2], wrist[0], wrist[1], wrist[2]];
         let links = self.robot.links();
@@ -210,7 +210,7 @@ impl PoseProblem<'_> {
     }
 }
 
-/// The frame after three links, the first of them `link` (from 0), by their angles about z.
+/// The frame after three links, starting with `link` (from 0), from their angles about z.
 fn chain(robot: &Robot, link: usize, frame: Pose, turns: [Turn; 3]) -> Pose {
     let turns = turns.into_iter().enumerate();
     turns.fold(frame, |outer, (i, theta)| forward::next(robot, link + i, &outer, theta))
@@ -219,8 +219,8 @@ fn chain(robot: &Robot, link: usize, frame: Pose, turns: [Turn; 3]) -> Pose {
 /// Theta_4, theta_5, theta_6 from M = Rz(theta_4) Rx(alpha_4) Rz(theta_5) Rx(alpha_5) Rz(theta_6)
 /// (eqs. 3.17-3.21) with the positive wrist, and |sin theta_5|.
 ///
-/// With alpha_5 = -alpha_4 the middle is Ry(b), b = -sin(alpha_4) theta_5, and M are Euler angles
-/// ZYZ; with equal twists a half turn about x follows, which also turns theta_6 round.
+/// With alpha_5 = -alpha_4 the middle is Ry(b), b = -sin(alpha_4) theta_5, and M is a ZYZ Euler
+/// rotation. With equal twists a half turn about x follows, which also reverses theta_6.
 fn wrist_turns(robot: &Robot, g: &Geometry, m: &Matrix3<f64>, near: &Joints) -> ([Turn; 3], f64) {
     let equal = g.sin_4 == g.sin_5;
     let m = if equal { m * Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0)) } else { *m };
@@ -230,7 +230,7 @@ fn wrist_turns(robot: &Robot, g: &Geometry, m: &Matrix3<f64>, near: &Joints) -> 
     } else {
         Turn::of(robot.links()[3].theta(near[3]))
     };
-    // Rz(-theta_4) M = Ry(b) Rz(theta_6): exact whatever theta_4, so the pose closes near the
+    // Rz(-theta_4) M = Ry(b) Rz(theta_6): exact for any theta_4, so the pose closes near the
     // singularity too.
     let Turn { sin: sin_4, cos: cos_4 } = theta_4;
     let ahead = (1.0, 0.0);
@@ -240,7 +240,7 @@ fn wrist_turns(robot: &Robot, g: &Geometry, m: &Matrix3<f64>, near: &Joints) -> 
     ([theta_4, Turn { sin: -g.sin_4 * b.sin, ..b }, theta_6], sin_b)
 }
 
-/// The other wrist: joints 4 and 6 half a turn on, joint 5 bent the other way.
+/// The other wrist: joints 4 and 6 turned by half a turn, joint 5 bent the other way.
 fn other_wrist(
     [theta_4, theta_5, theta_6]: [Turn; 3],
     [angle_4, angle_5, angle_6]: [f64; 3],

@@ -1,7 +1,7 @@
 //! Inverse kinematics: joint values for a pose of the TCP.
 //!
-//! Arms of the RX-90's family are solved in closed form, others by iteration, with the same
-//! answers.
+//! Arms of the RX-90's family are solved in closed form, others by iteration. Both give results of
+//! the same form.
 
 mod solution;
 mod closed_form;
@@ -18,12 +18,12 @@ use std::f64::consts::FRAC_PI_4;
 /// All joint values that put the TCP at `tcp` (base frame); each is checked by the forward model
 /// (1e-9 m, 1e-9).
 ///
-/// Each angle is the one of its full turns that is nearest to `near` [rad]; at a wrist singularity
-/// q4 is taken from `near`.
+/// Each angle is taken in the full turn nearest to `near` [rad]. At a wrist singularity q4 is taken
+/// from `near`.
 ///
 /// # Errors
-/// [`Error::Unreachable`] with the distance and the reach if no branch gets there;
-/// [`Error::Invalid`] if some do and none closes.
+/// [`Error::Unreachable`] with the distance and the reach if the pose is out of reach;
+/// [`Error::Invalid`] if it is within reach but no solution passes the check.
 pub fn inverse(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solutions, Error> {
     let solutions = match robot.geometry() {
         Ok(geometry) => {
@@ -41,12 +41,13 @@ pub fn inverse(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solutions, Er
     }
 }
 
-/// The solution on the branch `last` is on, if it is certain that no other branch comes nearer to
-/// it.
+/// The solution on the branch of `last`, if it is certain that no other branch comes nearer to
+/// `last`.
 ///
-/// Another wrist turns q4 by half a turn; another elbow turns q3 by twice the elbow angle; another
-/// shoulder turns q1 by more than a quarter turn where the wrist centre is further ahead than
-/// beside. What is less than half as far from `last` is the nearest.
+/// Switching the wrist turns q4 by half a turn. Switching the elbow turns q3 by twice the elbow
+/// angle. Switching the shoulder turns q1 by more than a quarter turn if the wrist centre is
+/// further ahead of axis 1 than beside it. A solution less than half as far from `last` is
+/// therefore the nearest.
 pub(crate) fn continued(robot: &Robot, tcp: &Pose, last: &Solution) -> Option<Solution> {
     let Ok(geometry) = robot.geometry() else {
         return numerical::continued(robot, tcp, last);
@@ -60,7 +61,7 @@ pub(crate) fn continued(robot: &Robot, tcp: &Pose, last: &Solution) -> Option<So
     })
 }
 
-/// The pose is within reach, but rounding keeps every branch from it.
+/// The error for a pose within reach that every branch misses by rounding.
 pub(crate) fn unclosed(tcp: &Pose) -> Error {
     let expected = "no solution of the inverse model closes there; move the path a little";
     Error::invalid("path", place_mm(tcp), expected)
@@ -87,7 +88,7 @@ mod tests {
                 let from = Pose::from_xyz_rpy(place, [3.0 * share(5), 1.5 * share(7), 6.0 * share(11)]);
                 let step = Vector3::new(around(23, 0.1), around(29, 0.1), around(31, 0.1)) * share(37);
                 let to = Pose { position: place + step, ..from };
-                // The arm that stands beside axis 1 does not reach it.
+                // The arm whose plane lies beside axis 1 cannot reach that axis.
                 let Ok(before) = inverse(&robot, &from, &Joints::zeros()) else { continue };
                 for last in before.iter() {
                     let Ok(all) = inverse(&robot, &to, &last.q) else { continue };

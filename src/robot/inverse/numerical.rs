@@ -1,11 +1,11 @@
 //! Inverse kinematics by iteration, for six-joint arms outside the closed form: wrists whose axes
 //! do not meet, bent twists.
 //!
-//! Levenberg-Marquardt with a damping that follows the squared error, as Sugihara proposes
+//! Levenberg-Marquardt with damping proportional to the squared error, after Sugihara
 //! ("Solvability-unconcerned inverse kinematics by the Levenberg-Marquardt method", IEEE Trans.
-//! Robotics 27(5), 2011, eqs. 12-16): it never meets a singular matrix, and near the solution it is
-//! Newton's method, which doubles the correct digits at every step. Starting points are fixed, so
-//! the same pose gives the same bits.
+//! Robotics 27(5), 2011, eqs. 12-16). The matrix is never singular, and near the solution the
+//! method becomes Newton's, which doubles the correct digits at every step. Starting points are
+//! fixed, so the same pose gives the same bits.
 
 use super::solution::{Branch, Margin, Solution, Solutions, closes, place_mm, unreachable};
 use crate::error::Error;
@@ -13,22 +13,21 @@ use crate::math::{self, Pose, TAU};
 use crate::robot::{Joints, Robot, forward, jacobian};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-/// Steps of one search at most.
+/// Maximum steps of one search.
 const STEPS: usize = 50;
-/// Starting points that are tried for all solutions of a pose.
+/// Starting points tried to find all solutions of a pose.
 const STARTS: usize = 160;
-/// Squared error (positions over the arm's length) below which a step can only stir the last
-/// digits.
+/// Squared error (positions over the arm's length) below which a step changes only the last digits.
 const DONE: f64 = 1e-29;
-/// Joint values nearer to each other than this are one solution [rad].
+/// Joint values closer together than this are the same solution [rad].
 const SAME: f64 = 1e-5;
-/// A continuation that turns a joint further is not trusted to be the nearest solution [rad].
+/// A continuation that turns a joint further may not be the nearest solution [rad].
 const TRUSTED: f64 = 0.3;
 /// The positive root of x^7 = x + 1: its powers spread points evenly over six dimensions (M.
 /// Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
 const SPREAD: f64 = 1.112_775_684_278_706;
 
-/// Every solution that the starting points lead to, `near` first; at most eight.
+/// All solutions found from the starting points, of which `near` is the first; at most eight.
 pub(super) fn solutions(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solutions, Error> {
     let wrist = wrist_of(robot, tcp);
     let shoulder = forward::frames(robot, near)[0].position;
@@ -48,14 +47,15 @@ pub(super) fn solutions(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solu
     }
     if found.iter().next().is_none() {
         let expected = format!(
-            "no joint values were found that put the tool there with this axis (numerical inverse, {STARTS} starting points); move or turn the path"
+            "no joint values were found that put the tool there with this axis \
+             (numerical inverse, {STARTS} starting points); move or turn the path"
         );
         return Err(Error::invalid("path", place_mm(tcp), expected));
     }
     Ok(found)
 }
 
-/// The solution that grows out of `last`, if it is near enough to be the nearest.
+/// The solution that continues `last`, if it is close enough to be the nearest.
 pub(super) fn continued(robot: &Robot, tcp: &Pose, last: &Solution) -> Option<Solution> {
     let q = search(robot, tcp, &last.q)?;
     ((q - last.q).amax() < TRUSTED).then(|| described(robot, q))
@@ -90,16 +90,16 @@ fn search(robot: &Robot, tcp: &Pose, start: &Joints) -> Option<Joints> {
     closes(robot, tcp, &q).then_some(q)
 }
 
-/// What is missing from the pose at `q` to `tcp`: way (over the arm's length) and rotation vector.
+/// The error from the pose at `q` to `tcp`: position (over the arm's length) and rotation vector.
 fn error(robot: &Robot, tcp: &Pose, q: &Joints, scale: f64) -> Vector6<f64> {
     let now = forward::forward(robot, q);
-    let way = (tcp.position - now.position) * scale;
+    let offset = (tcp.position - now.position) * scale;
     let turn = rotation_vector(&(tcp.rotation * now.rotation.transpose()));
-    Vector6::new(way.x, way.y, way.z, turn.x, turn.y, turn.z)
+    Vector6::new(offset.x, offset.y, offset.z, turn.x, turn.y, turn.z)
 }
 
-/// Axis times angle of a rotation (its logarithm); at half a turn, where the axis has no sign,
-/// nearly zero.
+/// Axis times angle of a rotation (its logarithm). At half a turn, where the axis has no sign, it
+/// is nearly zero.
 fn rotation_vector(r: &Matrix3<f64>) -> Vector3<f64> {
     let sine = Vector3::new(r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]) * 0.5;
     let size = sine.norm();
@@ -116,20 +116,19 @@ fn start(k: usize) -> Joints {
     })
 }
 
-/// Where axes 5 and 6 come nearest: the wrist centre, whose distance from the shoulder the links
-/// limit.
+/// The wrist centre: the point of axis 6 nearest to axis 5. The links limit its distance from the
+/// shoulder.
 fn wrist_of(robot: &Robot, tcp: &Pose) -> Vector3<f64> {
     let flange = tcp.compose(&robot.tool().inverse());
     flange.position - flange.rotation.column(2) * robot.links()[5].d
 }
 
-/// Joint values with their branch and margin, in the terms of the closed form, of which these are
-/// the general case.
+/// Joint values with their branch and margin, which generalise those of the closed form.
 fn described(robot: &Robot, q: Joints) -> Solution {
     let frames = forward::frames(robot, &q);
     let axis = |i: usize| frames[i].rotation.column(2);
     let ahead = frames[0].rotation.column(0).dot(&(frames[4].position - frames[0].position));
-    // The forearm, across axis 3, and the side of the upper arm's line that it points to.
+    // The forearm, projected across axis 3, and the side of the upper arm that it points to.
     let fore = frames[3].position - frames[2].position;
     let fore = fore - axis(2) * axis(2).dot(&fore);
     let bend = axis(2).dot(&frames[1].rotation.column(0).cross(&fore));
@@ -160,7 +159,7 @@ mod tests {
                 let mut rpy = [0.0; 3];
                 rpy[i] = angle;
                 let turn = rotation_vector(&Pose::from_xyz_rpy(Vector3::zeros(), rpy).rotation);
-                // Beside half a turn the sine is small and its rounding counts.
+                // Near half a turn the sine is small and its rounding matters.
                 assert!(
                     (turn - Vector3::ith(i, angle)).norm()
                         < 1e-15 * (1.0 + 1.0 / math::sin(angle).abs().max(1e-2)),
@@ -195,7 +194,7 @@ mod tests {
         let all: Vec<_> = (1..STARTS).map(start).collect();
         assert!(all.iter().all(|q| q.amax() <= TAU / 2.0));
         for i in 0..6 {
-            // As many in each quarter of the turn, of an even spread of 159.
+            // Nearly the same number in each quarter turn; an even spread of 159 has 40.
             let mut quarters = [0; 4];
             for q in &all {
                 quarters[((q[i] / TAU + 0.5) * 4.0) as usize] += 1;

@@ -1,25 +1,25 @@
-//! Joint values for a pose: the branch they belong to, how far they are from a singularity, and
-//! whether they hold.
+//! Joint values for a pose, with their branch, their distance from singularities, and the check by
+//! the forward model.
 
 use crate::error::Error;
 use crate::math::Pose;
 use crate::robot::{Joints, Robot, forward};
 use crate::units::MM;
 
-/// Which of the eight arms: each field picks one sign in the closed form.
+/// Which of the eight arm configurations: each field is one sign of the closed form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Branch {
-    /// The arm faces the wrist centre (eq. 3.13, upper sign); `false`: it reaches over its back.
+    /// The arm faces the wrist centre (eq. 3.13, upper sign); `false`: it reaches over backwards.
     pub front: bool,
-    /// The elbow angle, from the stretched arm, is positive (eq. 3.15, upper sign; on the RX-90 it
-    /// is q3).
+    /// The elbow angle, measured from the stretched arm, is positive (eq. 3.15, upper sign; on the
+    /// RX-90 it is q3).
     pub elbow_positive: bool,
-    /// sin(q5) has the sign that makes `wrist_positive` (eq. 3.20, upper sign); the other wrist is
-    /// turned by 180 degrees.
+    /// sin(q5) has the sign of eq. 3.20 with its upper sign; the other wrist is turned by 180
+    /// degrees.
     pub wrist_positive: bool,
 }
 
-/// One set of joint values that puts the TCP where it was asked for.
+/// One set of joint values that puts the TCP at the requested pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Solution {
     /// Joint values [rad].
@@ -52,7 +52,7 @@ impl Solutions {
         Self { all: [None; 8] }
     }
 
-    /// Whether there was room for another one.
+    /// Adds a solution; returns whether there was room for it.
     pub(super) fn add(&mut self, solution: Solution) -> bool {
         match self.all.iter_mut().find(|slot| slot.is_none()) {
             Some(slot) => {
@@ -74,27 +74,27 @@ impl Solutions {
     }
 }
 
-/// Position error that a solution may show when it is put back into the forward model [m];
-/// rotations: the same number, no unit.
+/// Largest position error that a solution may have in the forward model [m]; for rotation matrices
+/// the same number without a unit.
 const CLOSURE: f64 = 1e-9;
 
-/// Whether the forward model puts the TCP where it was asked for.
+/// Whether the forward model puts the TCP at the requested pose.
 pub(super) fn closes(robot: &Robot, tcp: &Pose, q: &Joints) -> bool {
     is_near(tcp, &forward::forward(robot, q))
 }
 
-/// Whether the pose reached is the one asked for.
+/// Whether the pose reached is the requested one.
 pub(super) fn is_near(tcp: &Pose, reached: &Pose) -> bool {
     (reached.position - tcp.position).norm() <= CLOSURE && (reached.rotation - tcp.rotation).norm() <= CLOSURE
 }
 
-/// A place in words.
+/// A position in words, for messages.
 pub(super) fn place_mm(tcp: &Pose) -> String {
     let [x, y, z] = [tcp.position.x, tcp.position.y, tcp.position.z].map(|v| v / MM);
     format!("at ({x:.1}, {y:.1}, {z:.1}) mm in the base frame")
 }
 
-/// The error of a wrist centre at `distance` [m] from where the arm reaches from and to.
+/// The error for a wrist centre at `distance` [m], with the arm's smallest and largest reach [m].
 pub(super) fn unreachable(tcp: &Pose, distance: f64, (reach_min, reach_max): (f64, f64)) -> Error {
     let position = [tcp.position.x, tcp.position.y, tcp.position.z];
     Error::Unreachable { sample: None, arc_length: None, position, distance, reach_min, reach_max }
