@@ -11,7 +11,7 @@ const TYPES: &'static str = r#"
 export interface ArmillError extends Error { code: string; field?: string; line?: number; column?: number; }
 "#;
 
-/// What an `Error` object carries besides its message.
+/// Data of an `Error` object besides its message.
 #[derive(Serialize)]
 struct Data<'a> {
     code: &'a str,
