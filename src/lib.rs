@@ -1,17 +1,19 @@
-//! Armill predicts where the tool tip of a milling robot really goes (cutting forces bend the arm, command shaping bends the
-//! path) and returns the path to command instead, so that the part comes out right.
+//! Armill predicts where the tool tip of a milling robot really goes: cutting forces bend the arm,
+//! and command shaping bends the path. It returns the path to command instead, so that the part
+//! comes out right.
 //!
-//! One path point travels one way, through the modules in this order:
+//! A path point travels one way, through the modules in this order:
 //!
 //! ```text
-//! Job ─► Path ─► Trajectory ─► JointTrajectory ─► Forces ─► Deviation ─► Compensation ─► Report ─► charts, files
-//!       (where)  (when)       (which joints,     (what     (deflection, (what to        (numbers)
-//!                              shaped)            pushes)   contour      command)
+//! Job ─► Path ─► Trajectory ─► JointTrajectory ─► Forces ─► Deviation ─► Compensation ─► Report
+//!       (where)  (when)       (which joints,     (cutting  (deflection, (what to
+//!                              shaped)            forces)   contour      command)
 //!                                                           error)
 //! ```
 //!
-//! Everything inside is SI; text and files carry the unit in the name. "Thesis" in these pages is
-//! *Modelling and Compensation of Positioning Errors in Robotic Machining Systems*; equation numbers are its own.
+//! Charts and files are made from the report. Inside, everything is in SI; text and files carry the
+//! unit in the name. "Thesis" in these pages is *Modelling and Compensation of Positioning Errors
+//! in Robotic Machining Systems*; equation numbers refer to it.
 //!
 //! ```
 //! let report = armill::run(&armill::Job::default(), &mut armill::Progress::none())?;
@@ -19,11 +21,12 @@
 //! # Ok::<(), armill::Error>(())
 //! ```
 //!
-//! The same, to try:
+//! Try it here:
 //!
 //! <script type="module" src="../../calculator/js/armill-calculator.js"></script>
 //! <armill-calculator inputs="motion shaper" charts="before-after">
-//! The calculator shows here in pages made by `cargo xtask docs`, once they are served: a browser loads no module from disk.
+//! The calculator shows here in pages made by `cargo xtask docs`, once they are served: a browser
+//! loads no module from disk.
 //! </armill-calculator>
 
 #[doc = include_str!("../README.md")]

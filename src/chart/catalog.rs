@@ -10,14 +10,14 @@ use crate::error::Error;
 use crate::report::Report;
 use serde::Serialize;
 
-/// What a chart is and where it belongs.
+/// A chart and its place on the page.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Entry {
     /// Stable name.
     pub name: &'static str,
     /// What it shows.
     pub title: &'static str,
-    /// View of the page.
+    /// View of the page that shows it.
     pub view: &'static str,
     /// Figure of the thesis; empty for a chart of our own.
     pub figure: &'static str,
@@ -35,7 +35,7 @@ const fn entry(
     Entry { name, title, view, figure, kind }
 }
 
-/// Of interest only where the spin is free.
+/// Shown only if the spin is free.
 const SPIN: &str = "spin";
 
 /// All charts, in the order of the page.
@@ -76,7 +76,7 @@ pub const CATALOG: [Entry; 28] = [
     entry("shaper-robustness", "Vibration left if the frequency is misjudged", "shaper", "", "curve"),
 ];
 
-/// The charts that have something to show of a report.
+/// The charts that apply to a report.
 pub fn charts_of(report: &Report) -> Vec<Entry> {
     CATALOG.into_iter().filter(|entry| entry.name != SPIN || report.roll.is_some()).collect()
 }
@@ -92,8 +92,8 @@ pub fn chart(report: &Report, name: &str, options: &ChartOptions) -> Result<Char
     content.draw(name, title, options).map_err(refused)
 }
 
-/// The values that the chart `name` shows, every sample of them: what stands along its first axis (in space: the time), then each
-/// series.
+/// All values that the chart `name` shows: those along its first axis (in space, the time), then
+/// each series.
 ///
 /// # Errors
 /// [`Error::Invalid`] for a name that is not in [`CATALOG`].

@@ -1,10 +1,10 @@
-//! A chart as values: what goes into a drawing, and what comes out beside it.
+//! A chart as values: the input of a drawing, and its output besides the drawing.
 
 use serde::Serialize;
 
 use super::unit::Units;
 
-/// What a chart is called.
+/// Name, title and description of a chart.
 #[derive(Clone, Copy, Debug)]
 pub struct Caption<'a> {
     /// Stable name.
@@ -20,9 +20,9 @@ pub struct Caption<'a> {
 pub struct PlotSeries<'a> {
     /// Stable name, e.g. a column's key.
     pub key: &'a str,
-    /// What the legend says.
+    /// Text of the legend.
     pub label: &'a str,
-    /// How it looks: a class of the page's style sheet.
+    /// Its appearance: a class of the page's style sheet.
     pub class: &'static str,
     /// Values along the first axis.
     pub x: &'a [f64],
@@ -32,14 +32,14 @@ pub struct PlotSeries<'a> {
     pub markers: bool,
 }
 
-/// What an axis shows.
+/// Quantity, unit and range of an axis.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Axis<'a> {
     /// Quantity.
     pub label: &'a str,
     /// Unit as printed; empty for a pure number.
     pub unit: &'a str,
-    /// Ends of the axis; from the data if none.
+    /// Ends of the axis; taken from the data if none.
     pub range: Option<(f64, f64)>,
     /// Whether a range from the data includes zero.
     pub zero: bool,
@@ -56,7 +56,7 @@ impl Axis<'_> {
     }
 }
 
-/// What the page asks for.
+/// Options of the page.
 #[derive(Clone, Debug)]
 pub struct ChartOptions {
     /// Width of the whole chart [px].
@@ -74,7 +74,7 @@ pub struct ChartOptions {
 }
 
 impl ChartOptions {
-    /// The whole chart in this size, in mm and N.
+    /// The whole chart at this size, in mm and N.
     pub fn sized(width: f64, height: f64) -> Self {
         Self { width, height, x_range: None, y_range: None, hidden: Vec::new(), units: Units::default() }
     }
@@ -91,14 +91,14 @@ pub struct Band {
     pub from: f64,
     /// Upper end, in units of y.
     pub to: f64,
-    /// What it is.
+    /// Its name.
     pub label: &'static str,
 }
 
 /// Curves over two axes, before their scales are settled.
 #[derive(Clone, Copy, Debug)]
 pub struct LinePlot<'a> {
-    /// What it is called.
+    /// Its name, title and description.
     pub caption: Caption<'a>,
     /// The axis from left to right.
     pub x: Axis<'a>,
@@ -110,7 +110,7 @@ pub struct LinePlot<'a> {
     pub bands: &'a [Band],
 }
 
-/// A drawn chart and what a page needs to put a legend, a cursor and zoom over it.
+/// A drawn chart, with what a page needs to add a legend, a cursor and zoom.
 #[derive(Clone, Debug, Serialize)]
 pub struct Chart {
     /// Stable name.
@@ -173,7 +173,7 @@ pub struct AxisInfo {
 pub struct Legend {
     /// Stable name: `data-key` of the series' group in the drawing.
     pub key: String,
-    /// What the legend says.
+    /// Text of the legend.
     pub label: String,
     /// Class of the series' group in the drawing.
     pub class: String,

@@ -1,4 +1,4 @@
-//! What a chart shows, before it is drawn: the same values become a drawing or columns.
+//! The content of a chart before it is drawn: the same values become a drawing or columns.
 
 use nalgebra::Vector3;
 
@@ -8,7 +8,7 @@ use crate::chart::space::{SpaceSeries, View, space_chart};
 use crate::column::Column;
 use crate::path::unit::LengthUnit;
 
-/// One chart's values and what they are.
+/// The values of one chart and their description.
 pub(super) struct Content {
     /// One sentence with the extremes: the text alternative.
     pub(super) description: String,
@@ -32,7 +32,7 @@ pub(super) struct Curve {
     pub(super) values: Vec<f64>,
 }
 
-/// One path, in the unit that is read.
+/// One path, in the displayed unit.
 pub(super) struct SpacePath {
     pub(super) key: &'static str,
     pub(super) label: String,
@@ -71,7 +71,7 @@ impl Content {
         }
     }
 
-    /// Every sample: what stands along the first axis, then each series; a path is three columns.
+    /// All samples: the values along the first axis, then each series; a path is three columns.
     pub(super) fn columns(self) -> Vec<Column> {
         match self.shape {
             Shape::Curves { x, y, curves, .. } => {
@@ -96,7 +96,7 @@ impl Content {
     }
 }
 
-/// A column whose key has the unit in it.
+/// A column whose key includes the unit.
 fn column(key: &str, label: &str, unit: &'static str, values: Vec<f64>) -> Column {
     let spelled = if unit == "%" { "percent" } else { unit };
     let text = format!("{key} {spelled}").to_ascii_lowercase();
@@ -104,7 +104,7 @@ fn column(key: &str, label: &str, unit: &'static str, values: Vec<f64>) -> Colum
     Column::new(words.join("_"), label, unit, values)
 }
 
-/// Points in the unit that is read.
+/// Points in the displayed unit.
 pub(super) fn points(positions: &[Vector3<f64>], unit: f64) -> Vec<[f64; 3]> {
     positions.iter().map(|p| (p / unit).into()).collect()
 }

@@ -1,4 +1,4 @@
-//! What each chart of the catalogue shows of a report.
+//! The content of each chart in the catalogue.
 
 use crate::chart::chart::{Axis, Band};
 use crate::chart::content::{Content, Curve, Shape, SpacePath, TIME, points};
@@ -21,14 +21,15 @@ pub(super) const DEFLECTION: Name = ("deflection", "Forces alone", "deflection")
 pub(super) const SHAPING: Name = ("shaping", "Shaping alone", "shaping");
 pub(super) const BOTH: Name = ("both", "Both together", "both");
 
-/// The figures of a report, in the units that they are read in.
+/// The figures of a report, in the displayed units.
 pub(super) struct Figures<'a> {
     pub(super) report: &'a Report,
     pub(super) units: Units,
 }
 
 impl Figures<'_> {
-    /// A length [m] as read in a sentence, without its unit: no finer than a tenth of a micrometre, which no machine knows.
+    /// A length [m] as text in a sentence, without its unit: no finer than a tenth of a micrometre,
+    /// beyond any machine's resolution.
     fn read(&self, length: f64) -> String {
         match self.units.length {
             LengthUnit::Mm => length_text(length, MM, 4),
@@ -166,7 +167,8 @@ impl Figures<'_> {
         )
     }
 
-    /// A bent path beside the desired one: each point is moved away from the closest desired point by a stated factor.
+    /// A bent path beside the desired one: each point is moved away from the closest desired point
+    /// by a stated factor.
     pub(super) fn bent(
         &self,
         actual: &[Vector3<f64>],
@@ -203,7 +205,8 @@ impl Figures<'_> {
         self.space(description, vec![self.desired(), (name, note, &commanded)])
     }
 
-    /// 1, 2 or 5 times a power of ten, so that the largest deviation [m] shows as about a tenth of the path's size.
+    /// 1, 2 or 5 times a power of ten, so that the largest deviation [m] appears as about a tenth
+    /// of the path's size.
     fn magnification(&self, largest: f64) -> f64 {
         let position = &self.report.plan.trajectory.position;
         let size = [0, 1, 2]
@@ -240,7 +243,8 @@ impl Figures<'_> {
         let resultant: Vec<f64> = forces.iter().map(|f| f.norm() / size).collect();
         let mean = self.report.mean_force() / size;
         let description = format!(
-            "In the cutting frame (x along the feed, z along the tool axis), on the tool: mean ({:.1}, {:.1}, {:.1}) {unit}, largest resultant {:.1} {unit}.",
+            "In the cutting frame (x along the feed, z along the tool axis), on the tool: mean \
+             ({:.1}, {:.1}, {:.1}) {unit}, largest resultant {:.1} {unit}.",
             mean.x,
             mean.y,
             mean.z,
@@ -306,7 +310,7 @@ impl Figures<'_> {
         self.over_time(description, y, original_and_shaped(original, shaped))
     }
 
-    /// A unit step at time 0 and what the shaper makes of it (Fig. 4.10).
+    /// A unit step at time 0, original and shaped (Fig. 4.10).
     pub(super) fn step(&self) -> Content {
         let impulses = self.report.setup().shaper.impulses();
         let duration = self.report.setup().shaper.duration();
@@ -393,7 +397,7 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len().max(1) as f64
 }
 
-/// A number as read in a sentence.
+/// A number as text in a sentence.
 fn digits(value: f64) -> String {
     match value.abs() {
         large if large >= 100.0 => format!("{value:.0}"),

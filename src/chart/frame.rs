@@ -30,7 +30,7 @@ pub(super) fn size(options: &ChartOptions) -> Result<(u32, u32), String> {
     Ok((whole("width", options.width)?, whole("height", options.height)?))
 }
 
-/// A range that somebody asked for.
+/// Checks a requested range.
 pub(super) fn valid(axis: &Axis, (min, max): (f64, f64)) -> Result<(f64, f64), String> {
     let drawable = min.is_finite() && max.is_finite() && widened((min, max)) == (min, max);
     if drawable && min < max && (!axis.log || min > 0.0) {
@@ -40,7 +40,7 @@ pub(super) fn valid(axis: &Axis, (min, max): (f64, f64)) -> Result<(f64, f64), S
     }
 }
 
-/// The smallest ranges around these that fill the plot area with units as long upwards as sideways.
+/// The smallest ranges around these that fill the plot area with the same scale in both directions.
 pub(super) fn equal_aspect(x: (f64, f64), y: (f64, f64), plot: &PlotArea) -> ((f64, f64), (f64, f64)) {
     let unit = ((x.1 - x.0) / plot.width).max((y.1 - y.0) / plot.height);
     let around = |range: (f64, f64), length: f64| {
@@ -56,7 +56,7 @@ pub(super) fn window(area: &PlotArea) -> Window {
     Window { left, top, right: left + width, bottom: top + height }
 }
 
-/// A chart whose size and scales are settled.
+/// A chart with fixed size and scales.
 pub(super) struct PlotFrame {
     /// Width of the chart [SVG units].
     pub(super) width: u32,
@@ -106,13 +106,13 @@ impl PlotFrame {
         })
     }
 
-    /// Where a pair of values stands on the canvas; not a number where a scale has no place for it.
+    /// Position of a pair of values on the canvas; NaN where a scale has no place for it.
     fn place(&self, x: f64, y: f64) -> SheetPoint {
         let PlotArea { left, top, width, height } = self.area;
         (left + width * self.x.position(x), top + height * (1.0 - self.y.position(y)))
     }
 
-    /// plotters' mesh: the grid alone, or axes with ticks and the name of x alone.
+    /// Draws plotters' mesh: either the grid alone, or the axes with ticks and the name of x.
     fn mesh(&self, canvas: &Canvas, x: &Axis, grid: bool) -> Result<(), String> {
         let PlotArea { left, top, width, height } = self.area;
         let pixels = |units: f64| (units * TENTHS).round() as u32;
@@ -134,7 +134,8 @@ impl PlotFrame {
         mesh.draw().map_err(|e| e.to_string())
     }
 
-    /// The part of the plot that a band covers, as its upper and lower edge: at least one unit high.
+    /// The part of the plot that a band covers, as its upper and lower edge: at least one unit
+    /// high.
     fn covered(&self, band: &Band) -> Option<(f64, f64)> {
         let Window { top, bottom, .. } = window(&self.area);
         let (from, to) = (band.from.min(band.to), band.from.max(band.to));
@@ -150,7 +151,7 @@ impl PlotFrame {
         self.covered(band).map_or(Ok(()), |(high, low)| canvas.rectangle((left, high), (right, low)))
     }
 
-    /// A band's name at the left: inside if the band is high enough, else on it.
+    /// A band's name at the left: inside if the band is high enough, otherwise above it.
     fn band_name(&self, canvas: &Canvas, band: &Band) -> Result<(), String> {
         let Some((high, low)) = self.covered(band) else { return Ok(()) };
         let inside = low - high > 1.5 * FONT_SIZE;

@@ -1,4 +1,4 @@
-//! What measurements and the model fitted to them look like.
+//! Charts of measurements and the model fitted to them.
 
 use crate::chart::chart::{Axis, Chart, ChartOptions};
 use crate::chart::content::{Content, Curve, Shape, TIME};
@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::identify::response::{Mode, Signal};
 use crate::identify::stiffness::{Fit, Residual};
 
-/// What can be drawn.
+/// A fit to draw.
 #[derive(Debug, Clone, Copy)]
 pub enum Fitted<'a> {
     /// Displacement and residual, row by row.
@@ -18,7 +18,7 @@ pub enum Fitted<'a> {
 }
 
 impl Fitted<'_> {
-    /// Draws it.
+    /// Draws the fit.
     ///
     /// # Errors
     /// [`Error::Invalid`] for options that cannot be drawn.

@@ -1,14 +1,14 @@
 //! Results as charts: data in, SVG text out, the same bytes natively and in every browser.
 //!
-//! [`catalog`] names every chart and `figures` says what each shows, in the [units](unit) asked
-//! for; the rest draws: [`plot`] over two axes, [`space`] in three dimensions.
+//! [`catalog`] names every chart and `figures` builds their content in the requested [units](unit);
+//! the rest draws: [`plot`] over two axes, [`space`] in three dimensions.
 //!
 //! plotters gives the mesh of axes and grid, and the shapes to draw with. Scales, decimation,
 //! legend and the [`svg`] backend are our own: plotters searches ticks with the platform's
 //! logarithm, rounds to whole pixels, draws every sample, and measures text through the DOM, which
 //! a Worker does not have.
 
-#[allow(clippy::module_inception, reason = "the room of charts has a file for what a chart is")]
+#[allow(clippy::module_inception, reason = "the charts have a file for the chart itself")]
 pub mod chart;
 pub mod catalog;
 pub mod identified;

@@ -5,10 +5,10 @@ use super::frame::{BOTTOM, PlotFrame, TOP, size, valid};
 use super::scale::{Scale, extent, widened};
 use crate::math;
 
-/// Curves over x with bands behind them. Zooming in x alone fits y to what is seen.
+/// Curves over x with bands behind them. Zooming in x alone fits y to the visible part.
 ///
 /// # Errors
-/// A sentence if the size, a range or the length of a series makes no chart.
+/// A sentence if the size, a range or the length of a series cannot be drawn.
 pub fn line_chart(plot: &LinePlot, options: &ChartOptions) -> Result<Chart, String> {
     let LinePlot { x, y, series, bands, .. } = *plot;
     let (width, height) = size(options)?;
@@ -47,7 +47,8 @@ fn check_lengths(series: &[PlotSeries]) -> Result<(), String> {
     }
 }
 
-/// The range that shows these values, with some headroom as a share of it; whole decades if logarithmic.
+/// The range that shows these values, with some headroom as a share of it; whole decades if
+/// logarithmic.
 fn fitted(axis: &Axis, values: impl IntoIterator<Item = f64>, headroom: f64) -> (f64, f64) {
     let found = extent(values, axis.log);
     if axis.log {
@@ -68,7 +69,7 @@ fn fitted(axis: &Axis, values: impl IntoIterator<Item = f64>, headroom: f64) -> 
     (keep(wide.0, wide.0 - room), keep(wide.1, wide.1 + room))
 }
 
-/// The values and the bands' ends, but no band so far away that the curves would lie flat.
+/// The values and the bands' ends, except bands so far away that they would flatten the curves.
 fn with_bands(axis: &Axis, mut values: Vec<f64>, bands: &[Band]) -> Vec<f64> {
     let data = extent(values.iter().copied(), axis.log);
     let near = |end: f64| match data {

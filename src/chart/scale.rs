@@ -1,4 +1,4 @@
-//! An axis as numbers: its range, where its ticks stand and what they say.
+//! An axis as numbers: its range, and the positions and labels of its ticks.
 
 use std::ops::Range;
 
@@ -7,8 +7,8 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 use super::svg::text_width;
 use crate::math;
 
-/// A range of values along one side of a chart, with its ticks; plotters' own search for ticks is not used,
-/// because it takes the platform's logarithm, and that differs between native and wasm.
+/// A range of values along one side of a chart, with its ticks; plotters' own search for ticks is
+/// not used, because it uses the platform's logarithm, which differs between native and wasm.
 #[derive(Clone, Debug)]
 pub(super) struct Scale {
     pub(super) min: f64,
@@ -28,7 +28,7 @@ pub(super) struct Tick {
 const FAR: f64 = 1e6;
 
 impl Scale {
-    /// A scale without ticks. The range must be finite and growing, and above zero if `log`.
+    /// A scale without ticks. The range must be finite and increasing, and above zero if `log`.
     pub(super) fn new((min, max): (f64, f64), log: bool) -> Self {
         Self { min, max, log, ticks: Vec::new() }
     }
@@ -53,7 +53,7 @@ impl Scale {
             .unwrap_or_else(|| self.with_ticks(2, whole))
     }
 
-    /// Where a value stands: 0 at the beginning, 1 at the end; not a number where there is no such place.
+    /// Position of a value: 0 at the beginning, 1 at the end; NaN where it has none.
     pub(super) fn position(&self, value: f64) -> f64 {
         let place = if self.log {
             let (low, high) = (math::log10(self.min), math::log10(self.max));
@@ -112,7 +112,8 @@ pub(super) fn extent(values: impl IntoIterator<Item = f64>, positive: bool) -> O
     })
 }
 
-/// A range wide enough to draw: where all values are one, but for rounding, some room around it.
+/// A range wide enough to draw: where all values agree but for rounding, some room is added around
+/// them.
 pub(super) fn widened((min, max): (f64, f64)) -> (f64, f64) {
     let size = min.abs().max(max.abs());
     if max - min > 1e-9 * size && size > 1e-12 {
@@ -135,7 +136,8 @@ impl Decimal {
         if self.exponent < 0 { self.digits as f64 / power } else { self.digits as f64 * power }
     }
 
-    /// As a person writes it, with a true minus sign; `scientific`: as a multiple of a power of ten.
+    /// As a person writes it, with a true minus sign; `scientific`: as a multiple of a power of
+    /// ten.
     fn text(self, scientific: bool) -> String {
         let sign = if self.digits < 0 { "\u{2212}" } else { "" };
         let digits = self.digits.unsigned_abs().to_string();
@@ -190,21 +192,22 @@ fn superscript(exponent: i32) -> String {
         .collect()
 }
 
-/// Ticks with their labels, all written in the same way.
+/// Ticks with their labels, all in the same notation.
 fn labelled(decimals: Vec<Decimal>) -> Vec<Tick> {
     let largest = decimals.iter().map(|d| d.value().abs()).fold(0.0, f64::max);
     let scientific = largest > 0.0 && !(1e-3..1e6).contains(&largest);
     decimals.into_iter().map(|d| Tick { value: d.value(), label: d.text(scientific) }).collect()
 }
 
-/// Multiples of the smallest step of 1, 2 or 5 times a power of ten that gives at most `most` ticks.
+/// Multiples of the smallest step of 1, 2 or 5 times a power of ten that gives at most `most`
+/// ticks.
 pub(super) fn linear_ticks(min: f64, max: f64, most: usize, whole: bool) -> Vec<Tick> {
     let most = most.max(2);
     let start = math::log10((max - min) / most as f64).floor() as i32;
     let start = if whole { start.max(0) } else { start };
     let steps = (start..).flat_map(|exponent| [1, 2, 5].map(|digits| Decimal { digits, exponent }));
     for step in steps.take(12) {
-        // A tick that misses the end by a rounding still counts.
+        // A tick that misses the end by a rounding error still counts.
         let first = (min / step.value() - 1e-9).ceil() as i64;
         let last = (max / step.value() + 1e-9).floor() as i64;
         if last - first < most as i64 {
@@ -217,8 +220,8 @@ pub(super) fn linear_ticks(min: f64, max: f64, most: usize, whole: bool) -> Vec<
     Vec::new()
 }
 
-/// Powers of ten, thinned out to at most `most`; with 2 and 5 times them where there is room, and
-/// ticks as on a linear scale where the range holds no two of these.
+/// Powers of ten, thinned to at most `most`, with 2 and 5 times them where there is room. A range
+/// that holds fewer than two of these gets ticks as on a linear scale.
 fn decade_ticks(min: f64, max: f64, most: usize) -> Vec<Tick> {
     let inside = |d: &Decimal| (min * (1.0 - 1e-9)..=max * (1.0 + 1e-9)).contains(&d.value());
     let (low, high) = (math::log10(min).floor() as i32, math::log10(max).ceil() as i32);

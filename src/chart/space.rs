@@ -1,4 +1,5 @@
-//! Paths in space: seen from afar (orthographic, equal in all directions) in a box with a floor and scales.
+//! Paths in space: an orthographic view, equally scaled in all directions, in a box with a floor
+//! and axes.
 
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -15,15 +16,15 @@ use crate::units::DEG;
 pub struct SpaceSeries<'a> {
     /// Stable name.
     pub key: &'a str,
-    /// What the legend says.
+    /// Text of the legend.
     pub label: &'a str,
     /// How it looks: a class of the page's style sheet.
     pub class: &'static str,
-    /// x, y and z in the unit that is read; a point that is not finite leaves a gap.
+    /// x, y and z in the displayed unit; a point that is not finite leaves a gap.
     pub points: &'a [[f64; 3]],
 }
 
-/// Where the reader stands.
+/// Direction of view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     /// Direction towards the reader about z, from x to y [deg].
@@ -43,15 +44,16 @@ impl Default for View {
 const SIDE: f64 = 44.0;
 /// Room below for labels [SVG units].
 const BELOW: f64 = 40.0;
-/// An axis seen so short says nothing [SVG units].
+/// An axis that appears shorter than this is left out [SVG units].
 const SHORT: f64 = 14.0;
-/// Least size of the box in a direction, as a share of its greatest.
+/// Smallest size of the box in a direction, as a share of its largest.
 const FLATTEST: f64 = 0.15;
 
-/// Paths in a box; zoom counts in lengths of the picture. The first path casts a shadow on the floor.
+/// Paths in a box; zoom ranges are lengths in the picture. The first path casts a shadow on the
+/// floor.
 ///
 /// # Errors
-/// A sentence if the size, the view or a range makes no chart.
+/// A sentence if the size, the view or a range cannot be drawn.
 pub fn space_chart(
     caption: Caption,
     paths: &[SpaceSeries],
@@ -87,18 +89,7 @@ pub fn space_chart(
         Scene { camera, room, plot, origin: (across.0, up.1), scale: plot.width / (across.1 - across.0) };
 
     let canvas = Canvas::new(width, height);
-    canvas.layer(Layer::Floor, || scene.floor(&canvas))?;
-    if let Some(first) = paths.first() {
-        let floor = scene.room.min[2];
-        let shadow =
-            first.points.iter().map(|&[x, y, z]| scene.place([x, y, if z.is_finite() { floor } else { z }]));
-        canvas.layer(Layer::Shadow, || scene.lines(&canvas, shadow))?;
-    }
-    canvas.layer(Layer::Axis, || scene.axes(&canvas, unit))?;
-    for path in paths.iter().filter(|path| options.shows(path.key)) {
-        let layer = Layer::Series { class: path.class, key: path.key };
-        canvas.layer(layer, || scene.lines(&canvas, path.points.iter().map(|&p| scene.place(p))))?;
-    }
+    scene.draw(&canvas, paths, options)?;
     let info =
         |(min, max), full| AxisInfo { label: String::new(), unit: unit.into(), min, max, log: false, full };
     let legend = |s: &SpaceSeries| Legend { key: s.key.into(), label: s.label.into(), class: s.class.into() };
@@ -145,7 +136,7 @@ impl Camera {
     }
 }
 
-/// The box round all paths, with a little air [mm].
+/// The box around all paths, with a small margin [mm].
 struct Room {
     min: [f64; 3],
     max: [f64; 3],
@@ -172,14 +163,14 @@ impl Room {
         (near, [0, 1].map(|i| self.min[i] + self.max[i] - near[i]))
     }
 
-    /// Where the axis of z stands: the leftmost corner of the floor as seen.
+    /// Foot of the z axis: the leftmost corner of the floor in view.
     fn post(&self, camera: &Camera) -> [f64; 3] {
         let (near, far) = self.sides(camera);
         let (a, b) = ([near[0], far[1], self.min[2]], [far[0], near[1], self.min[2]]);
         if camera.project(a).0 < camera.project(b).0 { a } else { b }
     }
 
-    /// The points that hold the floor and the axes.
+    /// The points that enclose the floor and the axes.
     fn frame(&self, camera: &Camera) -> [[f64; 3]; 5] {
         let (low, high, post) = (self.min, self.max, self.post(camera));
         let floor = |x: f64, y: f64| [x, y, low[2]];
@@ -197,7 +188,7 @@ impl Room {
     }
 }
 
-/// A room seen on a canvas.
+/// A room in view on a canvas.
 struct Scene {
     camera: Camera,
     room: Room,
@@ -209,17 +200,36 @@ struct Scene {
 }
 
 impl Scene {
-    /// Where a point in space stands on the canvas.
+    /// Position of a point in space on the canvas.
     fn place(&self, point: [f64; 3]) -> SheetPoint {
         let (u, v) = self.camera.project(point);
         (self.plot.left + (u - self.origin.0) * self.scale, self.plot.top + (self.origin.1 - v) * self.scale)
+    }
+
+    /// Draws floor, shadow, axes and paths, in this order.
+    fn draw(&self, canvas: &Canvas, paths: &[SpaceSeries], options: &ChartOptions) -> Result<(), String> {
+        canvas.layer(Layer::Floor, || self.floor(canvas))?;
+        if let Some(first) = paths.first() {
+            let floor = self.room.min[2];
+            let shadow = first
+                .points
+                .iter()
+                .map(|&[x, y, z]| self.place([x, y, if z.is_finite() { floor } else { z }]));
+            canvas.layer(Layer::Shadow, || self.lines(canvas, shadow))?;
+        }
+        canvas.layer(Layer::Axis, || self.axes(canvas, options.units.length.name()))?;
+        for path in paths.iter().filter(|path| options.shows(path.key)) {
+            let layer = Layer::Series { class: path.class, key: path.key };
+            canvas.layer(layer, || self.lines(canvas, path.points.iter().map(|&p| self.place(p))))?;
+        }
+        Ok(())
     }
 
     fn lines(&self, canvas: &Canvas, points: impl Iterator<Item = SheetPoint>) -> Result<(), String> {
         lines(points, window(&self.plot)).iter().try_for_each(|line| canvas.line(line))
     }
 
-    /// Ticks along an axis: about one every fifty units as seen.
+    /// Ticks along an axis: about one every fifty units in view.
     fn ticks(&self, axis: usize) -> Vec<Tick> {
         let (min, max) = (self.room.min[axis], self.room.max[axis]);
         let greatest = (0..3).map(|i| self.room.max[i] - self.room.min[i]).fold(0.0, f64::max);
@@ -250,7 +260,8 @@ impl Scene {
         self.axis(canvas, 2, &format!("z, {unit}"), self.room.post(&self.camera))
     }
 
-    /// One axis as an arrow from `start` to the end of the room, with ticks and name on its outer side.
+    /// One axis as an arrow from `start` to the end of the room, with ticks and name on its outer
+    /// side.
     fn axis(&self, canvas: &Canvas, axis: usize, name: &str, start: [f64; 3]) -> Result<(), String> {
         let along = |value: f64| {
             let mut point = start;
@@ -267,7 +278,7 @@ impl Scene {
         let side = if (middle.0 - foot.0) * dy > (middle.1 - foot.1) * dx { 1.0 } else { -1.0 };
         // Square to the axis, away from the room.
         let (nx, ny) = (-dy * side, dx * side);
-        // Ends on the border are inside whatever the rounding.
+        // Ends on the border count as inside despite rounding.
         let window = window(&self.plot).grown(0.1);
         let label = |text: &str, at: SheetPoint, gap: f64| {
             let reach = gap + nx.abs() * text_width(text) / 2.0 + ny.abs() * FONT_SIZE / 2.0;
@@ -286,7 +297,8 @@ impl Scene {
         if window.contains(named) {
             label(name, named, 8.0)?;
         }
-        // The name keeps its place; ticks are labelled as far as there is room beside it and each other.
+        // The name keeps its place; ticks are labelled where there is room beside it and one
+        // another.
         let mut last: Option<SheetPoint> = None;
         for tick in self.ticks(axis) {
             let at = along(tick.value);

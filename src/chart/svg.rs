@@ -1,8 +1,9 @@
-//! plotters' drawing surface as SVG text: layers with class names, one decimal, no fonts and no DOM.
+//! plotters' drawing surface as SVG text: layers with class names, one decimal, no fonts and no
+//! DOM.
 //!
-//! plotters counts whole pixels; here one of its pixels is a tenth of an SVG unit, which keeps curves smooth.
-//! Colours, pens and fonts of plotters' styles are not used: a layer's class says what a thing is, and the
-//! page's style sheet how it looks, in light, in dark and on paper.
+//! plotters counts whole pixels; here one of its pixels is a tenth of an SVG unit, which keeps
+//! curves smooth. Colours, pens and fonts of plotters' styles are not used: a layer's class says
+//! what a thing is, and the page's style sheet how it looks, in light, in dark and on paper.
 
 use std::cell::RefCell;
 use std::convert::Infallible;
@@ -24,16 +25,16 @@ pub(super) const TENTHS: f64 = 10.0;
 /// Height of all text in a chart [SVG units].
 pub(super) const FONT_SIZE: f64 = 12.0;
 
-/// What a group of shapes is, drawn from the first to the last.
+/// A group of shapes, in the order of drawing.
 #[derive(Clone, Copy)]
 pub(super) enum Layer<'a> {
     /// A range of values worth comparing with, such as a tolerance.
     Band,
     /// Fine lines that lead the eye to the scale.
     Grid,
-    /// The same in space, where they run aslant.
+    /// Grid lines in space, where they run at an angle.
     Floor,
-    /// What a path in space casts on the floor.
+    /// Shadow of a path in space on the floor.
     Shadow,
     /// The data: `class` says how it looks, `key` names it to the page.
     Series { class: &'a str, key: &'a str },
@@ -42,7 +43,8 @@ pub(super) enum Layer<'a> {
 }
 
 impl Layer<'_> {
-    /// The group's opening tag. `currentColor` keeps a chart readable where no style sheet is at hand.
+    /// The group's opening tag. `currentColor` keeps a chart readable where no style sheet is at
+    /// hand.
     fn tag(self) -> String {
         const INK: &str = r#"fill="none" stroke="currentColor""#;
         match self {
@@ -80,7 +82,7 @@ impl Canvas {
         Self { backend, area, text }
     }
 
-    /// Puts all that `draw` draws into one group.
+    /// Puts everything that `draw` draws into one group.
     pub(super) fn layer<E: ToString>(
         &self,
         layer: Layer,
@@ -118,7 +120,7 @@ impl Canvas {
         self.area.draw(&Polygon::new(corners, BLACK)).map_err(|e| e.to_string())
     }
 
-    /// Text whose anchor stands at the point.
+    /// Text anchored at the point.
     pub(super) fn text(&self, text: &str, at: (f64, f64), h: HPos, v: VPos) -> Result<(), String> {
         let style = self.text.pos(Pos::new(h, v));
         self.area.draw_text(text, &style, tenths(at)).map_err(|e| e.to_string())
@@ -143,7 +145,7 @@ impl Canvas {
     }
 }
 
-/// Prints what plotters draws as SVG elements.
+/// Writes plotters' shapes as SVG elements.
 #[derive(Clone)]
 pub(super) struct SvgBackend {
     body: Rc<RefCell<String>>,
@@ -160,7 +162,7 @@ impl SvgBackend {
         body.push('<');
         body.push_str(name);
         for (key, value) in attributes {
-            // A String takes all that is written to it.
+            // Writing to a string cannot fail.
             let _ = write!(body, r#" {key}="{value}""#);
         }
         body.push_str("/>");
@@ -281,7 +283,8 @@ impl DrawingBackend for SvgBackend {
     }
 }
 
-/// Width of a text as it will be drawn [SVG units]; rather too wide than too narrow for the common system fonts.
+/// Width of a text as it will be drawn [SVG units]; it errs on the wide side for the common system
+/// fonts.
 pub(super) fn text_width(text: &str) -> f64 {
     let ems: f64 = text
         .chars()
@@ -319,7 +322,7 @@ fn points(path: impl IntoIterator<Item = BackendCoord>) -> String {
     text
 }
 
-/// Text that cannot be taken for markup, inside an element or a quoted attribute.
+/// Text escaped so that it is not taken for markup, inside an element or a quoted attribute.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -5,9 +5,10 @@ pub(super) type SheetPoint = (f64, f64);
 
 /// Width of the columns to which dense curves are reduced [SVG units]: half a pixel.
 const COLUMN: f64 = 0.5;
-/// Points of a path nearer than this to the last one kept say nothing new [SVG units].
+/// Points of a path nearer than this to the last one kept add nothing [SVG units].
 const CLOSE: f64 = 0.3;
-/// A drawn line strays from the samples by no more than this [SVG units]: half the raster of the file.
+/// A drawn line strays from the samples by no more than this [SVG units]: half the raster of the
+/// file.
 const STRAY: f64 = 0.05;
 
 /// The part of the canvas that shows data [SVG units].
@@ -25,13 +26,14 @@ impl Window {
         (self.left..=self.right).contains(&x) && (self.top..=self.bottom).contains(&y)
     }
 
-    /// A little more of the canvas on all sides.
+    /// The window, larger by this much on all sides.
     pub(super) fn grown(&self, by: f64) -> Self {
         let Self { left, top, right, bottom } = *self;
         Self { left: left - by, top: top - by, right: right + by, bottom: bottom + by }
     }
 
-    /// The part of a segment that lies inside, after Liang and Barsky (ACM Transactions on Graphics 3(1), 1984).
+    /// The part of a segment that lies inside, after Liang and Barsky (ACM Transactions on Graphics
+    /// 3(1), 1984).
     fn clip(&self, a: SheetPoint, b: SheetPoint) -> Option<(SheetPoint, SheetPoint)> {
         let (dx, dy) = (b.0 - a.0, b.1 - a.1);
         let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
@@ -50,14 +52,15 @@ impl Window {
             let (x, y) = (a.0 + t * dx, a.1 + t * dy);
             (x.clamp(self.left, self.right), y.clamp(self.top, self.bottom))
         };
-        // Whole ends stay bit for bit the samples, so that pieces can be joined again.
+        // Ends that are not clipped keep the samples' bits, so that pieces can be joined again.
         (enter <= leave)
             .then(|| (if enter > 0.0 { at(enter) } else { a }, if leave < 1.0 { at(leave) } else { b }))
     }
 }
 
-/// The lines that show these samples in the window. A sample that is not finite leaves a gap. Peaks survive
-/// any reduction: a curve over a growing x keeps the extremes of every half pixel, a path in a plane its shape.
+/// The lines that show these samples in the window. A sample that is not finite leaves a gap. Peaks
+/// survive any reduction: a curve over an increasing x keeps the extremes of every half pixel, a
+/// path in a plane its shape.
 pub(super) fn lines(samples: impl IntoIterator<Item = SheetPoint>, window: Window) -> Vec<Vec<SheetPoint>> {
     let samples: Vec<SheetPoint> = samples.into_iter().collect();
     samples
@@ -71,14 +74,14 @@ pub(super) fn lines(samples: impl IntoIterator<Item = SheetPoint>, window: Windo
         .collect()
 }
 
-/// The samples of a growing x that stand in the window, and the next on either side.
+/// The samples of an increasing x that lie in the window, and the next on either side.
 fn seen(run: &[SheetPoint], window: Window) -> &[SheetPoint] {
     let from = run.partition_point(|p| p.0 < window.left).saturating_sub(1);
     let to = run.partition_point(|p| p.0 <= window.right) + 1;
     &run[from..to.clamp(from + 1, run.len())]
 }
 
-/// The first, lowest, highest and last sample of every column, in their order.
+/// The first, lowest, highest and last sample of every column, in order.
 fn column_extremes(run: &[SheetPoint]) -> Vec<SheetPoint> {
     run.chunk_by(|a, b| (a.0 / COLUMN).floor() == (b.0 / COLUMN).floor())
         .flat_map(|column| {
@@ -93,7 +96,7 @@ fn column_extremes(run: &[SheetPoint]) -> Vec<SheetPoint> {
         .collect()
 }
 
-/// A path without the samples that crowd round the last one kept; its ends stay.
+/// A path without the samples that crowd around the last one kept; its ends stay.
 fn spaced(run: &[SheetPoint]) -> Vec<SheetPoint> {
     let mut kept: Vec<SheetPoint> = Vec::new();
     for (i, &p) in run.iter().enumerate() {
@@ -108,7 +111,8 @@ fn spaced(run: &[SheetPoint]) -> Vec<SheetPoint> {
     kept
 }
 
-/// Without the points that a straight line passes anyway, after Douglas and Peucker (Cartographica 10(2), 1973).
+/// A line without the points that a straight segment passes anyway, after Douglas and Peucker
+/// (Cartographica 10(2), 1973).
 fn straightened(run: &[SheetPoint]) -> Vec<SheetPoint> {
     let mut keep = vec![false; run.len()];
     let mut open = vec![(0, run.len() - 1)];
@@ -123,7 +127,7 @@ fn straightened(run: &[SheetPoint]) -> Vec<SheetPoint> {
     run.iter().zip(keep).filter_map(|(&p, keep)| keep.then_some(p)).collect()
 }
 
-/// From a point to the segment from a to b.
+/// Squared distance from a point to the segment from a to b.
 fn squared_distance(p: SheetPoint, a: SheetPoint, b: SheetPoint) -> f64 {
     let (ux, uy) = (b.0 - a.0, b.1 - a.1);
     let (vx, vy) = (p.0 - a.0, p.1 - a.1);

@@ -1,4 +1,4 @@
-//! Units in which a chart is read.
+//! Units of a chart.
 
 use crate::path::unit::LengthUnit;
 use crate::units::POUND_FORCE;
@@ -14,7 +14,7 @@ pub enum ForceUnit {
 }
 
 impl ForceUnit {
-    /// One of it [N].
+    /// Size of the unit [N].
     pub fn in_n(self) -> f64 {
         match self {
             ForceUnit::Newton => 1.0,
@@ -22,7 +22,7 @@ impl ForceUnit {
         }
     }
 
-    /// As a person reads it.
+    /// Displayed name.
     pub fn name(self) -> &'static str {
         match self {
             ForceUnit::Newton => "N",
@@ -31,11 +31,11 @@ impl ForceUnit {
     }
 }
 
-/// The units that a person may choose; angles are always degrees, times seconds.
+/// The units that a user may choose; angles are always in degrees, times in seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Units {
-    /// Of positions, deflections and errors.
+    /// Unit of positions, deflections and errors.
     pub length: LengthUnit,
-    /// Of forces.
+    /// Unit of forces.
     pub force: ForceUnit,
 }

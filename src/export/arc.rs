@@ -1,22 +1,21 @@
-//! Arcs through commanded points, as G2 and G3 say them: about one of the workpiece's axes, rising
-//! evenly.
+//! Arcs through commanded points, in the form of G2 and G3: about one of the workpiece's axes, with
+//! an even rise.
 //!
-//! From each point on, the longest arc and the longest straight move that stay within the tolerance
-//! are sought, by doubling and halving; whichever reaches further is taken. Both ends are kept as
-//! written, which leaves one unknown, how far the centre lies beside the chord: a linear
-//! least-squares problem (Kasa, "A circle fitting procedure and its error analysis", IEEE
-//! Transactions on Instrumentation and Measurement IM-25(1), 1976). How far the points are from the
-//! arc is then measured.
+//! From each point, doubling and halving finds the longest arc and the longest straight move within
+//! the tolerance; the one that reaches further is used. Both ends are kept as written, which leaves
+//! one unknown, the distance of the centre from the chord: a linear least-squares problem (Kasa, "A
+//! circle fitting procedure and its error analysis", IEEE Transactions on Instrumentation and
+//! Measurement IM-25(1), 1976). The distance of the points from the arc is then measured.
 
 use crate::export::thin::{LEVER, Point};
 use crate::math::{self, FRAC_PI_2, TAU};
 use crate::path::Segment;
 use nalgebra::{Matrix2, Vector2, Vector3};
 
-/// Ends of an arc are at least this far apart, or the same point: between, a control's rounding
-/// decides between nothing and a full turn [m].
+/// Ends of an arc are at least this far apart, or the same point [m]. In between, a control's
+/// rounding would decide between nothing and a full turn.
 const APART: f64 = 5e-5;
-/// Larger radii are straight enough [m].
+/// An arc of a larger radius is straight enough [m].
 const LARGEST: f64 = 100.0;
 
 /// A move to a point.
@@ -24,7 +23,7 @@ const LARGEST: f64 = 100.0;
 pub struct Step {
     /// Its end.
     pub to: Point,
-    /// Along an arc, if not straight.
+    /// The arc, if it is not straight.
     pub arc: Option<ArcMove>,
 }
 
@@ -49,7 +48,7 @@ impl ArcMove {
 }
 
 impl Step {
-    /// The move from where the tool is.
+    /// The move from `from`, where the tool is.
     pub fn segment(&self, from: &Point) -> Segment {
         let Some(ArcMove { normal, center, sweep }) = self.arc else {
             return Segment::Line { from: from.position, to: self.to.position };
@@ -69,8 +68,8 @@ pub(super) fn rounded(point: &Point, resolution: f64) -> Point {
     Point { position: point.position.map(|x| (x / resolution).round() * resolution), ..*point }
 }
 
-/// Straight moves and arcs from the first of `points`, which is as written, to the last, and how
-/// far the points are from them at most [m].
+/// Straight moves and arcs from the first of `points`, which is as written, to the last, and the
+/// largest distance of the points from them [m].
 pub(super) fn steps(points: &[Point], normal: usize, tolerance: f64, resolution: f64) -> (Vec<Step>, f64) {
     let mut points = points.to_vec();
     let mut steps = Vec::new();
@@ -86,7 +85,7 @@ pub(super) fn steps(points: &[Point], normal: usize, tolerance: f64, resolution:
         let near = |to: usize| (ahead[to].position - ahead[0].position).norm() < APART;
         let line = longest(ahead.len() - 1, |to| straight(to).is_some());
         let arc = longest(ahead.len() - 1, |to| near(to) || turned(to).is_some());
-        // Where the longest arc would all but close, half of it does as well.
+        // Where the longest arc would nearly close, half of it will do as well.
         let arc =
             [arc, arc / 2].into_iter().filter(|to| *to > line).find_map(|to| turned(to).map(|arc| (to, arc)));
         let Some((reach, (step, worst))) = arc.or_else(|| straight(line).map(|step| (line, step))) else {
@@ -102,7 +101,8 @@ pub(super) fn steps(points: &[Point], normal: usize, tolerance: f64, resolution:
     (steps, deviation)
 }
 
-/// The largest number up to `last` that `fits`, if those before it do; 1 is taken for granted.
+/// The largest number up to `last` that `fits`, provided that all smaller ones do; 1 is assumed to
+/// fit.
 fn longest(last: usize, fits: impl Fn(usize) -> bool) -> usize {
     let (mut low, mut stride) = (1, 1);
     let mut high = last + 1;
@@ -126,8 +126,8 @@ fn longest(last: usize, fits: impl Fn(usize) -> bool) -> usize {
     low
 }
 
-/// The arc from the first point to the last, and how far the points are from it at most [m]; `None`
-/// if that is more than `tolerance`.
+/// The arc from the first point to the last, and the largest distance of the points from it [m];
+/// `None` if that is more than `tolerance`.
 fn around(points: &[Point], normal: usize, tolerance: f64, resolution: f64) -> Option<(Step, f64)> {
     let [a, b] = [(normal + 1) % 3, (normal + 2) % 3];
     let start = points[0];
@@ -167,8 +167,8 @@ fn around(points: &[Point], normal: usize, tolerance: f64, resolution: f64) -> O
     for (point, angle) in points.iter().zip(&angles) {
         let part = (angle / sweep).clamp(0.0, 1.0);
         let (sin, cos) = math::sin_cos(part * sweep);
-        // Rounding may leave the ends at slightly different radii: the arc goes evenly from one to
-        // the other.
+        // Rounding may leave the ends at slightly different radii: the radius changes evenly from
+        // one to the other.
         let radius = at_start + (at_end - at_start) * part;
         let spoke =
             Vector2::new(first.x * cos - first.y * sin, first.x * sin + first.y * cos) * (radius / at_start);

@@ -1,11 +1,11 @@
 //! The compensated path as a program: the commanded samples of each move, thinned, in the workpiece
 //! frame.
 //!
-//! A move becomes straight moves; where a language has arcs and the move is one about an axis of
-//! the workpiece frame, as few arcs as do. A sample belongs to the move that holds its arc length;
-//! a commanded move ends where the correction at the move's own end puts it. Samples at rest in a
-//! corner belong to the move that follows: while the tool waits, the correction goes over from one
-//! direction of feed to the next.
+//! A move becomes straight moves, or as few arcs as suffice, if the language has arcs and the move
+//! is an arc about an axis of the workpiece frame. A sample belongs to the move that contains its
+//! arc length. A commanded move ends at the move's own end plus the correction there. Samples at
+//! rest in a corner belong to the move that follows: while the tool waits, the correction changes
+//! from one direction of feed to the next.
 
 use crate::error::Error;
 use crate::export::arc::{self, Step, rounded};
@@ -43,58 +43,49 @@ pub struct Command {
     pub deviation: f64,
     /// Number of commanded samples.
     pub samples: usize,
-    /// How it is to be said.
+    /// How it is to be written.
     pub style: PostStyle,
-    /// Largest contour error that comes out of it, run with its own timing [m], once it has been
-    /// [rehearsed](super::rehearsal).
+    /// Largest contour error when it runs with its own timing [m], once it has been
+    /// [rehearsed](crate::verification::rehearsal).
     pub reached: Option<f64>,
     /// The desired path in the workpiece frame.
     path: Path,
 }
 
-/// One move of the path, as it is commanded.
+/// One move of the path, as commanded.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CommandedMove {
     /// Line of the original program, from 1; 0 if there is none.
     pub line: usize,
     /// Whether it positions without cutting.
     pub rapid: bool,
-    /// Speed along the commanded path [m/s]: while the command travels that, the tip travels the
-    /// desired path at the feed asked for.
+    /// Speed along the commanded path [m/s]: at this speed of the command, the tip travels along
+    /// the desired path at the desired feed.
     pub feed: f64,
-    /// Spindle speed [1/s]: the program's where it has said one, otherwise the job's.
+    /// Spindle speed [1/s]: the program's where it states one, otherwise the job's.
     pub spindle: f64,
     /// Time at rest before it [s].
     pub wait: f64,
     /// Whether the tool comes to rest at its end.
     pub stops: bool,
-    /// What it is written as, in order; nothing if it is shorter than can be written.
+    /// The steps written for it, in order; none if it is too short to be written.
     pub steps: Vec<Step>,
 }
 
 impl Command {
-    /// A report's path as `commanded_path` has it, thinned to `thinning` [m]: a tenth of the job's
-    /// tolerance, but not below [`FINEST`], if none is stated.
+    /// A report's path along `commanded_path`, thinned to `thinning` [m]: by default a tenth of the
+    /// job's tolerance, from [`FINEST`] to [`COARSEST`].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a tolerance that is not from [`FINEST`] to [`COARSEST`];
-    /// [`Error::Invalid`] if what is left strays further from the samples than that.
+    /// [`Error::Invalid`] if the thinned path strays further from the samples than that.
     pub fn new(
         report: &Report,
         commanded_path: &CommandedPath,
         thinning: Option<f64>,
         style: PostStyle,
     ) -> Result<Self, Error> {
-        let thinning = thinning.unwrap_or((report.setup().goal.tolerance / 10.0).clamp(FINEST, COARSEST));
-        if !(FINEST..=COARSEST).contains(&thinning) {
-            return Err(Error::OutOfRange {
-                field: "thinning_mm".into(),
-                value: thinning / MM,
-                min: FINEST / MM,
-                max: COARSEST / MM,
-                unit: "mm",
-            });
-        }
+        let thinning = checked(thinning, report)?;
         let back = report.setup().workpiece.inverse();
         let path = report.plan.path.placed(&back);
         let turn = SMOOTH * report.setup().limits.corner_angle;
@@ -105,7 +96,7 @@ impl Command {
         for (step, mut sampled) in
             path.moves().iter().zip(sampled_moves(report, commanded_path, &path, &back))
         {
-            // A move starts where the one before ends as written.
+            // A move starts where the previous one ends as written.
             let first = end.unwrap_or_else(|| rounded(&sampled.points[0], style.resolution()));
             sampled.points[0] = first;
             start.get_or_insert(first);
@@ -149,7 +140,7 @@ impl Command {
         Ok(Self { start, moves, thinning, deviation, samples: report.samples(), style, reached: None, path })
     }
 
-    /// What a reader makes of it.
+    /// The program as a reader would read it.
     pub fn program(&self) -> Program {
         let mut program = Program { unit: "mm", ..Program::default() };
         let mut at = self.start;
@@ -182,7 +173,7 @@ impl Command {
         1 + self.moves.iter().map(|commanded| commanded.steps.len()).sum::<usize>()
     }
 
-    /// Whether the tool axis is other than +Z of the workpiece frame anywhere.
+    /// Whether the tool axis differs from +Z of the workpiece frame anywhere.
     pub fn is_tilted(&self) -> bool {
         let tilted = |point: &Point| (point.axis - Vector3::z()).norm() > 1e-9;
         tilted(&self.start) || self.moves.iter().flat_map(CommandedMove::points).any(tilted)
@@ -206,13 +197,28 @@ impl CommandedMove {
     }
 }
 
+/// The thinning tolerance [m]: as stated, or the default.
+fn checked(stated: Option<f64>, report: &Report) -> Result<f64, Error> {
+    let thinning = stated.unwrap_or((report.setup().goal.tolerance / 10.0).clamp(FINEST, COARSEST));
+    if !(FINEST..=COARSEST).contains(&thinning) {
+        return Err(Error::OutOfRange {
+            field: "thinning_mm".into(),
+            value: thinning / MM,
+            min: FINEST / MM,
+            max: COARSEST / MM,
+            unit: "mm",
+        });
+    }
+    Ok(thinning)
+}
+
 /// The commanded samples of one move, from its start to its end, and the rest before it [s].
 struct MoveSamples {
     points: Vec<Point>,
     wait: f64,
-    /// How many of them are at rest in a corner.
+    /// Number of points at rest in a corner.
     resting: usize,
-    /// Length of the commanded move by the length of the desired one.
+    /// Length of the commanded move divided by that of the desired one.
     stretch: f64,
 }
 
@@ -249,8 +255,8 @@ fn sampled_moves(
             k += 1;
         }
         if !is_last && k > 0 && k <= last {
-            // Samples seldom fall on the end of a move: the correction there lies between those of
-            // its neighbours.
+            // Samples seldom fall on the end of a move: the correction there is interpolated
+            // between its neighbours.
             let (before, after) = (arc_length[k - 1], arc_length[k]);
             let t = ((end - before) / (after - before)).clamp(0.0, 1.0);
             let turned = sample(k - 1).axis * (1.0 - t) + sample(k).axis * t;
@@ -263,14 +269,14 @@ fn sampled_moves(
             desired.push(path.point(end));
         }
         previous_end = points.last().copied();
-        // One sample alone that happens to fall on a corner is no wait.
+        // A single sample that happens to fall on a corner is not a wait.
         let wait = if resting > 1 { resting as f64 * trajectory.sample_time } else { 0.0 };
         let travelled = resting.min(points.len() - 1);
         let commanded = length(points[travelled..].iter().map(|point| point.position));
-        // By the same samples, so that a move without a correction keeps its feed to the last
-        // digit.
+        // Measured over the same samples, so that a move without a correction keeps its feed to the
+        // last digit.
         let desired = length(desired[travelled..].iter().copied()).max(f64::MIN_POSITIVE);
-        // A move that is shorter than its correction changes along it says nothing about speed.
+        // On a move shorter than the change of its correction, the ratio says nothing about speed.
         let stretch = (commanded / desired).clamp(1.0 / STRETCH, STRETCH);
         sampled_moves.push(MoveSamples { points, wait, resting: travelled, stretch });
     }
@@ -283,8 +289,8 @@ fn length(mut points: impl Iterator<Item = Vector3<f64>>) -> f64 {
     points.map(|point| (point - std::mem::replace(&mut last, point)).norm()).sum()
 }
 
-/// A move's samples as few moves that do not turn by more than `turn` [rad] without need, and how
-/// far they are from these at most [m].
+/// A move's samples as few moves that avoid turns of more than `turn` [rad], and the largest
+/// distance of the samples from these moves [m].
 fn steps(
     sampled: &MoveSamples,
     segment: &Segment,
@@ -293,8 +299,8 @@ fn steps(
 ) -> (Vec<Step>, f64) {
     let points = sampled.points.as_slice();
     let resolution = style.resolution();
-    // Rounding moves the ends of straight moves, and what a control makes of a rounded centre the
-    // arcs.
+    // Rounding shifts the ends of straight moves, and a rounded centre shifts the arc that a
+    // control makes of it.
     let tolerance = thinning - resolution;
     let thinned = |tolerance: f64, fillet: f64| {
         let kept = thin::smooth(points, tolerance, sampled.resting, turn);
@@ -311,8 +317,8 @@ fn steps(
     };
     let (mut straight, mut deviation, _) = thinned(tolerance, 0.0);
     if stops(&points[0], &straight, turn) > 0 {
-        // The tool would stop in the middle of the move: half of the tolerance is for rounding
-        // that.
+        // The tool would stop in the middle of the move: half of the tolerance is spent on rounding
+        // that corner.
         let (filleted, strayed, corners) = thinned(tolerance / 2.0, tolerance / 2.0 - resolution);
         if corners && strayed <= tolerance {
             (straight, deviation) = (filleted, strayed);
@@ -328,7 +334,7 @@ fn steps(
     (straight, deviation)
 }
 
-/// How many of the moves from `start` on turn by more than `limit` [rad] from the one before.
+/// Number of moves from `start` that turn by more than `limit` [rad] from the previous one.
 fn stops(start: &Point, steps: &[Step], limit: f64) -> usize {
     let mut from = *start;
     let tangents = steps.iter().map(|step| {
@@ -343,6 +349,6 @@ fn stops(start: &Point, steps: &[Step], limit: f64) -> usize {
 fn turning_about(segment: &Segment) -> Option<usize> {
     let Segment::Arc { u, v, .. } = segment else { return None };
     let normal = u.cross(v);
-    // What is left of a tilt is measured with the rest.
+    // Any remaining tilt is part of the measured deviation.
     (0..3).find(|&axis| normal[axis].abs() > 1.0 - 1e-6)
 }

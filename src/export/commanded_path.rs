@@ -5,8 +5,8 @@ use crate::path::Axes;
 use crate::report::Report;
 use nalgebra::Vector3;
 
-/// Where the tool is sent at each of the report's samples: what is added to the desired positions
-/// [m], and the tool axis, base frame.
+/// The commanded path at each of the report's samples: the correction added to the desired
+/// positions [m], and the tool axis, base frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CommandedPath {
     /// Correction of the desired position [m].
@@ -16,7 +16,7 @@ pub struct CommandedPath {
 }
 
 impl CommandedPath {
-    /// The one that the report found.
+    /// The commanded path that the report found.
     pub fn of(report: &Report) -> Self {
         let Compensation { correction, axis, .. } = &report.compensation;
         Self { correction: correction.clone(), axis: axis.clone() }

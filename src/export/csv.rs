@@ -1,6 +1,6 @@
-//! Columns as CSV: a header of keys, one row a sample, numbers in full precision, comma and decimal
-//! point; and the path to command as points, and as joint values at the sample time, behind lines
-//! that start with `#`.
+//! Columns as CSV: a header of keys, one row per sample, numbers in full precision, comma and
+//! decimal point. Also the path to command as points, and as joint values at the sample time, after
+//! header lines that start with `#`.
 
 use crate::column::Column;
 use crate::export::command::Command;
@@ -17,8 +17,8 @@ pub fn columns(report: &Report) -> String {
     rows(report, 0..report.samples())
 }
 
-/// Some samples of all columns, with the header above the first: a long run is a gigabyte of text,
-/// so it is written in parts.
+/// A range of samples of all columns; the header comes with sample 0. A long run is a gigabyte of
+/// text, so it is written in parts.
 pub fn rows(report: &Report, samples: Range<usize>) -> String {
     let part = |series: &Series| Column::new(series.key.as_str(), "", "", series.values(samples.clone()));
     let columns: Vec<_> = report.series().iter().map(part).collect();
@@ -65,7 +65,7 @@ pub fn joints(report: &Report) -> String {
     remarks(&header::lines(report, None)) + &table(&columns)
 }
 
-/// The time and the columns whose keys start like this.
+/// The time, and the columns whose keys start with `start`.
 fn chosen(report: &Report, start: &str) -> Vec<Column> {
     let wanted = |series: &&Series| series.key == "time_s" || series.key.starts_with(start);
     report.series().iter().filter(wanted).map(Series::column).collect()

@@ -1,29 +1,78 @@
-//! The files that a report can be taken away as; the module `export` writes them.
+//! Export formats; the module `export` writes them.
 
-/// A kind of file.
+/// An export format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub struct Format {
     /// Stable slug.
     pub id: &'static str,
-    /// What a person reads.
+    /// Displayed name.
     pub name: &'static str,
-    /// Ending of the file's name.
+    /// Extension of the file name.
     pub extension: &'static str,
-    /// What is in it, and what to look out for.
+    /// Its contents, and what to look out for.
     pub note: &'static str,
 }
 
-/// Every kind of file.
-#[rustfmt::skip]
+/// Every export format.
 pub const FORMATS: [Format; 10] = [
-    Format { id: "columns-csv", name: "All columns", extension: "csv", note: "Every column of the report, one row a sample." },
-    Format { id: "compensated-csv", name: "Compensated samples", extension: "csv", note: "Time, position in the base frame and joint commands, one row a sample." },
-    Format { id: "path-csv", name: "Compensated points", extension: "csv", note: "Thinned points in the workpiece frame with tool axis and feed." },
-    Format { id: "joints-csv", name: "Joint commands", extension: "csv", note: "Time and six joint values at the sample time." },
-    Format { id: "gcode", name: "G-code", extension: "nc", note: "Three axes, with arcs; a program read from G-code keeps its block numbers and auxiliary words." },
-    Format { id: "apt", name: "APT", extension: "apt", note: "Cutter location text, with the tool axis where it turns." },
-    Format { id: "krl", name: "KUKA KRL", extension: "src", note: "Exact stop at every point until you turn blending on. Not tried on a controller." },
-    Format { id: "rapid", name: "ABB RAPID", extension: "mod", note: "Zones z0, stops fine; enter the tool's load. Not tried on a controller." },
-    Format { id: "val3", name: "Staubli VAL3", extension: "pgx", note: "One program; declare frame, tool, point and motion descriptor. Not tried on a controller." },
-    Format { id: "fanuc", name: "FANUC LS", extension: "ls", note: "Exact stop at every point; enter the frames, check CONFIG. Not tried on a controller." },
+    Format {
+        id: "columns-csv",
+        name: "All columns",
+        extension: "csv",
+        note: "Every column of the report, one row a sample.",
+    },
+    Format {
+        id: "compensated-csv",
+        name: "Compensated samples",
+        extension: "csv",
+        note: "Time, position in the base frame and joint commands, one row a sample.",
+    },
+    Format {
+        id: "path-csv",
+        name: "Compensated points",
+        extension: "csv",
+        note: "Thinned points in the workpiece frame with tool axis and feed.",
+    },
+    Format {
+        id: "joints-csv",
+        name: "Joint commands",
+        extension: "csv",
+        note: "Time and six joint values at the sample time.",
+    },
+    Format {
+        id: "gcode",
+        name: "G-code",
+        extension: "nc",
+        note: "Three axes, with arcs; a program read from G-code keeps its block numbers and auxiliary words.",
+    },
+    Format {
+        id: "apt",
+        name: "APT",
+        extension: "apt",
+        note: "Cutter location text, with the tool axis where it turns.",
+    },
+    Format {
+        id: "krl",
+        name: "KUKA KRL",
+        extension: "src",
+        note: "Exact stop at every point until you turn blending on. Not tried on a controller.",
+    },
+    Format {
+        id: "rapid",
+        name: "ABB RAPID",
+        extension: "mod",
+        note: "Zones z0, stops fine; enter the tool's load. Not tried on a controller.",
+    },
+    Format {
+        id: "val3",
+        name: "Staubli VAL3",
+        extension: "pgx",
+        note: "One program; declare frame, tool, point and motion descriptor. Not tried on a controller.",
+    },
+    Format {
+        id: "fanuc",
+        name: "FANUC LS",
+        extension: "ls",
+        note: "Exact stop at every point; enter the frames, check CONFIG. Not tried on a controller.",
+    },
 ];

@@ -1,5 +1,4 @@
-//! What stands at the top of every program: where it comes from, what it promises and what it does
-//! not.
+//! The header of every program: its origin, its simulated accuracy, and its limits.
 
 use crate::export::command::Command;
 use crate::export::orientation::roll_pitch_yaw;
@@ -30,20 +29,7 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
         ),
     ];
     if let Some(command) = command {
-        lines.push(format!(
-            "Thinned to {} mm: {} samples to {} points, largest deviation measured {} mm",
-            millimetres(command.thinning),
-            command.samples,
-            command.points(),
-            millimetres(command.deviation)
-        ));
-        lines.push(format!(
-            "Positions in the workpiece frame, in the robot base at {}",
-            placed(&setup.workpiece)
-        ));
-        if setup.base != Pose::identity() {
-            lines.push(format!("The robot base in the cell at {}", placed(&setup.base)));
-        }
+        lines.extend(points(report, command));
     }
     lines.push(format!("Tool tip on the flange at {}", placed(report.plan.robot.tool())));
     lines.push(
@@ -55,21 +41,46 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
         ));
     }
     if let Some(reached) = command.and_then(|command| command.reached) {
-        let met = if reached <= setup.goal.tolerance { "met" } else { "not met" };
-        lines.push(format!(
-            "Run from this file, timed by its own moves, feeds and stops: largest contour error {} mm, tolerance {met}, simulated",
-            millimetres(reached)
-        ));
-        if reached > setup.goal.tolerance && report.after_max() <= setup.goal.tolerance {
-            lines.push(
-                "The joint commands at the sample time keep the run's timing and reach the figure above"
-                    .into(),
-            );
-        }
+        lines.extend(rehearsed(report, reached));
     }
     lines.push(
         "Warning: a controller's own blending or absolute-accuracy option adds its own error to these figures".into(),
     );
+    lines
+}
+
+/// Thinning of the points, and the frames they refer to.
+fn points(report: &Report, command: &Command) -> Vec<String> {
+    let setup = report.setup();
+    let mut lines = vec![
+        format!(
+            "Thinned to {} mm: {} samples to {} points, largest deviation measured {} mm",
+            millimetres(command.thinning),
+            command.samples,
+            command.points(),
+            millimetres(command.deviation)
+        ),
+        format!("Positions in the workpiece frame, in the robot base at {}", placed(&setup.workpiece)),
+    ];
+    if setup.base != Pose::identity() {
+        lines.push(format!("The robot base in the cell at {}", placed(&setup.base)));
+    }
+    lines
+}
+
+/// The largest contour error `reached` [m] by the file itself, compared with the tolerance.
+fn rehearsed(report: &Report, reached: f64) -> Vec<String> {
+    let tolerance = report.setup().goal.tolerance;
+    let met = if reached <= tolerance { "met" } else { "not met" };
+    let mut lines = vec![format!(
+        "Run from this file, timed by its own moves, feeds and stops: largest contour error {} mm, tolerance {met}, simulated",
+        millimetres(reached)
+    )];
+    if reached > tolerance && report.after_max() <= tolerance {
+        lines.push(
+            "The joint commands at the sample time keep the run's timing and reach the figure above".into(),
+        );
+    }
     lines
 }
 
@@ -88,8 +99,8 @@ fn placed(frame: &Pose) -> String {
     )
 }
 
-/// A name as any controller reads it: umlauts lose their dots, what else is not a letter, a digit,
-/// a blank or `-_.,` becomes a blank.
+/// A name as any controller reads it: umlauts lose their dots; any other character that is not a
+/// letter, a digit or one of `-_.,` becomes a blank.
 fn ascii(name: &str) -> String {
     let plain = |c: char| match c {
         'ä' => 'a',
@@ -101,8 +112,8 @@ fn ascii(name: &str) -> String {
     name.chars().map(plain).collect()
 }
 
-/// A number with at most so many decimals and at least one: some controls read a number without a
-/// point in least increments.
+/// A number with at most `decimals` decimal places, and at least one: some controls read a number
+/// without a point in least increments.
 pub fn number(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let text = text.trim_end_matches('0');

@@ -20,7 +20,7 @@ use crate::report::Report;
 use command::Command;
 use commanded_path::CommandedPath;
 
-/// What a person may choose.
+/// Export options.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ExportOptions {
     /// Thinning tolerance [m]; `None`: a tenth of the job's tolerance, from [`command::FINEST`] to
@@ -28,19 +28,19 @@ pub struct ExportOptions {
     pub thinning: Option<f64>,
 }
 
-/// A file.
+/// An exported file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Export {
     /// Its text.
     pub text: String,
-    /// A name for it.
+    /// Suggested file name.
     pub file_name: String,
     /// Number of points, or of samples where nothing is thinned.
     pub points: usize,
     /// Largest distance of a commanded sample from the moves written [m], measured; 0 where nothing
     /// is thinned.
     pub deviation: f64,
-    /// Where it sends the tool at each of the report's samples.
+    /// The commanded path at each of the report's samples.
     pub commanded_path: CommandedPath,
 }
 
@@ -52,7 +52,7 @@ pub fn format(id: &str) -> Result<&'static Format, Error> {
     FORMATS.iter().find(|format| format.id == id).ok_or_else(|| unknown_format(id))
 }
 
-/// A file of numbers, one row a sample.
+/// A table of numbers, one row per sample.
 pub fn table(report: &Report, format: &Format) -> Export {
     let text = match format.id {
         "compensated-csv" => csv::compensated(report),
@@ -63,10 +63,10 @@ pub fn table(report: &Report, format: &Format) -> Export {
     Export { text, file_name: file_name(format), points, deviation: 0.0, commanded_path }
 }
 
-/// A file that says a command, made to follow `commanded_path`.
+/// A program file for a command that follows `commanded_path`.
 ///
 /// # Errors
-/// [`Error::Invalid`] if the format cannot say it.
+/// [`Error::Invalid`] if the format cannot express it.
 pub fn program(
     report: &Report,
     format: &Format,

@@ -1,4 +1,4 @@
-//! The ways in which controllers write an orientation, from its rotation matrix.
+//! Orientations as controllers write them, from a rotation matrix.
 
 use crate::math;
 use nalgebra::Matrix3;
@@ -7,12 +7,12 @@ use nalgebra::Matrix3;
 /// Rx(roll), as in [`Pose::from_xyz_rpy`](crate::math::Pose::from_xyz_rpy).
 ///
 /// FANUC's W, P, R are these; KUKA's C, B, A too, since turning about z, then the new y, then the
-/// new x is the same. Where pitch is +-90 deg and roll and yaw turn about the same line, any share
-/// between them is right; what comes out multiplies back to R.
+/// new x is the same. Where pitch is +-90 deg and roll and yaw turn about the same line, any split
+/// between them is correct; the result still multiplies back to R.
 pub fn roll_pitch_yaw(r: &Matrix3<f64>) -> [f64; 3] {
     let yaw = math::atan2(r[(1, 0)], r[(0, 0)]);
     let pitch = math::atan2(-r[(2, 0)], math::hypot(r[(0, 0)], r[(1, 0)]));
-    // Roll is read with yaw taken back, so that it fits whatever yaw came out.
+    // Roll is computed after undoing yaw, so that it is consistent with the yaw found.
     let (sin, cos) = math::sin_cos(yaw);
     let roll = math::atan2(sin * r[(0, 2)] - cos * r[(1, 2)], cos * r[(1, 1)] - sin * r[(0, 1)]);
     [roll, pitch, yaw]

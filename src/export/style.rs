@@ -1,25 +1,25 @@
-//! How a format says a path.
+//! How a format writes a path.
 
 use crate::export::Format;
 use crate::report::Report;
 use crate::units::{INCH, MM};
 
-/// How a language says a path.
+/// How a language writes a path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PostStyle {
     /// Whether it has arcs.
     pub arcs: bool,
     /// Whether lengths are in inches, with six decimals, instead of in mm with five.
     pub inch: bool,
-    /// Whether it says no more than points and feeds: no waits, no rapids.
+    /// Whether it holds only points and feeds: no waits, no rapids.
     pub points_only: bool,
 }
 
 impl PostStyle {
-    /// How many there are of [`PostStyle::index`].
+    /// Number of values of [`PostStyle::index`].
     pub const COUNT: usize = 8;
 
-    /// How a format says the path of a report; `None` for a table of samples.
+    /// How a format writes the path of a report; `None` for a table of samples.
     pub fn of(format: &Format, report: &Report) -> Option<Self> {
         let inches = report.setup().program.as_ref().is_some_and(|source| source.program.unit == "inch");
         match format.id {

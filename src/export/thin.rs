@@ -1,10 +1,9 @@
-//! Fewer points for the same line: what may be left out without any sample straying further than
-//! stated.
+//! Thins a line: leaves out points without any sample straying further than a tolerance.
 //!
 //! Points are chosen by the farthest-point rule (Douglas and Peucker, "Algorithms for the reduction
 //! of the number of points required to represent a digitized line or its caricature", Cartographica
-//! 10(2), 1973), with a list of open spans instead of recursion. How far the samples really are
-//! from what is left is then measured, not assumed.
+//! 10(2), 1973), with a list of open spans instead of recursion. The actual distance of the samples
+//! from the thinned line is then measured, not assumed.
 
 use crate::math;
 use nalgebra::Vector3;
@@ -23,14 +22,14 @@ pub struct Point {
 /// The axis is held to the same tolerance as the tip, at this height above it [m].
 pub const LEVER: f64 = 0.1;
 
-/// The spin is held to it at this distance from the axis [m]: it does not move the tip, it only
-/// bends the arm a little otherwise.
+/// The spin is held to the same tolerance at this distance from the axis [m]: it does not move the
+/// tip, and hardly changes how the arm bends.
 pub const SPIN_LEVER: f64 = 0.001;
 
 impl Point {
     /// Distance from the straight move `from`-`to` [m]: of the tip, or of the point of the axis
-    /// [`LEVER`] above it, whichever is larger. Along the move the axis is taken to change in step
-    /// with the tip.
+    /// [`LEVER`] above it, whichever is larger. Along the move the axis is assumed to change in
+    /// step with the tip.
     pub fn distance(&self, from: &Point, to: &Point) -> f64 {
         let along = to.position - from.position;
         let length = along.norm_squared();
@@ -55,8 +54,8 @@ impl Point {
     }
 }
 
-/// Indices of points that are enough to keep every point within `tolerance` [m] of the straight
-/// moves between them, in order; the first and the last are among them.
+/// Indices of points that suffice to keep every point within `tolerance` [m] of the straight moves
+/// between them, in order; the first and the last are among them.
 pub fn thin(points: &[Point], tolerance: f64) -> Vec<usize> {
     let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
     let mut kept = vec![0];
@@ -83,9 +82,9 @@ pub fn thin(points: &[Point], tolerance: f64) -> Vec<usize> {
     kept
 }
 
-/// As [`thin`], with as many points more that no straight move turns from the one before it by more
-/// than `limit` [rad] where the points themselves do not: what travels the moves would stop there.
-/// Among the first `resting` points it may turn.
+/// As [`thin`], with enough extra points that no straight move turns from the previous one by more
+/// than `limit` [rad] where the points themselves do not: a controller would stop there. Turns
+/// among the first `resting` points are allowed.
 pub fn smooth(points: &[Point], tolerance: f64, resting: usize, limit: f64) -> Vec<usize> {
     let turn = |a: usize, b: usize, c: usize| {
         let at = |index: usize| points[index].position;
@@ -115,8 +114,8 @@ pub fn smooth(points: &[Point], tolerance: f64, resting: usize, limit: f64) -> V
     }
 }
 
-/// Largest distance [m] of `points` from the moves as they are written: `written[i]` stands for
-/// `points[kept[i]]`, one point or several.
+/// Largest distance [m] of `points` from the moves as written: `written[i]` replaces
+/// `points[kept[i]]` by one point or several.
 pub fn deviation(points: &[Point], kept: &[usize], written: &[Vec<Point>]) -> f64 {
     let mut largest = 0.0_f64;
     for (ends, standing) in kept.windows(2).zip(written.windows(2)) {

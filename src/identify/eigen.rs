@@ -2,9 +2,9 @@
 
 use nalgebra::Matrix6;
 
-/// Eigenvalues (diagonal of the first) and eigenvectors (columns of the second) by cyclic Jacobi rotations
-/// (G. Golub, C. Van Loan, Matrix Computations, 4th ed. 2013, section 8.5): only + - * / and square roots, so the bits are the same
-/// everywhere.
+/// Eigenvalues and eigenvectors (columns of the matrix) by cyclic Jacobi rotations (G. Golub, C.
+/// Van Loan, Matrix Computations, 4th ed. 2013, section 8.5): only + - * / and square roots, so the
+/// bits are the same on every platform.
 pub(super) fn eigen(matrix: &Matrix6<f64>) -> ([f64; 6], Matrix6<f64>) {
     let (mut a, mut v) = (*matrix, Matrix6::identity());
     for _sweep in 0..30 {

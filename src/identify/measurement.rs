@@ -1,12 +1,15 @@
-//! Loaded poses as text: joint angles, force and displacement, one pose a row.
+//! Loaded poses as text: joint angles, force and displacement, one pose per row.
 //!
-//! A first line names the columns, in any order, with or without units: `q1_deg` to `q6_deg` (or `_rad`), `fx_n`, `fy_n`, `fz_n`, if
-//! there are any `mx_nm`, `my_nm`, `mz_nm`, and what was measured of `dx_mm`, `dy_mm`, `dz_mm` (or `_m`, `_um`). Without it twelve
-//! numbers are angles [deg], force [N] and displacement [mm]; fifteen have moments [N m] before the displacement. An empty
-//! displacement was not measured. Cells are separated as in a path's CSV; `#` starts a comment.
+//! The first line names the columns, in any order, with or without units: `q1_deg` to `q6_deg` (or
+//! `_rad`), `fx_n`, `fy_n`, `fz_n`, optionally `mx_nm`, `my_nm`, `mz_nm`, and those of `dx_mm`,
+//! `dy_mm`, `dz_mm` (or `_m`, `_um`) that were measured. Without a header, twelve numbers are
+//! angles [deg], force [N] and displacement [mm]; fifteen have moments [N m] before the
+//! displacement. An empty cell is a displacement that was not measured. Cells are separated as in a
+//! path's CSV; `#` starts a comment.
 //!
-//! Force, moment and displacement are those of the TCP, in the robot's base frame; the displacement is how far the load moves the
-//! TCP. Where a row is the difference between two loads, so is its force.
+//! Force, moment and displacement are given at the TCP, in the robot's base frame; the displacement
+//! is how far the load moves the TCP. Where a row is the difference between two loads, its force is
+//! the difference too.
 
 use crate::error::Error;
 use crate::identify::table::Table;
@@ -16,11 +19,11 @@ use nalgebra::Vector6;
 
 /// JSON path of the text, for errors.
 const FIELD: &str = "measurements";
-/// Largest displacement that is believed [m].
+/// Largest plausible displacement [m].
 const FARTHEST: f64 = 1.0;
-/// Largest force [N] or moment [N m] that is believed.
+/// Largest plausible force [N] or moment [N m].
 const STRONGEST: f64 = 1e6;
-/// Largest joint angle that is believed [rad].
+/// Largest plausible joint angle [rad].
 const TURNED: f64 = 7200.0 * DEG;
 
 /// One loaded pose.
@@ -28,31 +31,32 @@ const TURNED: f64 = 7200.0 * DEG;
 pub struct Measurement {
     /// Line of the text, from 1.
     pub line: usize,
-    /// Joint values [rad], as the robot's table counts them.
+    /// Joint values [rad], in the convention of the robot's table.
     pub q: Joints,
     /// Force [N] and moment [N m] on the TCP, in the base frame.
     pub wrench: Vector6<f64>,
-    /// How far that moved the TCP along the base's axes [m]; none along an axis that was not measured.
+    /// Displacement of the TCP along the base's axes [m]; none along an axis that was not measured.
     pub displacement: [Option<f64>; 3],
 }
 
-/// What a text says.
+/// The contents of a text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurements {
     /// The poses in the order of the text.
     pub rows: Vec<Measurement>,
-    /// What is odd about the text but was read all the same.
+    /// Oddities of the text that did not keep it from being read.
     pub remarks: Vec<String>,
 }
 
-/// How the text counts joint angles.
+/// Convention of the joint angles in the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Convention {
-    /// As the robot's table does.
+    /// That of the robot's table.
     #[default]
     Table,
-    /// As the pendants of FANUC and others do: joint 3 from the horizontal, so that it reads the same when joint 2 alone turns the
-    /// upper arm; the table's angle is q2 + q3. Which way a joint counts is the table's affair (`joint_sign`).
+    /// That of the pendants of FANUC and others: joint 3 is measured from the horizontal, so its
+    /// reading does not change when joint 2 alone turns the upper arm. The table's angle is q2 +
+    /// q3. The direction of each joint stays the table's (`joint_sign`).
     CoupledJ3,
 }
 
@@ -64,17 +68,18 @@ impl Convention {
     /// The convention with the key `id`.
     ///
     /// # Errors
-    /// [`Error::Invalid`] with the keys there are.
+    /// [`Error::Invalid`] with the available keys.
     pub fn of(id: &str) -> Result<Self, Error> {
         let found = Self::ALL.iter().find(|(key, _)| *key == id);
         let refused = || Error::unknown_name("convention", id, "legal are", Self::ALL.map(|(key, _)| key));
         found.map(|(_, convention)| *convention).ok_or_else(refused)
     }
 
-    /// Whether rows so counted can be meant for the robot.
+    /// Checks that rows in this convention can apply to the robot.
     ///
     /// # Errors
-    /// [`Error::Invalid`] if the robot itself counts joint 3 from the base: it would be turned twice.
+    /// [`Error::Invalid`] if the robot itself measures joint 3 from the base: it would be converted
+    /// twice.
     pub fn suits(self, robot: &Robot) -> Result<(), Error> {
         if self == Convention::CoupledJ3 && robot.elbow() != Elbow::Serial {
             let expected = "table: this robot's own joint 3 is counted from the base already";
@@ -83,7 +88,7 @@ impl Convention {
         Ok(())
     }
 
-    /// The table's joint values.
+    /// Joint values in the table's convention.
     pub fn joints(self, q: Joints) -> Joints {
         match self {
             Convention::Table => q,
@@ -92,7 +97,7 @@ impl Convention {
     }
 }
 
-/// What a column holds; the number is the component.
+/// The quantity in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Quantity {
     Angle,
@@ -101,20 +106,20 @@ enum Quantity {
     Displacement,
 }
 
-/// A column and the value in SI of one of its unit.
+/// A column: its quantity, component, and unit in SI.
 #[derive(Debug, Clone, Copy)]
 struct MeasuredColumn {
     quantity: Quantity,
     component: usize,
     unit: f64,
-    /// Whether the text gives the unit.
-    said: bool,
+    /// Whether the text states the unit.
+    stated: bool,
 }
 
 /// Reads loaded poses.
 ///
 /// # Errors
-/// [`Error::Text`] with line and column of the first cell or name that is not what it should be.
+/// [`Error::Text`] with line and column of the first invalid cell or name.
 pub fn read(text: &str, convention: Convention) -> Result<Measurements, Error> {
     let table = Table::read(text, FIELD)?;
     let columns = columns(&table)?;
@@ -162,8 +167,8 @@ pub fn read(text: &str, convention: Convention) -> Result<Measurements, Error> {
         return Err(table.end_error("the end of a text without numbers", "one row a loaded pose"));
     }
     let mut remarks = Vec::new();
-    let unsaid = columns.iter().any(|column| column.quantity == Quantity::Angle && !column.said);
-    if unsaid && largest_angle < 7.0 * DEG {
+    let unstated = columns.iter().any(|column| column.quantity == Quantity::Angle && !column.stated);
+    if unstated && largest_angle < 7.0 * DEG {
         remarks.push(
             "no joint angle is larger than 7: if they are in rad, name the columns q1_rad to q6_rad in a first line"
                 .to_owned(),
@@ -201,14 +206,15 @@ fn columns(table: &Table) -> Result<Vec<MeasuredColumn>, Error> {
     Err(table.name_error(table.width - 1, wanted))
 }
 
-/// What the columns are without a header.
+/// The columns of a text without a header.
 fn unnamed(table: &Table) -> Result<Vec<MeasuredColumn>, Error> {
     let moments = match table.width {
         0 => return Ok(vec![]),
         12 => 0,
         15 => 3,
         _ => {
-            let expected = "a row without a header is q1 to q6 [deg], fx, fy, fz [N], if there are any mx, my, mz [N m], then dx, dy, dz [mm]";
+            let expected = "a row without a header is q1 to q6 [deg], fx, fy, fz [N], if there are any \
+                            mx, my, mz [N m], then dx, dy, dz [mm]";
             return Err(table.cell_error(0, 0, expected));
         }
     };
@@ -219,12 +225,12 @@ fn unnamed(table: &Table) -> Result<Vec<MeasuredColumn>, Error> {
         (Quantity::Displacement, 3, MM),
     ];
     let column = |(quantity, count, unit)| {
-        (0..count).map(move |component| MeasuredColumn { quantity, component, unit, said: false })
+        (0..count).map(move |component| MeasuredColumn { quantity, component, unit, stated: false })
     };
     Ok(groups.into_iter().flat_map(column).collect())
 }
 
-/// What a column may be called before its component, in lower case.
+/// Names of each quantity that may precede the component, in lower case.
 const NAMES: [(Quantity, &[&str]); 4] = [
     (Quantity::Angle, &["q", "j", "joint", "theta", "axis"]),
     (Quantity::Force, &["f", "force"]),
@@ -232,15 +238,15 @@ const NAMES: [(Quantity, &[&str]); 4] = [
     (Quantity::Displacement, &["d", "displacement", "deflection", "delta"]),
 ];
 
-/// What a name says: quantity, component, unit.
+/// Reads quantity, component and unit from a column's name.
 fn named(words: &[String]) -> Result<MeasuredColumn, &'static str> {
     const UNKNOWN: &str = "the columns are q1 to q6, fx, fy, fz, mx, my, mz, dx, dy, dz, with or without a unit: q1_deg, fx_n, dx_mm";
     let part = |name: &str| {
         let component = name.chars().last()?;
         let stem = &name[..name.len() - component.len_utf8()];
         let (quantity, _) = NAMES.iter().find(|(_, stems)| stems.contains(&stem))?;
-        let legal = if *quantity == Quantity::Angle { "123456" } else { "xyz" };
-        Some((*quantity, legal.find(component)?))
+        let components = if *quantity == Quantity::Angle { "123456" } else { "xyz" };
+        Some((*quantity, components.find(component)?))
     };
     // Two words may be one name: force x, joint 1.
     let joined = words.get(..2).map(<[String]>::concat);
@@ -252,9 +258,9 @@ fn named(words: &[String]) -> Result<MeasuredColumn, &'static str> {
         }
         (None, None) => return Err(UNKNOWN),
     };
-    // The base frame is the one that holds; other words, such as "tool", would change the meaning.
+    // The base frame is implied; other words, such as "tool", would change the meaning.
     let rest: Vec<&str> = rest.iter().map(String::as_str).filter(|word| *word != "base").collect();
-    let (unit, said) = match (quantity, rest.concat().as_str()) {
+    let (unit, stated) = match (quantity, rest.concat().as_str()) {
         (Quantity::Angle, "") => (DEG, false),
         (Quantity::Displacement, "") => (MM, false),
         (_, "") => (1.0, false),
@@ -270,5 +276,5 @@ fn named(words: &[String]) -> Result<MeasuredColumn, &'static str> {
         (Quantity::Moment, _) => return Err("moments are in Nm, in the base frame"),
         (Quantity::Displacement, _) => return Err("displacements are in mm, um, m or in, in the base frame"),
     };
-    Ok(MeasuredColumn { quantity, component, unit, said })
+    Ok(MeasuredColumn { quantity, component, unit, stated })
 }

@@ -1,7 +1,8 @@
-//! What a robot's springs and vibration are, from measurements on it.
+//! Joint springs and vibration of a robot, identified from measurements.
 //!
-//! [`stiffness`] fits the six joint compliances to loaded poses ([`measurement`]) by non-negative least squares ([`nnls`]);
-//! [`response`] fits frequency and damping to a measured step or impact response. Both say how far their numbers go.
+//! [`stiffness`] fits the six joint compliances to loaded poses ([`measurement`]) by non-negative
+//! least squares ([`nnls`]); [`response`] fits frequency and damping to a measured step or impact
+//! response. Both state how far to trust their results.
 
 pub mod measurement;
 pub mod nnls;

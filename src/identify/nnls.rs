@@ -2,12 +2,13 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-/// A column that lies nearer than this to the others' span, as a share of its length, is not taken along with them.
+/// A column nearer than this to the span of the others, as a share of its length, counts as
+/// dependent on them.
 const DEPENDENT: f64 = 1e-5;
-/// A gradient below this share of its column's pull on the data counts as none.
+/// A gradient below this share of the largest component of the scaled A^T b counts as zero.
 const FLAT: f64 = 1e-12;
 
-/// The least squares solution that is nowhere negative.
+/// The non-negative least squares solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NnlsSolution {
     /// The unknowns, zero or positive.
@@ -18,9 +19,10 @@ pub struct NnlsSolution {
 
 /// Minimises |A x - b| over x >= 0 from the normal equations `g` = A^T A and `h` = A^T b.
 ///
-/// Active set method of C. Lawson, R. Hanson, Solving Least Squares Problems (1974), chapter 23, algorithm NNLS, on the normal
-/// equations as R. Bro, S. de Jong, J. Chemometrics 11 (1997) do; six columns of unit length keep enough digits for it. A column that
-/// depends on those already free stays at zero.
+/// Active set method of C. Lawson, R. Hanson, Solving Least Squares Problems (1974), chapter 23,
+/// algorithm NNLS, on the normal equations as R. Bro, S. de Jong, J. Chemometrics 11 (1997) do;
+/// with six columns of unit length this keeps enough digits. A column that depends on those already
+/// free stays at zero.
 pub fn solve(g: &Matrix6<f64>, h: &Vector6<f64>) -> NnlsSolution {
     let length = Vector6::from_fn(|i, _| g[(i, i)].sqrt());
     let inverse = length.map(|length| if length > 0.0 { 1.0 / length } else { 0.0 });
@@ -28,7 +30,8 @@ pub fn solve(g: &Matrix6<f64>, h: &Vector6<f64>) -> NnlsSolution {
     let (g, h) = (scale * g * scale, h.component_mul(&inverse));
     let flat = FLAT * h.amax();
     let (mut x, mut free, mut refused) = (Vector6::zeros(), [false; 6], length.map(|length| length == 0.0));
-    // Each change lowers the residual, so none of the 2^6 sets of free unknowns comes twice; between two, six may be refused.
+    // Each change lowers the residual, so none of the 2^6 sets of free unknowns recurs; between two
+    // changes, up to six may be refused.
     for _ in 0..64 * 7 {
         let pull = h - g * x;
         let best = (0..6).filter(|&i| !free[i] && !refused[i] && pull[i] > flat);
@@ -38,7 +41,7 @@ pub fn solve(g: &Matrix6<f64>, h: &Vector6<f64>) -> NnlsSolution {
             (free[enters], refused[enters]) = (false, true);
             continue;
         };
-        // The way to the candidate ends where the first free unknown reaches zero.
+        // The step towards the candidate ends where the first free unknown reaches zero.
         while let Some((step, leaves)) = (0..6)
             .filter(|&i| free[i] && candidate[i] <= 0.0)
             .map(|i| (x[i] / (x[i] - candidate[i]), i))
@@ -54,7 +57,8 @@ pub fn solve(g: &Matrix6<f64>, h: &Vector6<f64>) -> NnlsSolution {
     NnlsSolution { x: x.component_mul(&inverse), free }
 }
 
-/// Least squares over the free unknowns; the others are zero. None if a column depends on the others.
+/// Least squares over the free unknowns; the others are zero. None if a column depends on the
+/// others.
 fn least_squares(g: &Matrix6<f64>, h: &Vector6<f64>, free: &[bool; 6]) -> Option<Vector6<f64>> {
     let only = Vector6::from_fn(|i, _| if free[i] { h[i] } else { 0.0 });
     let factor = restricted(g, free).cholesky()?;
@@ -62,7 +66,7 @@ fn least_squares(g: &Matrix6<f64>, h: &Vector6<f64>, free: &[bool; 6]) -> Option
     independent.then(|| factor.solve(&only))
 }
 
-/// The rows and columns of the free unknowns; those of the others are the identity's.
+/// `g` restricted to the free unknowns; the rows and columns of the others are the identity's.
 pub(super) fn restricted(g: &Matrix6<f64>, free: &[bool; 6]) -> Matrix6<f64> {
     Matrix6::from_fn(|i, j| {
         let identity = if i == j { 1.0 } else { 0.0 };

@@ -1,13 +1,15 @@
 //! Frequency and damping from a measured step or impact response.
 //!
-//! After the step or the blow the arm rings freely: any signal of that (acceleration, speed, displacement) is
+//! After the step or blow the arm rings freely. Any signal of that (acceleration, velocity,
+//! displacement) has the form
 //!
 //! ```text
 //! a(t) = exp(-zeta w t) (A cos w_d t + B sin w_d t) + offset,   w_d = w sqrt(1 - zeta^2)
 //! ```
 //!
-//! with the undamped natural frequency w that the shaper takes. Extrema give a first guess (logarithmic decrement: S. Rao,
-//! Mechanical Vibrations, 5th ed. 2011, section 2.6.3), least squares over all samples the result.
+//! where w is the undamped natural frequency that the shaper takes. Extrema give a first guess
+//! (logarithmic decrement: S. Rao, Mechanical Vibrations, 5th ed. 2011, section 2.6.3); least
+//! squares over all samples gives the result.
 
 mod decay;
 mod extrema;
@@ -20,29 +22,31 @@ use decay::{Decay, Samples};
 
 /// JSON path of the text, for errors.
 const FIELD: &str = "response";
-/// Damping times after which nothing is left to fit: exp(-6) is 0.25 %.
+/// Number of time constants after which nothing is left to fit: exp(-6) is 0.25 %.
 const FADED: f64 = 6.0;
-/// Cycles below which the result is remarked on.
+/// Number of cycles below which the result gets a remark.
 const FEW_CYCLES: f64 = 3.0;
-/// Samples a cycle below which the result is remarked on, and below which there is none.
+/// Samples per cycle below which the result gets a remark, and below which there is no result.
 const FEW_SAMPLES: (f64, f64) = (10.0, 4.0);
-/// A second mode is reported from this share of the first one's amplitude on, if it explains this share of what the first leaves.
+/// Thresholds for reporting a second mode: its share of the first mode's amplitude, and the share
+/// of the first mode's residual that it explains.
 const SECOND: (f64, f64) = (0.03, 0.5);
 
 /// A signal over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Signal {
-    /// Instants [s], growing.
+    /// Sample times [s], increasing.
     pub time: Vec<f64>,
     /// The signal; its unit does not matter.
     pub value: Vec<f64>,
 }
 
 impl Signal {
-    /// Reads rows of time and signal. A first line may name them and give the time's unit: `time_ms, acceleration`.
+    /// Reads rows of time and signal. A first line may name them and give the time's unit:
+    /// `time_ms, acceleration`.
     ///
     /// # Errors
-    /// [`Error::Text`] with line and column of the first cell that is not what it should be.
+    /// [`Error::Text`] with line and column of the first invalid cell.
     pub fn read(text: &str) -> Result<Self, Error> {
         let table = Table::read(text, FIELD)?;
         if table.len() == 0 {
@@ -83,52 +87,53 @@ impl Signal {
 pub struct Measured {
     /// The value.
     pub value: f64,
-    /// How far its interval reaches to each side.
+    /// Half the width of the interval.
     pub half: f64,
 }
 
-/// One more mode in the signal.
+/// A second mode in the signal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Other {
     /// Undamped natural frequency [rad/s].
     pub frequency: f64,
     /// Damping ratio.
     pub damping: f64,
-    /// Amplitude at the beginning, as a share of the first mode's.
+    /// Initial amplitude, as a share of the first mode's.
     pub share: f64,
 }
 
-/// What rings.
+/// An identified vibration mode.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
     /// Undamped natural frequency [rad/s], as the shaper takes it.
     pub frequency: Measured,
     /// Damping ratio.
     pub damping: Measured,
-    /// The same two from the extrema alone, by logarithmic decrement: a second way.
+    /// Frequency [rad/s] and damping ratio from the extrema alone, by logarithmic decrement, as a
+    /// cross-check.
     pub decrement: (f64, f64),
     /// The part of the signal that was fitted [s].
     pub window: (f64, f64),
-    /// Cycles in it.
+    /// Number of cycles in that part.
     pub cycles: f64,
-    /// Samples in a cycle.
+    /// Samples per cycle.
     pub samples_per_cycle: f64,
     /// Share of the signal's variance that the fit explains.
     pub explained: f64,
-    /// A second mode that the signal shows; it is fitted along.
+    /// A second mode, if the signal shows one; it is fitted as well.
     pub other: Option<Other>,
     /// The fit at every instant of the signal; NaN outside the window.
     pub fitted: Vec<f64>,
-    /// Passes of the fit, and whether it came to rest.
+    /// Passes of the fit, and whether it converged.
     pub passes: (usize, bool),
-    /// What makes the result doubtful: a stable slug and a sentence.
+    /// Reasons to doubt the result: a stable slug and a sentence.
     pub remarks: Vec<(&'static str, String)>,
 }
 
-/// Fits the mode that rings most from `from` on [s]; without it, from the largest excursion on.
+/// Fits the dominant mode, starting at `from` [s] or, by default, at the largest excursion.
 ///
 /// # Errors
-/// [`Error::Invalid`] if nothing rings long enough, is sampled densely enough, or decays.
+/// [`Error::Invalid`] if the vibration is too short, sampled too slowly, or does not decay.
 pub fn mode(signal: &Signal, from: Option<f64>) -> Result<Mode, Error> {
     let all = Samples { time: &signal.time, value: &signal.value };
     let start = match from {
@@ -136,38 +141,14 @@ pub fn mode(signal: &Signal, from: Option<f64>) -> Result<Mode, Error> {
         None => extrema::largest(&all),
     };
     let ringing = all.part(start, all.len());
-    let guess = extrema::guess(&ringing).ok_or_else(|| {
-        Error::invalid(
-            FIELD,
-            format!("{} samples from {:.4} s on", ringing.len(), signal.time.get(start).unwrap_or(&f64::NAN)),
-            "nothing rings there for a cycle and a half: the response after a step or a blow, until it has died down",
-        )
-    })?;
-    let cycle = math::TAU / guess.damped;
-    let seen_by = |cycle: f64, span: f64, samples: usize| samples as f64 * cycle / span;
-    let span = ringing.span();
-    if seen_by(cycle, span, ringing.len()) < FEW_SAMPLES.1 {
-        return Err(Error::invalid(
-            FIELD,
-            format!("{:.1} samples a cycle", seen_by(cycle, span, ringing.len())),
-            "sampled too slowly to tell the frequency: ten samples a cycle or more",
-        ));
-    }
+    let guess = guess(&ringing, *signal.time.get(start).unwrap_or(&f64::NAN))?;
     let (mut decay, part, passes) = widening(&ringing, guess);
     let mut rest = part.minus(&decay);
     let explained_by_one = 1.0 - rest.iter().map(|r| r * r).sum::<f64>() / part.variance();
     let mut other = None;
     if let Some(second) = second_mode(&part, &rest, &decay) {
-        // Each is fitted to what the other leaves, until neither moves.
-        let mut second = second;
-        for _ in 0..30 {
-            let own = part.minus(&second);
-            decay = Samples { time: part.time, value: &own }.fit(decay).0;
-            let own = part.minus(&decay);
-            second = Samples { time: part.time, value: &own }.fit(second).0;
-        }
-        let own = part.minus(&second);
-        rest = Samples { time: part.time, value: &own }.minus(&decay);
+        let (first, second, left) = both_fitted(&part, decay, second);
+        (decay, rest) = (first, left);
         let (frequency, damping) = second.undamped();
         other = Some(Other { frequency, damping, share: second.amplitude() / decay.amplitude() });
     }
@@ -180,7 +161,7 @@ pub fn mode(signal: &Signal, from: Option<f64>) -> Result<Mode, Error> {
     let reach = student::quantile_975(freedom) * (left / freedom.max(1) as f64).sqrt();
     let (frequency, damping) = decay.uncertain(&part, reach);
     let cycles = part.span() * decay.damped / math::TAU;
-    let samples_per_cycle = seen_by(math::TAU / decay.damped, part.span(), part.len());
+    let samples_per_cycle = samples_per_cycle(&part, &decay);
     let mut mode = Mode {
         frequency,
         damping,
@@ -201,7 +182,51 @@ pub fn mode(signal: &Signal, from: Option<f64>) -> Result<Mode, Error> {
     Ok(mode)
 }
 
-/// Fits a few cycles first and ever longer parts then, so that the phase never runs a turn ahead, until the vibration has faded.
+/// The first guess for the vibration that rings from the instant `from` [s].
+///
+/// # Errors
+/// [`Error::Invalid`] if it is too short, or sampled too slowly.
+fn guess(ringing: &Samples<'_>, from: f64) -> Result<Decay, Error> {
+    let guess = extrema::guess(ringing).ok_or_else(|| {
+        Error::invalid(
+            FIELD,
+            format!("{} samples from {from:.4} s on", ringing.len()),
+            "nothing rings there for a cycle and a half: the response after a step or a blow, until it has \
+             died down",
+        )
+    })?;
+    let samples = samples_per_cycle(ringing, &guess);
+    if samples < FEW_SAMPLES.1 {
+        return Err(Error::invalid(
+            FIELD,
+            format!("{samples:.1} samples a cycle"),
+            "sampled too slowly to tell the frequency: ten samples a cycle or more",
+        ));
+    }
+    Ok(guess)
+}
+
+fn samples_per_cycle(samples: &Samples<'_>, decay: &Decay) -> f64 {
+    let cycle = math::TAU / decay.damped;
+    samples.len() as f64 * cycle / samples.span()
+}
+
+/// Two modes, each fitted to the residual of the other often enough for both to settle, and what
+/// they leave of the signal.
+fn both_fitted(part: &Samples<'_>, mut first: Decay, mut second: Decay) -> (Decay, Decay, Vec<f64>) {
+    for _ in 0..30 {
+        let own = part.minus(&second);
+        first = Samples { time: part.time, value: &own }.fit(first).0;
+        let own = part.minus(&first);
+        second = Samples { time: part.time, value: &own }.fit(second).0;
+    }
+    let own = part.minus(&second);
+    let rest = Samples { time: part.time, value: &own }.minus(&first);
+    (first, second, rest)
+}
+
+/// Fits a few cycles first, then ever longer parts until the vibration has faded, so that the phase
+/// never slips by a full turn.
 fn widening<'a>(ringing: &Samples<'a>, guess: Decay) -> (Decay, Samples<'a>, (usize, bool)) {
     let (mut decay, mut cycles, mut passes) = (guess, 3.0, 0);
     loop {
@@ -219,7 +244,7 @@ fn widening<'a>(ringing: &Samples<'a>, guess: Decay) -> (Decay, Samples<'a>, (us
     }
 }
 
-/// A second damped sinusoid in what the first leaves, if there is one worth reporting.
+/// A second damped sinusoid in the residual of the first, if it is worth reporting.
 fn second_mode(part: &Samples<'_>, rest: &[f64], first: &Decay) -> Option<Decay> {
     let rest = Samples { time: part.time, value: rest };
     let guess = extrema::guess(&rest)?;
@@ -236,12 +261,13 @@ fn second_mode(part: &Samples<'_>, rest: &[f64], first: &Decay) -> Option<Decay>
 
 fn remarks(mode: &Mode, rest: &[f64], explained_by_one: f64) -> Vec<(&'static str, String)> {
     let mut remarks = Vec::new();
-    let mut say = |code, text: String| remarks.push((code, text));
+    let mut remark = |code, text: String| remarks.push((code, text));
     if let Some(Other { frequency, share, .. }) = mode.other {
-        say(
+        remark(
             "several-modes",
             format!(
-                "there is a second mode at {:.2} Hz with {:.0} % of the amplitude; one damped sinusoid alone explains {:.1} %. A shaper for one mode leaves the other",
+                "there is a second mode at {:.2} Hz with {:.0} % of the amplitude; one damped \
+                 sinusoid alone explains {:.1} %. A shaper for one mode leaves the other",
                 frequency / math::TAU,
                 100.0 * share,
                 100.0 * explained_by_one
@@ -249,7 +275,7 @@ fn remarks(mode: &Mode, rest: &[f64], explained_by_one: f64) -> Vec<(&'static st
         );
     }
     if mode.explained < 0.9 {
-        say(
+        remark(
             "poor-fit",
             format!(
                 "a damped sinusoid explains only {:.0} % of the signal: more modes, noise or backlash",
@@ -258,22 +284,22 @@ fn remarks(mode: &Mode, rest: &[f64], explained_by_one: f64) -> Vec<(&'static st
         );
     }
     if mode.cycles < FEW_CYCLES {
-        say("few-cycles", format!("only {:.1} cycles: the damping hangs on little", mode.cycles));
+        remark("few-cycles", format!("only {:.1} cycles: the damping hangs on little", mode.cycles));
     }
     if mode.samples_per_cycle < FEW_SAMPLES.0 {
         let text = format!(
             "only {:.1} samples a cycle: what rings faster than half the sampling rate would show up at a wrong, lower frequency",
             mode.samples_per_cycle
         );
-        say("slow-sampling", text);
+        remark("slow-sampling", text);
     }
     let squares: f64 = rest.iter().map(|r| r * r).sum();
     let neighbours: f64 = rest.windows(2).map(|pair| pair[0] * pair[1]).sum();
     if mode.explained < 1.0 - 1e-9 && neighbours > 0.5 * squares {
-        say("not-noise", "what is left is no noise, so that the intervals are too narrow".to_owned());
+        remark("not-noise", "what is left is no noise, so that the intervals are too narrow".to_owned());
     }
     if !mode.passes.1 {
-        say("not-converged", format!("the fit did not come to rest in {} passes", mode.passes.0));
+        remark("not-converged", format!("the fit did not come to rest in {} passes", mode.passes.0));
     }
     remarks
 }

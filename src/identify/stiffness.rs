@@ -1,12 +1,14 @@
 //! Joint compliances from loaded poses.
 //!
-//! The displacement of the TCP under a wrench W is linear in the joint compliances c_i (thesis eqs. 3.47, 3.48, sorted by joint):
+//! The displacement of the TCP under a wrench W is linear in the joint compliances c_i (thesis eqs.
+//! 3.47, 3.48, sorted by joint):
 //!
 //! ```text
 //! d = J C_theta J^T W = sum over i of  J_i (J_i^T W) c_i
 //! ```
 //!
-//! so each measured component is one row of A c = b, solved by non-negative least squares with equal weights.
+//! so each measured component is one row of A c = b, solved by non-negative least squares with
+//! equal weights.
 
 use crate::error::Error;
 use crate::identify::eigen::eigen;
@@ -17,30 +19,33 @@ use nalgebra::{Matrix6, Vector6};
 
 /// JSON path of the measurements, for errors.
 const FIELD: &str = "measurements";
-/// A direction is unseen where its singular value is below this share of the largest, columns scaled to unit length.
+/// A direction counts as unseen if its singular value is below this share of the largest, with
+/// columns scaled to unit length.
 const UNSEEN: f64 = 1e-5;
-/// A column shorter than this share of the longest moves the TCP by nothing but rounding.
+/// A column shorter than this share of the longest is nothing but rounding error.
 const UNLOADED: f64 = 1e-9;
-/// Condition index from which a near dependency can do harm, and the share of variance that makes a joint part of it
-/// (D. Belsley, E. Kuh, R. Welsch, Regression Diagnostics, 1980, section 3.2).
+/// Condition index above which a near dependency can do harm, and the share of variance above which
+/// a joint takes part in it (D. Belsley, E. Kuh, R. Welsch, Regression Diagnostics, 1980, section
+/// 3.2).
 const HARMFUL: (f64, f64) = (30.0, 0.5);
-/// Half an interval, as a share of its compliance, up to which a compliance counts as known.
+/// Largest half-interval, as a share of the compliance, at which a compliance counts as known.
 const KNOWN: f64 = 0.25;
-/// Half an interval that advice aims at, as a share of the compliance.
+/// Half-interval that the advice aims at, as a share of the compliance.
 const WANTED: f64 = 0.1;
 
-/// How far a joint's compliance is known.
+/// How well a joint's compliance is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     /// Its interval reaches no more than a quarter to each side.
     Known,
     /// Its interval reaches further, but not to zero.
     Rough,
-    /// Its interval reaches zero, or it is held there: these loads do not distinguish it from a rigid joint.
+    /// Its interval reaches zero, or it is held there: these loads do not distinguish it from a
+    /// rigid joint.
     Small,
     /// No load of these poses moves the TCP through this joint.
     Unloaded,
-    /// Only a sum with other joints' compliances shows.
+    /// Only its sum with other joints' compliances can be observed.
     Confounded,
 }
 
@@ -57,40 +62,42 @@ impl Verdict {
     }
 }
 
-/// What the poses say about one joint.
+/// The result for one joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
     /// Compliance [rad/(N m)], zero or positive.
     pub compliance: f64,
-    /// 95 % confidence interval of it [rad/(N m)]; infinite where nothing bounds it.
+    /// Its 95 % confidence interval [rad/(N m)]; infinite where it is unbounded.
     pub interval: (f64, f64),
     /// Whether it is held at zero, where the data alone would make it negative.
     pub at_zero: bool,
-    /// Variance inflation: how many times as uncertain (squared) as it would be if the other joints' columns were at right angles
-    /// to its own. Infinite where it cannot be told from them.
+    /// Variance inflation: its variance as a multiple of what it would be if the other joints'
+    /// columns were orthogonal to its own. Infinite where it cannot be separated from them.
     pub inflation: f64,
-    /// Share of its variance that comes from each singular direction, the best determined one first; empty where there is no variance.
+    /// Share of its variance from each singular direction, the best determined first; empty where
+    /// there is no variance.
     pub shares: Vec<f64>,
-    /// The joints, from 0, that it is hard or impossible to tell from.
+    /// The joints, from 0, that are hard or impossible to separate from it.
     pub mixed_with: Vec<usize>,
-    /// How many times as large loads would bring its interval to 10 % on each side; none where more load does not help.
+    /// Factor on the loads that would bring its interval to 10 % on each side; none where more load
+    /// does not help.
     pub load_factor: Option<f64>,
-    /// In one word.
+    /// The verdict on it.
     pub verdict: Verdict,
 }
 
-/// What the fit leaves of one row.
+/// The residual of one row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Residual {
     /// Line of the text, from 1.
     pub line: usize,
-    /// Length of what was measured [m].
+    /// Length of the measured displacement [m].
     pub measured: f64,
-    /// Length of what the fit gives along the same axes [m].
+    /// Length of the fitted displacement along the same axes [m].
     pub fitted: f64,
     /// Length of measured minus fitted [m].
     pub residual: f64,
-    /// Length of measured minus what a fit to all other rows gives [m].
+    /// Length of measured minus predicted by a fit to all other rows [m].
     pub left_out: f64,
 }
 
@@ -105,11 +112,13 @@ pub struct Fit {
     pub freedom: usize,
     /// Root mean square of the components' residuals [m].
     pub rms: f64,
-    /// Standard deviation of one component [m], with the degrees of freedom taken off.
+    /// Standard deviation of one component [m], corrected for the degrees of freedom.
     pub deviation: f64,
-    /// Share of the squared displacements that J C J^T explains; no mean is taken off, as without load there is no displacement.
+    /// Share of the squared displacements that J C J^T explains; no mean is subtracted, because
+    /// without load there is no displacement.
     pub explained: f64,
-    /// Largest by smallest singular value, columns scaled to unit length; infinite where a direction is unseen.
+    /// Ratio of largest to smallest singular value, columns scaled to unit length; infinite where a
+    /// direction is unseen.
     pub condition: f64,
 }
 
@@ -119,7 +128,8 @@ impl Fit {
         self.joints.each_ref().map(|joint| joint.compliance)
     }
 
-    /// Mean over the rows of the residual by the measured length, of the fit itself and of the fits to all other rows.
+    /// Mean over the rows of residual divided by measured length, for the fit itself and for the
+    /// fits to all other rows.
     pub fn relative(&self) -> (f64, f64) {
         let moved: Vec<&Residual> = self.rows.iter().filter(|row| row.measured > 0.0).collect();
         let mean = |of: fn(&Residual) -> f64| {
@@ -136,7 +146,8 @@ impl Fit {
     }
 }
 
-/// One row's part of A c = b: for each measured component the six coefficients [m per rad/(N m)] and the displacement [m].
+/// One row's contribution to A c = b: for each measured component the six coefficients [m per
+/// rad/(N m)] and the displacement [m].
 pub fn equations(robot: &Robot, row: &Measurement) -> Vec<(Vector6<f64>, f64)> {
     let j = spring_jacobian(robot, &row.q);
     let torque = j.transpose() * row.wrench;
@@ -147,10 +158,12 @@ pub fn equations(robot: &Robot, row: &Measurement) -> Vec<(Vector6<f64>, f64)> {
     [0, 1, 2].into_iter().filter_map(component).collect()
 }
 
-/// Fits the joint compliances to the rows. The robot's own compliances do not count, its tool does: loads and displacements are the TCP's.
+/// Fits the joint compliances to the rows. The robot's own compliances are not used; its tool is,
+/// since loads and displacements are given at the TCP.
 ///
-/// The intervals take errors of all components as independent and equally large, and hold the joints at zero there; where those are
-/// not zero, or the arm gives way in more than its joints, they are too narrow.
+/// The intervals assume that the errors of all components are independent and equally large, and
+/// that joints held at zero are rigid. Where these are not, or where more than the joints is
+/// compliant, the intervals are too narrow.
 ///
 /// # Errors
 /// [`Error::Invalid`] if there are too few measured components, or if nothing is loaded.
@@ -175,7 +188,7 @@ pub fn fit(robot: &Robot, rows: &[Measurement]) -> Result<Fit, Error> {
         let value = "without load or without displacement";
         return Err(Error::invalid(FIELD, value, "loads that move the TCP"));
     }
-    // What only rounding moves is not moved.
+    // Columns of rounding error only are cleared.
     for i in (0..6).filter(|&i| g[(i, i)].sqrt() <= UNLOADED * longest).collect::<Vec<_>>() {
         g.set_row(i, &Matrix6::zeros().row(0));
         g.set_column(i, &Matrix6::zeros().column(0));
@@ -217,13 +230,14 @@ pub fn fit(robot: &Robot, rows: &[Measurement]) -> Result<Fit, Error> {
     })
 }
 
-/// What the poses and loads can tell at all, whatever was measured.
+/// The information in the poses and loads, whatever the measured displacements.
 struct Poses {
     /// Length of each joint's column.
     length: Vector6<f64>,
     /// A^T A with columns of unit length.
     g: Matrix6<f64>,
-    /// Squared singular values, largest first, and their directions; an unloaded joint has 1 and itself.
+    /// Squared singular values, largest first, and their directions; an unloaded joint has the
+    /// value 1 and itself as direction.
     directions: Vec<(f64, Vector6<f64>)>,
     unloaded: [bool; 6],
     /// Joints that take part in an unseen direction.
@@ -272,12 +286,13 @@ impl Poses {
         (largest / smallest).sqrt()
     }
 
-    /// Inverse of the scaled A^T A over some joints; none where they cannot be told apart.
+    /// Inverse of the scaled A^T A over some joints; none where they cannot be separated.
     fn inverse(&self, of: &[bool; 6]) -> Option<Matrix6<f64>> {
         nnls::restricted(&self.g, of).cholesky().map(|factor| factor.inverse())
     }
 
-    /// `reach` is the standard deviation of a component times Student's t.
+    /// The result for joint `i`; `reach` is the standard deviation of a component times Student's
+    /// t.
     fn joint(&self, i: usize, solution: &nnls::NnlsSolution, h: &Vector6<f64>, reach: f64) -> Joint {
         let compliance = solution.x[i];
         let mixed_with = self.mixed(i);
@@ -299,7 +314,7 @@ impl Poses {
             };
         }
         let distinct = [0, 1, 2, 3, 4, 5].map(|k| !self.confounded[k]);
-        // A joint at zero is judged as if all were free: how large it might be.
+        // A joint at zero is judged as if all were free, to see how large it might be.
         let at_zero = !solution.free[i];
         let judged = if at_zero { distinct } else { solution.free };
         let inverse = self.inverse(&judged).unwrap_or_else(Matrix6::identity);
@@ -326,7 +341,7 @@ impl Poses {
         }
     }
 
-    /// What least squares without bounds would give.
+    /// The compliance that least squares without bounds would give.
     fn unconstrained(&self, i: usize, inverse: &Matrix6<f64>, h: &Vector6<f64>, judged: &[bool; 6]) -> f64 {
         let scaled =
             Vector6::from_fn(|k, _| if judged[k] && !self.unloaded[k] { h[k] / self.length[k] } else { 0.0 });

@@ -7,8 +7,8 @@ const NORMAL: f64 = 1.959_963_984_540_054;
 
 /// The 0.975 quantile of Student's t with `freedom` degrees of freedom.
 ///
-/// Exact for one and two; from three on M. Abramowitz, I. Stegun, Handbook of Mathematical Functions (1964), 26.7.5,
-/// whose error is largest at three: 0.12 %.
+/// Exact for one and two; from three on M. Abramowitz, I. Stegun, Handbook of Mathematical
+/// Functions (1964), 26.7.5, whose error is largest at three: 0.12 %.
 pub fn quantile_975(freedom: usize) -> f64 {
     let n = match freedom {
         0 => return f64::INFINITY,
@@ -29,7 +29,8 @@ pub fn quantile_975(freedom: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// Probability within +-t by integrating the density (1 + x^2/n)^(-(n+1)/2), scaled by its integral over a very wide range.
+    /// Probability within +-t by integrating the density (1 + x^2/n)^(-(n+1)/2), scaled by its
+    /// integral over a very wide range.
     fn within(t: f64, n: f64) -> f64 {
         // x = sqrt(n) tan(u): the density becomes cos(u)^(n-1).
         let area = |to: f64| {
@@ -42,7 +43,8 @@ mod tests {
         area(math::atan2(t, n.sqrt())) / area(math::FRAC_PI_2)
     }
 
-    /// The series' own error, 0.12 % of the quantile at three, leaves 1.5e-4 of probability there and falls fast.
+    /// The series' own error, 0.12 % of the quantile at three, leaves 1.5e-4 of probability there
+    /// and falls fast.
     #[test]
     fn the_quantiles_hold_95_percent() {
         for (freedom, tolerance) in

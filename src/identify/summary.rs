@@ -1,6 +1,6 @@
-//! What was identified, as plain data with the units in the names and as sentences.
+//! Identification results as plain data, with the units in the names, and as sentences.
 //!
-//! JSON has no infinity: a number that nothing bounds is none here, `null` there.
+//! JSON has no infinity: an unbounded number is `None` here and `null` there.
 
 use crate::identify::measurement::Measurements;
 use crate::identify::response::{Measured, Mode, Other};
@@ -9,7 +9,7 @@ use crate::robot::Robot;
 use crate::units::{HZ, MM};
 use serde::Serialize;
 
-/// Rows named as those that fit worst.
+/// Number of worst rows listed.
 const WORST: usize = 3;
 
 /// A fit of joint compliances.
@@ -17,9 +17,9 @@ const WORST: usize = 3;
 pub struct StiffnessSummary {
     /// The arm's name.
     pub robot: String,
-    /// Where the compliances come from, in words.
+    /// Source of the compliances, in words.
     pub source: String,
-    /// How many rows were fitted.
+    /// Number of rows fitted.
     pub rows: usize,
     /// Measured components minus free compliances.
     pub degrees_of_freedom: usize,
@@ -29,14 +29,14 @@ pub struct StiffnessSummary {
     pub explained: f64,
     /// Root mean square of the components' residuals [mm].
     pub residual_rms_mm: f64,
-    /// Standard deviation of one component [mm], with the degrees of freedom taken off.
+    /// Standard deviation of one component [mm], corrected for the degrees of freedom.
     pub standard_deviation_mm: f64,
-    /// Mean over the rows of the residual by the measured length.
+    /// Mean over the rows of residual divided by measured length.
     pub mean_relative_residual: f64,
-    /// The same of fits to all other rows.
+    /// Mean over the rows of left-out residual divided by measured length.
     pub mean_relative_left_out: f64,
-    /// Largest by smallest singular value, columns scaled to unit length; none where a direction is
-    /// unseen.
+    /// Ratio of largest to smallest singular value, columns scaled to unit length; none where a
+    /// direction is unseen.
     pub condition: Option<f64>,
     /// The six joints.
     pub joints: Vec<JointSummary>,
@@ -46,31 +46,31 @@ pub struct StiffnessSummary {
     pub worst_lines: Vec<usize>,
     /// How well the springs explain the data, in words.
     pub sentence: String,
-    /// What is odd about the text but was read all the same.
+    /// Oddities of the text that did not keep it from being read.
     pub remarks: Vec<String>,
 }
 
-/// What the poses say about one joint.
+/// The result for one joint.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct JointSummary {
     /// Number of the joint, from 1.
     pub joint: usize,
     /// Compliance [rad/(N m)].
     pub compliance_rad_per_nm: f64,
-    /// 95 % confidence interval of it [rad/(N m)]; an end is none where nothing bounds it.
+    /// Its 95 % confidence interval [rad/(N m)]; an end is none where it is unbounded.
     pub interval_rad_per_nm: [Option<f64>; 2],
-    /// Stiffness [N m/rad]; none of a rigid joint.
+    /// Stiffness [N m/rad]; none for a rigid joint.
     pub stiffness_nm_per_rad: Option<f64>,
-    /// How many times as uncertain (squared) as with the other joints' columns at right angles;
-    /// none where it cannot be told from them.
+    /// Variance as a multiple of what it would be if the other joints' columns were orthogonal to
+    /// its own; none where it cannot be separated from them.
     pub variance_inflation: Option<f64>,
-    /// Share of the variance from each singular direction, the best determined one first; empty
-    /// where there is no variance.
+    /// Share of the variance from each singular direction, the best determined first; empty where
+    /// there is no variance.
     pub direction_shares: Vec<f64>,
-    /// Numbers of the joints, from 1, that it is hard or impossible to tell from.
+    /// Numbers of the joints, from 1, that are hard or impossible to separate from it.
     pub mixed_with: Vec<usize>,
-    /// How many times as large loads would bring its interval to 10 % on each side; none where more
-    /// load does not help.
+    /// Factor on the loads that would bring its interval to 10 % on each side; none where more load
+    /// does not help.
     pub load_factor: Option<f64>,
     /// [`Verdict::id`].
     pub verdict: &'static str,
@@ -78,18 +78,18 @@ pub struct JointSummary {
     pub sentence: String,
 }
 
-/// What the fit leaves of one row.
+/// The residual of one row.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ResidualSummary {
     /// Line of the text, from 1.
     pub line: usize,
-    /// Length of what was measured [mm].
+    /// Length of the measured displacement [mm].
     pub measured_mm: f64,
-    /// Length of what the fit gives along the same axes [mm].
+    /// Length of the fitted displacement along the same axes [mm].
     pub fitted_mm: f64,
     /// Length of measured minus fitted [mm].
     pub residual_mm: f64,
-    /// Length of measured minus what a fit to all other rows gives [mm].
+    /// Length of measured minus predicted by a fit to all other rows [mm].
     pub left_out_mm: f64,
 }
 
@@ -98,27 +98,27 @@ pub struct ResidualSummary {
 pub struct ResponseSummary {
     /// Undamped natural frequency [rad/s].
     pub frequency_rad_s: f64,
-    /// 95 % confidence interval of it [rad/s]; an end is none where nothing bounds it.
+    /// Its 95 % confidence interval [rad/s]; an end is none where it is unbounded.
     pub frequency_interval_rad_s: [Option<f64>; 2],
     /// Undamped natural frequency [Hz].
     pub frequency_hz: f64,
-    /// 95 % confidence interval of it [Hz]; an end is none where nothing bounds it.
+    /// Its 95 % confidence interval [Hz]; an end is none where it is unbounded.
     pub frequency_interval_hz: [Option<f64>; 2],
     /// Damping ratio.
     pub damping: f64,
-    /// 95 % confidence interval of it; an end is none where nothing bounds it.
+    /// Its 95 % confidence interval; an end is none where it is unbounded.
     pub damping_interval: [Option<f64>; 2],
-    /// The same two by a second way.
+    /// Frequency and damping by logarithmic decrement, as a cross-check.
     pub decrement: DecrementSummary,
-    /// A second mode that the signal shows.
+    /// A second mode, if the signal shows one.
     pub other: Option<OtherSummary>,
     /// Start of the part of the signal that was fitted [s].
     pub from_s: f64,
-    /// Its end [s].
+    /// End of that part [s].
     pub to_s: f64,
-    /// Cycles in it.
+    /// Number of cycles in that part.
     pub cycles: f64,
-    /// Samples in a cycle.
+    /// Samples per cycle.
     pub samples_per_cycle: f64,
     /// Share of the signal's variance that the fit explains.
     pub explained: f64,
@@ -126,7 +126,7 @@ pub struct ResponseSummary {
     pub passes: usize,
     /// How much of the signal was fitted and how well, in words.
     pub sentence: String,
-    /// What makes the result doubtful.
+    /// Reasons to doubt the result.
     pub remarks: Vec<ResponseRemark>,
 }
 
@@ -139,18 +139,18 @@ pub struct DecrementSummary {
     pub damping: f64,
 }
 
-/// One more mode in the signal.
+/// A second mode in the signal.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct OtherSummary {
     /// Undamped natural frequency [Hz].
     pub frequency_hz: f64,
     /// Damping ratio.
     pub damping: f64,
-    /// Amplitude at the beginning, as a share of the first mode's.
+    /// Initial amplitude, as a share of the first mode's.
     pub amplitude_share: f64,
 }
 
-/// What makes a vibration doubtful.
+/// A reason to doubt a vibration.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ResponseRemark {
     /// Stable slug.
@@ -212,7 +212,7 @@ impl ResidualSummary {
     }
 }
 
-/// A number that is finite.
+/// The number, if it is finite.
 fn bounded(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
@@ -222,7 +222,8 @@ fn explanation(fit: &Fit, relative: f64, left_out: f64) -> String {
     let worst = fit.worst();
     let lines: Vec<String> = worst.iter().take(WORST).map(|row| row.line.to_string()).collect();
     format!(
-        "Springs in the joints explain {:.1} % of the squared displacements of {} rows; a row is missed by {:.0} % of its displacement on average, \
+        "Springs in the joints explain {:.1} % of the squared displacements of {} rows; \
+         a row is missed by {:.0} % of its displacement on average, \
          and by {:.0} % where it was not part of the fit. Lines {} fit worst.",
         100.0 * fit.explained,
         fit.rows.len(),
@@ -232,7 +233,7 @@ fn explanation(fit: &Fit, relative: f64, left_out: f64) -> String {
     )
 }
 
-/// What a verdict means for a joint, and what would help.
+/// The verdict on a joint in words, and what would help.
 fn judgement(joint: &Joint) -> String {
     let others: Vec<String> = joint.mixed_with.iter().map(|other| (other + 1).to_string()).collect();
     let others = match others.as_slice() {

@@ -1,19 +1,20 @@
-//! Rows of numbers with or without a line of names: the cells of a pasted measurement, with the place of each.
+//! Rows of numbers with an optional header: the cells of a pasted measurement, with the place of
+//! each.
 
 use crate::error::Error;
 use crate::path::csv::cell::{is_passed_over, number, position, separate};
 
-/// Most rows that are believed: an hour at 1 kHz.
+/// Largest number of rows: an hour at 1 kHz.
 const MOST_ROWS: usize = 4_000_000;
 
 /// A text of numbers, all rows as wide as the first.
 pub(super) struct Table<'a> {
     text: &'a str,
     field: &'static str,
-    /// The names of the columns in lower case, cut into words; empty without a header.
+    /// The names of the columns in lower case, split into words; empty without a header.
     pub(super) names: Vec<Vec<String>>,
     header_line: usize,
-    /// How many cells a row has.
+    /// Number of cells in a row.
     pub(super) width: usize,
     /// The numbers row by row; NaN for an empty cell.
     numbers: Vec<f64>,
@@ -37,7 +38,7 @@ impl<'a> Table<'a> {
             let place = |start: usize| position(index + 1, line, start);
             let named = |cell: &str| cell.trim_matches('"').starts_with(char::is_alphabetic);
             if table.width == 0 && cells.iter().any(|(_, cell)| named(cell)) {
-                // A unit in brackets between blanks belongs to the name before it.
+                // A unit in brackets after a blank belongs to the name before it.
                 for (start, cell) in &cells {
                     match table.names.last_mut() {
                         Some(name) if cell.starts_with(['[', '(']) => name.extend(words(cell)),
@@ -80,7 +81,7 @@ impl<'a> Table<'a> {
         &self.numbers[row * self.width..(row + 1) * self.width]
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub(super) fn len(&self) -> usize {
         self.lines.len()
     }
@@ -121,7 +122,7 @@ impl<'a> Table<'a> {
     }
 }
 
-/// A name in lower case, cut at everything that is no letter, digit, `µ` or slash.
+/// A name in lower case, split at every character that is not a letter, digit, `µ` or slash.
 fn words(name: &str) -> Vec<String> {
     let cut = name.to_lowercase();
     let apart = |c: char| !(c.is_alphanumeric() || c == '/');

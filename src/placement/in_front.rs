@@ -11,19 +11,20 @@ use crate::setup::Setup;
 use crate::units::{DEG, MM};
 use nalgebra::{Matrix3, Vector3};
 
-/// Poses along the path that are tried.
+/// Number of poses checked along the path.
 const POSES: usize = 60;
-/// Where the path's middle is put, as shares of the reach: ahead of axis 2, above it.
+/// Positions tried for the middle of the path, as shares of the reach: ahead of axis 2, above it.
 const AHEAD: [f64; 6] = [0.6, 0.7, 0.5, 0.8, 0.4, 0.9];
 const ABOVE: [f64; 5] = [-0.2, 0.0, -0.4, 0.2, -0.6];
-/// Room to a joint's limit that counts as much as the best distance from a singularity [rad].
+/// Room to a joint limit that counts as much as the best distance from a singularity [rad].
 const ROOM: f64 = 45.0 * DEG;
 
-/// The position of the workpiece frame [mm] that brings the path in front of the robot: of 30 places in its plane of symmetry, the one
-/// with the most room to joint limits and singularities. Orientations stay.
+/// The position of the workpiece frame [mm] that brings the path in front of the robot: of 30
+/// places in its plane of symmetry, the one with the most room to joint limits and singularities.
+/// Orientations are kept.
 ///
 /// # Errors
-/// What is wrong with the job, or that none of the places holds the path.
+/// Any error of the job's setup; [`Error::Invalid`] if the path fits none of the places.
 pub fn in_front(job: &Job) -> Result<[f64; 3], Error> {
     let setup = Setup::of(job, &mut Progress::none())?;
     let (path, robot) = (&setup.path, &setup.robot);
@@ -52,7 +53,9 @@ pub fn in_front(job: &Job) -> Result<[f64; 3], Error> {
             "workpiece_frame.xyz_mm",
             "nowhere in front of this robot",
             format!(
-                "a path of {:.0} x {:.0} x {:.0} mm with this tool finds no place within its reach and joint limits; take a larger robot, another start branch or a turned workpiece",
+                "a path of {:.0} x {:.0} x {:.0} mm with this tool finds no place within its \
+                 reach and joint limits; take a larger robot, another start branch or \
+                 a turned workpiece",
                 size.x, size.y, size.z
             ),
         ));
@@ -62,7 +65,8 @@ pub fn in_front(job: &Job) -> Result<[f64; 3], Error> {
     Ok([(x + moved.x).round(), (y + moved.y).round(), (z + moved.z).round()])
 }
 
-/// The least room along the path: to singularities, and to joint limits where they are known; `None` if a pose has no solution in the ranges.
+/// The least room along the path to singularities, and to joint limits where they are known; `None`
+/// if a pose has no solution within the joint ranges.
 fn room(
     robot: &Robot,
     poses: &[(Vector3<f64>, Matrix3<f64>)],

@@ -1,7 +1,8 @@
-//! The error that a place for the part would give, for a map of places.
+//! The contour error at a place for the part, for a map of places.
 //!
-//! A place is judged by [`STATIONS`] stations along the path instead of all samples, by the cutting force alone: the shaper's part
-//! hardly depends on the place. The part keeps its orientation, the tool its fixed spin (a free one: the angle it is compared with).
+//! A place is evaluated at [`STATIONS`] stations along the path instead of all samples, and with
+//! the cutting force alone: the shaper's contribution hardly depends on the place. The part keeps
+//! its orientation and the tool its fixed spin (for a free spin, the angle it is compared with).
 
 use crate::deviation::contour::MeanMax;
 use crate::deviation::{Reference, Source, Sources, simulate};
@@ -18,41 +19,43 @@ use crate::units::MM;
 use nalgebra::Vector3;
 use std::sync::Arc;
 
-/// Stations along the path: against all samples the largest error is met within 2 % on smooth paths (tests/placement.rs).
+/// Number of stations along the path. On smooth paths the largest error agrees with that over all
+/// samples within 2 % (tests/placement.rs).
 pub const STATIONS: usize = 121;
-/// No joint turns this much from one station to the next without a change of branch [rad].
+/// A joint that turns further from one station to the next has changed its branch [rad].
 const STATION_JUMP: f64 = 12.0 * JUMP;
 
-/// What is the matter with a place.
+/// Whether a place is suitable, and if not, why.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PlacementStatus {
-    /// Nothing.
+    /// Suitable.
     Good,
-    /// The arm comes near a singularity, or changes its branch.
+    /// The arm comes near a singularity, or changes branch.
     Singular,
     /// A joint leaves its range.
     Limit,
-    /// The arm does not reach all of the path.
+    /// The arm cannot reach the whole path.
     Unreachable,
 }
 
 /// A place on the map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
-    /// Largest contour error by the cutting force, before compensation [m]; not a number where the path is out of reach.
+    /// Largest contour error by the cutting force, before compensation [m]; NaN where the path is
+    /// out of reach.
     pub max: f64,
-    /// Its mean [m].
+    /// Mean contour error by the cutting force, before compensation [m].
     pub mean: f64,
-    /// What is the matter.
+    /// Whether the place is suitable.
     pub status: PlacementStatus,
 }
 
-/// A job whose part is to be moved.
+/// A job prepared for moving its part.
 #[derive(Debug, Clone)]
 pub struct PlacementMap {
-    /// A plan of the job as it is, at stations.
+    /// The job's plan as it is, at stations.
     plan: Plan,
-    /// Where the part is now, in the cell [m].
+    /// Current origin of the workpiece frame, in the cell [m].
     origin: Vector3<f64>,
 }
 
@@ -68,7 +71,7 @@ impl PlacementMap {
         Ok(Self { plan, origin: Vector3::from(job.workpiece_frame.xyz_mm) * MM })
     }
 
-    /// What becomes of the path if the workpiece frame's origin stands at `xyz` in the cell [m].
+    /// Evaluates the path with the workpiece frame's origin at `xyz` in the cell [m].
     pub fn at(&self, xyz: Vector3<f64>) -> Place {
         let shift = self.plan.setup.base.inverse().direction(&(xyz - self.origin));
         let path = self.plan.path.placed(&Pose { position: shift, ..Pose::identity() });
@@ -93,8 +96,8 @@ impl PlacementMap {
         Place { max, mean, status }
     }
 
-    /// Places worth a look, smallest and largest x, y, z of the workpiece frame's origin in the cell [m]: those that bring the middle of
-    /// the path within the arm's length of axis 2.
+    /// Range of places worth mapping: smallest and largest x, y, z of the workpiece frame's origin
+    /// in the cell [m] that bring the middle of the path within the arm's reach of axis 2.
     pub fn extent(&self) -> [[f64; 2]; 3] {
         let setup = &self.plan.setup;
         let ends = &self.plan.trajectory.position;

@@ -1,4 +1,4 @@
-//! Where to put the part: a map of the errors that places would give, and a first place in front of the
+//! Where to put the part: a map of the error at each place, and a first place in front of the
 //! robot.
 
 mod in_front;

@@ -1,9 +1,11 @@
-//! The error budget: which joint and which source gives how much of the contour error.
+//! The error budget: how much each joint and each source contributes to the contour error.
 //!
-//! The actual tip is the shaped pose plus the deflection, and the deflection is a sum over the joints of J_i c_i J_i^T F (eqs. 3.48, 4.8).
-//! So the way from the closest point of the path to the tip is a sum of eight vectors: one for each joint, one for a tool that bends, and the shaped pose's own distance
-//! from that point. Each is projected on the direction of the sum, from the path to the tip; the eight lengths then add up to the
-//! contour error. A length is negative where that part alone would pull the tip back.
+//! The actual tip is the shaped pose plus the deflection, and the deflection is a sum over the
+//! joints of J_i c_i J_i^T F (eqs. 3.48, 4.8). The error vector, from the closest point of the path
+//! to the tip, is therefore a sum of eight vectors: one for each joint, one for the bending of the
+//! tool, and the shaped pose's own offset from that point. Each is projected on the direction of
+//! the error vector, so the eight lengths add up to the contour error. A length is negative where
+//! that part alone would pull the tip back towards the path.
 
 use crate::math::Pose;
 use crate::report::Report;
@@ -12,43 +14,43 @@ use crate::units::MM;
 use nalgebra::Vector3;
 use serde::Serialize;
 
-/// What the contour error before compensation is made of.
+/// Breakdown of the contour error before compensation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Budget {
     /// Sample with the largest contour error.
     pub sample: usize,
-    /// Its time [s].
+    /// Time of that sample [s].
     pub time_s: f64,
-    /// The parts of the error there.
+    /// Breakdown of the error at that sample.
     pub worst_mm: Parts,
-    /// The parts of the mean error: the mean of each part over all samples.
+    /// Breakdown of the mean error: the mean of each part over all samples.
     pub mean_mm: Parts,
-    /// The largest part in words.
+    /// The largest part, in words.
     pub sentence: String,
 }
 
 /// Parts of a contour error [mm]; those of the joints, the tool and shaping add up to the whole.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Parts {
-    /// What each joint's spring gives.
+    /// Contribution of each joint's spring.
     pub joints: [f64; 6],
-    /// What the tool's own bending gives; 0 for a rigid tool.
+    /// Contribution of the tool's bending; 0 for a rigid tool.
     pub tool: f64,
-    /// What shaping gives, with the little by which the path bends away between the two.
+    /// Contribution of shaping, including the slight curvature of the path in between.
     pub shaping: f64,
     /// The contour error.
     pub total: f64,
 }
 
 impl Parts {
-    /// What all joints and the tool give [mm].
+    /// Contribution of all joints and the tool [mm].
     pub fn deflection(&self) -> f64 {
         self.joints.iter().sum::<f64>() + self.tool
     }
 }
 
 impl Report {
-    /// What each joint's spring adds to the tip's deflection before compensation at a sample, base frame [m].
+    /// Tip deflection due to each joint's spring at a sample, before compensation, base frame [m].
     pub fn deflection_by_joint(&self, sample: usize) -> [Vector3<f64>; 6] {
         let robot = &self.plan.robot;
         let q = self.shaped(&self.q).at(sample);
@@ -57,12 +59,12 @@ impl Report {
         compliance::by_joint(robot, &q, &frames, &tip, &self.force[sample]).map(|(moved, _)| moved)
     }
 
-    /// What the contour error before compensation is made of.
+    /// Breakdown of the contour error before compensation.
     pub fn budget(&self) -> Budget {
         self.budget_and_walls().0
     }
 
-    /// Its parts at a sample where the arm's joint values, frames and tip are these.
+    /// The breakdown at sample `k`, given the joint values, frames and tip there.
     pub(super) fn parts(&self, k: usize, q: &Joints, frames: &[Pose; 6], tip: &Vector3<f64>) -> Parts {
         let error = self.before.contour_error[k];
         let total = error.norm();
@@ -78,7 +80,7 @@ impl Report {
     }
 }
 
-/// A budget while it is added up.
+/// Running sums of a budget.
 #[derive(Default)]
 pub(super) struct Sum {
     sum: Parts,
@@ -115,7 +117,7 @@ impl Sum {
     }
 }
 
-/// The largest part in words.
+/// The largest part, in words.
 fn sentence(worst: &Parts) -> String {
     let names = (1..=6).map(|joint| format!("Joint {joint}"));
     let parts = names

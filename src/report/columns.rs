@@ -1,4 +1,4 @@
-//! The columns of a report: one row a sample, units in the names.
+//! The columns of a report: one row per sample, with the unit in each key.
 
 use crate::column::Column;
 use crate::path::Axes;
@@ -8,7 +8,8 @@ use nalgebra::Vector3;
 use std::ops::Range;
 use xxhash_rust::xxh3::Xxh3;
 
-/// A column of a report whose values are only made when they are asked for: of a long run, all columns at once are half a gigabyte.
+/// A column of a report whose values are computed on demand: for a long run, all columns at once
+/// would take half a gigabyte.
 pub struct Series<'a> {
     /// See [`Column::key`].
     pub key: String,
@@ -36,22 +37,22 @@ impl<'a> Series<'a> {
         Column::new(self.key.as_str(), self.label.as_str(), self.unit, self.values(0..self.samples))
     }
 
-    /// Its values at some samples.
+    /// Its values over a range of samples.
     pub fn values(&self, samples: Range<usize>) -> Vec<f64> {
         (self.values)(samples.start.min(self.samples)..samples.end.min(self.samples))
     }
 }
 
-/// Samples of a column that are hashed together.
+/// Number of samples hashed at a time.
 const HASHED: usize = 512;
 
 impl Report {
-    /// All columns at once; [`Report::series`] makes one at a time.
+    /// All columns at once; [`Report::series`] computes one at a time.
     pub fn columns(&self) -> Vec<Column> {
         self.series().iter().map(Series::column).collect()
     }
 
-    /// What the columns are, in their order. Desired, forces and positions are in the base frame.
+    /// All columns, in order. Positions and forces are in the base frame.
     pub fn series(&self) -> Vec<Series<'_>> {
         let trajectory = &self.plan.trajectory;
         let count = trajectory.len();
@@ -81,28 +82,13 @@ impl Report {
         series.extend(xyz("shaped", "Shaped", "mm", &self.shaping_only.actual, MM));
         series.extend(xyz("after_actual", "Actual after", "mm", &self.after.actual, MM));
         series.extend(joints("compensated_q", "Compensated joint", count, |k, i| self.compensation.q[k][i]));
-        let actual = &self.before.actual;
-        let tracking =
-            |samples: Range<usize>| samples.map(|k| (desired[k] - actual[k]).norm() / MM).collect();
-        series.push(Series::new(
-            "tracking_error_mm",
-            "Tracking error before (eq. 5.1)",
-            "mm",
-            count,
-            tracking,
-        ));
+        series.push(self.tracking_error());
         series.extend(ijk("tool_axis", "Tool axis", count, &trajectory.axis));
         series.extend(ijk("compensated_axis", "Compensated axis", count, &self.compensation.axis));
         let (before, after) = (&self.before.axis_error, &self.after.axis_error);
         series.push(scaled("axis_error_deg", "Tool axis error before", "deg", before, DEG));
         series.push(scaled("after_axis_error_deg", "Tool axis error after", "deg", after, DEG));
-        // As the force has it: a shaped tool arrives later, and between cutting and not it is partly both.
-        let cuts = self.plan.shaper().shaped(&trajectory.timing.engaged, trajectory.sample_time);
-        series.push(Series::new("cuts", "Cuts", "", count, move |samples| {
-            let whole =
-                |share: f64| if (share - share.round()).abs() < 1e-12 { share.round() } else { share };
-            samples.map(|k| whole(cuts.at(k))).collect()
-        }));
+        series.push(self.cuts());
         let (path, timing) = (&self.plan.path, &trajectory.timing);
         series.push(Series::new("program_line", "Line of the program", "", count, move |samples| {
             timing.index[samples].iter().map(|&index| path.moves()[index as usize].line as f64).collect()
@@ -115,7 +101,27 @@ impl Report {
         series
     }
 
-    /// Hash over names and bits of all columns (XXH3, 128 bit): the same job gives the same one natively and in every browser.
+    fn tracking_error(&self) -> Series<'_> {
+        let (desired, actual) = (&self.plan.trajectory.position, &self.before.actual);
+        Series::new("tracking_error_mm", "Tracking error before (eq. 5.1)", "mm", desired.len(), |samples| {
+            samples.map(|k| (desired[k] - actual[k]).norm() / MM).collect()
+        })
+    }
+
+    /// Whether the tool cuts, shaped like the force: a shaped tool arrives later, and while cutting
+    /// starts or ends the value lies between 0 and 1.
+    fn cuts(&self) -> Series<'_> {
+        let trajectory = &self.plan.trajectory;
+        let cuts = self.plan.shaper().shaped(&trajectory.timing.engaged, trajectory.sample_time);
+        Series::new("cuts", "Cuts", "", trajectory.len(), move |samples| {
+            let whole =
+                |share: f64| if (share - share.round()).abs() < 1e-12 { share.round() } else { share };
+            samples.map(|k| whole(cuts.at(k))).collect()
+        })
+    }
+
+    /// Hash over the keys and bits of all columns (XXH3, 128 bit). The same job gives the same hash
+    /// natively and in every browser.
     pub fn fingerprint(&self) -> String {
         self.fingerprint.get_or_init(|| self.hash()).clone()
     }
@@ -126,7 +132,7 @@ impl Report {
         let mut bytes = [0; 8 * HASHED];
         for series in self.series() {
             hash.update(series.key.as_bytes());
-            // What stays in the processor's cache at a time.
+            // Blocks small enough for the processor's cache.
             for from in (0..self.samples()).step_by(HASHED) {
                 let values = series.values(from..from + HASHED);
                 for (place, value) in bytes.chunks_exact_mut(8).zip(&values) {
@@ -139,14 +145,14 @@ impl Report {
     }
 }
 
-/// A column of numbers in other units.
+/// A column of numbers converted to another unit.
 fn scaled<'a>(key: &str, label: &str, unit: &'static str, values: &'a [f64], factor: f64) -> Series<'a> {
     Series::new(key, label, unit, values.len(), move |samples| {
         values[samples].iter().map(|v| v / factor).collect()
     })
 }
 
-/// The lengths of vectors.
+/// A column of vector lengths [mm].
 fn norm<'a>(key: &str, label: &str, errors: &'a [Vector3<f64>]) -> Series<'a> {
     Series::new(key, label, "mm", errors.len(), |samples| norms_mm(&errors[samples]))
 }
@@ -164,7 +170,7 @@ fn xyz<'a>(
     })
 }
 
-/// The same of values by axis.
+/// As [`xyz`], from a function of axis and samples.
 fn xyz_of<'a>(
     key: &str,
     label: &str,

@@ -1,4 +1,5 @@
-//! The cut in figures: coefficients, engagement, spindle, and the wall that the mean force and the instant of its making leave.
+//! Cutting figures: coefficients, engagement, spindle load, and the error of the walls, by the mean
+//! force and at the instants when the edge generates them.
 
 use crate::cutting::along;
 use crate::cutting::material::Model;
@@ -12,7 +13,7 @@ use crate::units::{DEG, KILOWATT, MINUTE, MM, N_PER_MM, N_PER_MM2};
 use nalgebra::Vector3;
 use serde::Serialize;
 
-/// The cut in figures, at the feed per tooth of the job (of the full feed, if the chip follows it).
+/// Cutting figures at the job's feed per tooth (at full feed, if the chip load follows the feed).
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct CutFigures {
     /// Tangential cutting coefficient [N/mm^2].
@@ -29,97 +30,99 @@ pub struct CutFigures {
     pub kae_n_mm: f64,
     /// Diameter of the tool [mm].
     pub diameter_mm: f64,
-    /// Radius of its corner [mm].
+    /// Corner radius of the tool [mm].
     pub corner_radius_mm: f64,
     /// Axial depth of cut [mm].
     pub axial_depth_mm: f64,
     /// Feed per tooth [mm].
     pub feed_per_tooth_mm: f64,
-    /// Mean thickness of chip [mm].
+    /// Mean chip thickness [mm].
     pub mean_chip_mm: f64,
-    /// Section of the material in the way of the tool [mm^2].
+    /// Cross-section of the material in the tool's way [mm^2].
     pub section_mm2: f64,
-    /// Removal rate [cm^3/min].
+    /// Material removal rate [cm^3/min].
     pub removal_cm3_min: f64,
     /// Largest force within a revolution [N].
     pub peak_force_n: f64,
     /// Mean torque on the tool [N m].
     pub torque_nm: f64,
-    /// Teeth that pass in a second [1/s].
+    /// Tooth passing frequency [Hz].
     pub tooth_passing_hz: f64,
-    /// Mean power of the cut [kW].
+    /// Mean cutting power [kW].
     pub power_kw: f64,
-    /// Immersion angle at which a tooth enters on the cylinder [deg]; absent without contact there.
+    /// Entry immersion angle on the tool's cylinder [deg]; absent without contact there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub entry_deg: Option<f64>,
-    /// Immersion angle at which it leaves [deg].
+    /// Exit immersion angle on the tool's cylinder [deg].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exit_deg: Option<f64>,
     /// Radial depth of cut [mm].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radial_depth_mm: Option<f64>,
-    /// Rated power of the spindle [kW], if it is given.
+    /// Rated power of the spindle [kW], if given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spindle_power_kw: Option<f64>,
-    /// Bending of the tool at its tip [um/N], if it bends.
+    /// Bending of the tool at its tip [um/N], unless it is rigid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tool_bending_um_n: Option<f64>,
-    /// Thickness of chip that the coefficients are made for [mm], if they depend on it.
+    /// Chip thickness for which the coefficients were derived [mm], if they depend on it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub made_at_chip_mm: Option<f64>,
-    /// Spread of the coefficients [%], if the material is of the library.
+    /// Spread of the coefficients [%], if the material comes from the library.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spread_percent: Option<f64>,
-    /// Specific cutting force of a chip of 1 mm by 1 mm [N/mm^2], of a Kienzle material.
+    /// Specific cutting force of a 1 mm by 1 mm chip [N/mm^2], for a Kienzle material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kc11_n_mm2: Option<f64>,
-    /// Exponent of a Kienzle material.
+    /// Exponent mc, for a Kienzle material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mc: Option<f64>,
 }
 
-/// A wall that the cut leaves: forces across it, and the deviation into the part (negative: material is
-/// left standing) by the mean force and at the instants when the edge makes the wall, both taken as static.
+/// A wall left by the cut: the forces across it, and the static deviation into the part (negative:
+/// material is left standing), by the mean force and at the instants when the edge generates the
+/// wall.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WallFigures {
-    /// Where the part is along y of {T}: 1 is left of the feed, -1 right of it.
+    /// Side of the part along y of {T}: 1 is left of the feed, -1 right of it.
     pub side: f64,
     /// Mean force into the part [N].
     pub mean_force_n: f64,
-    /// Force into the part at the instants when the edge makes the wall, mean [N].
+    /// Mean force into the part at the instants when the edge generates the wall [N].
     pub instant_force_n: f64,
     /// The largest of these [N].
     pub instant_force_max_n: f64,
-    /// Deviation by the mean force, mean over all samples that cut [mm].
+    /// Deviation by the mean force, averaged over all cutting samples [mm].
     pub by_mean_force_mm: f64,
     /// The largest of these [mm].
     pub by_mean_force_max_mm: f64,
-    /// Deviation at those instants, mean over all samples that cut and all heights [mm].
+    /// Deviation at those instants, averaged over all cutting samples and all heights [mm].
     pub at_instant_mm: f64,
     /// The largest of these [mm].
     pub at_instant_max_mm: f64,
 }
 
 impl Report {
-    /// Feed per tooth of the job [m]; of the full feed, if the chip follows it.
+    /// Feed per tooth of the job [m]; at full feed, if the chip load follows the feed.
     pub fn feed_per_tooth(&self) -> f64 {
         self.setup().chip.at(self.setup().limits.feed, None)
     }
 
-    /// Mean power of the cut [W] at that feed per tooth and the job's spindle speed: torque times speed.
+    /// Mean cutting power [W] at [`Report::feed_per_tooth`] and the job's spindle speed: torque
+    /// times speed.
     pub fn spindle_power(&self) -> f64 {
         let turns = self.setup().teeth_per_second / f64::from(self.setup().cut.flutes);
         self.setup().cut.torque(self.feed_per_tooth()) * turns * math::TAU
     }
 
-    /// The cut in figures.
+    /// The cutting figures of the job.
     pub fn cut_figures(&self) -> CutFigures {
         let setup = self.setup();
         let cut = &setup.cut;
         let k = &cut.coefficients;
         let c = self.feed_per_tooth();
         let feed = c * setup.teeth_per_second;
-        // On the cylinder: exact at the full radius, which a corner does not reach.
+        // On the cylinder: at the full radius, which the corner does not reach, it is exact.
         let radius = cut.radius();
         let engaged = cut.engagement.at(radius, radius);
         let radial = |(entry, exit): (f64, f64)| radius * (math::cos(entry) - math::cos(exit));
@@ -157,12 +160,12 @@ impl Report {
         }
     }
 
-    /// The walls that the cut leaves.
+    /// The walls left by the cut.
     pub fn walls(&self) -> Vec<WallFigures> {
         self.budget_and_walls().1
     }
 
-    /// [`Report::budget`] and [`Report::walls`], both from one visit to the arm at each sample.
+    /// [`Report::budget`] and [`Report::walls`], both from one pass over the samples.
     pub(super) fn budget_and_walls(&self) -> (Budget, Vec<WallFigures>) {
         let Plan { path, robot, trajectory, .. } = &self.plan;
         let timing = self.plan.timing(Sources::ALL);
@@ -184,8 +187,9 @@ impl Report {
             let base = x * mean_of_turn.x + y * mean_of_turn.y + axis * mean_of_turn.z;
             let by =
                 |force: Vector3<f64>| compliance::deflection(robot, &q, &frames, &tip.position, &force).0;
-            // The compliance is symmetric: what a unit force across the wall moves along F is what F moves across the wall. Springs that are
-            // no straight lines are taken as straight around the mean force.
+            // The compliance is symmetric: a unit force across the wall moves the tip along F by as
+            // much as F moves it across the wall. Nonlinear springs are linearised about the mean
+            // force.
             let (constant, mut moved) = if robot.statics().is_some() {
                 let weight = by(Vector3::zeros());
                 let moved = by(base + y) - by(base);
@@ -205,10 +209,10 @@ impl Report {
     }
 }
 
-/// A wall and what stands of it, while the samples are visited.
+/// A wall with its running statistics.
 struct Standing {
     wall: Wall,
-    /// Feed per tooth of the last sample [m], and the forces of the wall's instants at it [N].
+    /// Feed per tooth of the last sample [m], for which `instants` holds the wall's forces [N].
     chip: f64,
     instants: Vec<Vector3<f64>>,
     mean_force: Spread,
@@ -224,7 +228,8 @@ impl Standing {
         Self { wall, chip: f64::NAN, instants, mean_force, instant_force, by_mean, at_instant }
     }
 
-    /// A sample with the feed per tooth `c` [m] and the mean force `mean` [N] in {T}; `across` is how far a force moves the tip along y of {T} [m].
+    /// Adds a sample with feed per tooth `c` [m] and mean force `mean` [N] in {T}; `across` gives
+    /// the displacement of the tip along y of {T} under a force [m].
     fn take(&mut self, c: f64, mean: Vector3<f64>, across: impl Fn(&Vector3<f64>) -> f64) {
         if c != self.chip {
             self.chip = c;
@@ -253,7 +258,7 @@ impl Standing {
     }
 }
 
-/// Mean of signed values and the one of the largest size.
+/// Mean of signed values, and the value of largest magnitude.
 #[derive(Clone, Copy, Default)]
 struct Spread {
     sum: f64,

@@ -1,4 +1,4 @@
-//! The answer: numbers, verdict in words, warnings, columns, fingerprint.
+//! The result of a run: numbers, verdict in words, warnings, columns, fingerprint.
 
 pub mod columns;
 pub mod warning;
@@ -30,43 +30,44 @@ use std::sync::{Arc, OnceLock};
 /// Everything that was computed for a job.
 #[derive(Debug, Clone)]
 pub struct Report {
-    /// Arm, path and motion as simulated, with the question in SI.
+    /// Arm, path and motion as simulated, with the job's setup in SI.
     pub plan: Plan,
     /// Joint commands for the desired path [rad].
     pub q: Arc<Vec<Joints>>,
-    /// The branch that they start on.
+    /// Inverse kinematics branch at the start.
     pub branch: Branch,
-    /// What the free roll about the tool axis brings, if it is free.
+    /// Gain from a free roll about the tool axis, if it is free.
     pub roll: Option<RollGain>,
-    /// Force on the tool in the base frame, every source acting [N]; whatever is commanded.
+    /// Force on the tool in the base frame, every source acting [N]; it does not depend on the
+    /// command.
     pub force: Arc<Vec<Vector3<f64>>>,
-    /// What it moves the tip by when the desired path is commanded [m].
+    /// Tip deflection under that force with the desired path commanded [m].
     pub deflection: Vec<Vector3<f64>>,
-    /// The desired path commanded, only cutting forces acting.
+    /// Deviation with the desired path commanded, only cutting forces acting.
     pub deflection_only: Arc<Deviation>,
-    /// The desired path commanded, only the shaper acting.
+    /// Deviation with the desired path commanded, only the shaper acting.
     pub shaping_only: Arc<Deviation>,
-    /// The desired path commanded, every source acting.
+    /// Deviation with the desired path commanded, every source acting.
     pub before: Arc<Deviation>,
     /// The path to command instead.
     pub compensation: Compensation,
-    /// The compensated path commanded, every source acting.
+    /// Deviation with the compensated path commanded, every source acting.
     pub after: Arc<Deviation>,
-    /// What is odd but workable.
+    /// Conditions that are odd but workable.
     pub warnings: Vec<Warning>,
-    /// See [`Report::alone`]; computed when first asked for.
+    /// See [`Report::alone`]; computed on first use.
     pub(crate) alone: [OnceLock<Compensation>; 2],
-    /// See [`Report::fingerprint`]; computed when first asked for.
+    /// See [`Report::fingerprint`]; computed on first use.
     pub(crate) fingerprint: OnceLock<String>,
 }
 
 impl Report {
-    /// The question in SI.
+    /// The job's setup in SI.
     pub fn setup(&self) -> &Setup {
         &self.plan.setup
     }
 
-    /// The number of samples; every column has as many rows.
+    /// The number of samples, and of rows in every column.
     pub fn samples(&self) -> usize {
         self.plan.trajectory.len()
     }
@@ -76,7 +77,7 @@ impl Report {
         (self.samples() - 1) as f64 * self.plan.trajectory.sample_time
     }
 
-    /// One source compensated as if it were the only one that acts (Figs. 5.13, 5.15).
+    /// One source compensated as if it acted alone (Figs. 5.13, 5.15).
     pub fn alone(&self, source: Source) -> &Compensation {
         let (place, known) = match source {
             Source::Deflection => (&self.alone[0], &self.deflection_only),
@@ -90,7 +91,7 @@ impl Report {
         })
     }
 
-    /// Joint commands as the shaper passes them on.
+    /// Joint commands after the shaper.
     pub fn shaped<'a>(&self, q: &'a [Joints]) -> Shaped<'a, Joints> {
         self.plan.shaper().shaped(q, self.plan.trajectory.sample_time)
     }
@@ -127,12 +128,14 @@ impl Report {
     }
 }
 
-/// A length [m] in mm as read: three significant digits, but no finer than a tenth of a micrometre, which no machine knows.
+/// A length [m] as text in mm: three significant digits, but no finer than a tenth of a micrometre,
+/// beyond any machine's resolution.
 pub(crate) fn millimetres(length: f64) -> String {
     length_text(length, MM, 4)
 }
 
-/// A length [m] in a unit [m] as read: three significant digits, but at most so many decimal places.
+/// A length [m] as text in a unit [m]: three significant digits, but at most `places` decimal
+/// places.
 pub(crate) fn length_text(length: f64, unit: f64, places: i32) -> String {
     let value = length / unit;
     let finest = crate::math::pow(10.0, f64::from(-places));

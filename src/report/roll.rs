@@ -1,4 +1,4 @@
-//! What a free roll about the tool axis brings, compared with the fixed one.
+//! The gain from a free roll about the tool axis, compared with a fixed one.
 
 use crate::deviation::Deviation;
 use crate::motion::roll::{RollGoal, RollRange};
@@ -8,10 +8,10 @@ use crate::robot::Joints;
 use crate::units::{DEG, MM};
 use serde::Serialize;
 
-/// What a roll asks of the joints, and what the arm makes of it before compensation.
+/// Joint motion that a roll requires, and the error of the arm before compensation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct RollOutcome {
-    /// Way of all joints together [deg].
+    /// Total travel of all joints [deg].
     pub joint_travel_deg: f64,
     /// Largest speed of a joint [deg/s].
     pub joint_speed_deg_s: f64,
@@ -20,7 +20,7 @@ pub struct RollOutcome {
 }
 
 impl RollOutcome {
-    /// Of joint commands and what becomes of them.
+    /// The outcome of joint commands `q` and their deviation `before` compensation.
     pub fn of(plan: &Plan, q: &[Joints], before: &Deviation) -> Self {
         let (travel, speed) = effort(q, plan.trajectory.sample_time);
         Self {
@@ -34,16 +34,16 @@ impl RollOutcome {
 /// The gain of a free roll.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RollGain {
-    /// Smallest and largest angle that is used [deg].
+    /// Smallest and largest angle used [deg].
     pub used_deg: [f64; 2],
-    /// The fixed angle that it is compared with [deg].
+    /// The fixed angle for comparison [deg].
     pub fixed_deg: f64,
-    /// With the free roll.
+    /// Outcome with the free roll.
     pub free: RollOutcome,
-    /// With the fixed one; none if the arm does not reach all of the path with it.
+    /// Outcome with the fixed roll; none if the arm cannot reach the whole path with it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fixed: Option<RollOutcome>,
-    /// The same in words.
+    /// The comparison in words.
     pub sentence: String,
 }
 
@@ -63,7 +63,9 @@ impl RollGain {
                 format!("with {:.1} deg all along the arm does not reach the whole path", fixed_angle / DEG)
             }
             Some(fixed) => format!(
-                "against {:.1} deg all along, the joints travel {:.0} deg instead of {:.0}, the fastest turns at {:.1} deg/s instead of {:.1}, and the largest contour error before compensation is {} mm instead of {}",
+                "against {:.1} deg all along, the joints travel {:.0} deg instead of {:.0}, \
+                 the fastest turns at {:.1} deg/s instead of {:.1}, and \
+                 the largest contour error before compensation is {} mm instead of {}",
                 fixed_angle / DEG,
                 free.joint_travel_deg,
                 fixed.joint_travel_deg,
@@ -78,7 +80,8 @@ impl RollGain {
     }
 }
 
-/// Way of all joints together [rad] and largest speed of a joint [rad/s] over samples `sample_time` [s] apart.
+/// Total travel of all joints [rad] and largest joint speed [rad/s] over samples `sample_time` [s]
+/// apart.
 fn effort(q: &[Joints], sample_time: f64) -> (f64, f64) {
     let steps = q.windows(2).map(|pair| (pair[1] - pair[0]).abs());
     steps.fold((0.0, 0.0), |(way, fastest), step| {

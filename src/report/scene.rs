@@ -1,4 +1,4 @@
-//! What a picture of the run in space is drawn from.
+//! The data for a picture of the run in space.
 
 use crate::math::Pose;
 use crate::report::Report;
@@ -10,7 +10,8 @@ pub const FRAME: usize = 12;
 /// Numbers in a row of [`Report::track`].
 pub const ROW: usize = 17;
 
-/// An arm with the joint values `q` [rad]: the base, the six joints and the TCP, each as origin [mm] and x, y, z axes.
+/// Frames of an arm at the joint values `q` [rad]: the base, the six joints and the TCP, each as
+/// origin [mm] and x, y, z axes.
 pub fn arm(robot: &Robot, q: &Joints) -> Vec<f64> {
     let joints = forward::frames(robot, q);
     let tcp = joints[5].compose(robot.tool());
@@ -22,20 +23,22 @@ fn frame(pose: &Pose) -> Vec<f64> {
 }
 
 impl Report {
-    /// Where the arm stands at a sample under the shaped commands, in the base frame: the base, the six joints, the TCP and the workpiece, each
-    /// as origin [mm] and x, y, z axes. A sample past the end means the last one.
+    /// Frames at a sample under the shaped commands, in the base frame: the base, the six joints,
+    /// the TCP and the workpiece, each as origin [mm] and x, y, z axes. A sample past the end
+    /// stands for the last one.
     pub fn frames(&self, sample: usize) -> Vec<f64> {
         let mut numbers = arm(&self.plan.robot, &self.shaped(&self.q).at(sample.min(self.samples() - 1)));
         numbers.extend(frame(&self.setup().workpiece));
         numbers
     }
 
-    /// The paths in at most about `most` rows: sample, whether it cuts, desired point, closest point of the desired path to the actual tip before
-    /// compensation, way from the path to that tip, the same way after compensation, correction to command (points and ways as x, y, z in the base
-    /// frame [mm]).
+    /// The paths in at most about `most` rows. Each row holds the sample, whether it cuts, the
+    /// desired point, the point of the desired path closest to the actual tip before compensation,
+    /// the vector from there to that tip, that vector after compensation, and the correction to
+    /// command (points and vectors as x, y, z in the base frame [mm]).
     ///
-    /// A long run is cut into stretches; of each stay its first sample, the one farthest from its chord (a corner) and the one with the largest
-    /// error.
+    /// A long run is divided into stretches. Each keeps its first sample, the sample farthest from
+    /// its chord (a corner) and the sample with the largest error.
     pub fn track(&self, most: usize) -> Vec<f64> {
         let samples = self.samples();
         let kept: Vec<usize> = if samples <= most {
@@ -44,7 +47,7 @@ impl Report {
             let stretch = (3 * samples).div_ceil(most.max(3));
             let starts = (0..samples).step_by(stretch);
             starts
-                .flat_map(|start| self.telling(start, (start + stretch).min(samples - 1)))
+                .flat_map(|start| self.representative(start, (start + stretch).min(samples - 1)))
                 .chain([samples - 1])
                 .collect()
         };
@@ -61,8 +64,8 @@ impl Report {
         rows
     }
 
-    /// The samples from `start` up to but without `end` that show what happens there, in their order.
-    fn telling(&self, start: usize, end: usize) -> Vec<usize> {
+    /// The representative samples from `start` up to, but not including, `end`, in order.
+    fn representative(&self, start: usize, end: usize) -> Vec<usize> {
         let position = &self.plan.trajectory.position;
         let chord = (position[end] - position[start]).try_normalize(0.0).unwrap_or_default();
         let beside = |k: &usize| (position[*k] - position[start]).cross(&chord).norm();

@@ -1,4 +1,4 @@
-//! The figures of a report that a person reads first, as one small object.
+//! The headline figures of a report, as one small object.
 
 use crate::cutting::material::Material;
 use crate::deviation::Deviation;
@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Mean and largest error over all samples, in mm (of an angle: in deg).
+/// Mean and largest error over all samples, in mm (angles in deg).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Statistics {
     /// Mean.
@@ -20,7 +20,7 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Of angles [rad], in deg.
+    /// Statistics of angles [rad], in deg.
     pub fn of_angles(angles: &[f64]) -> Self {
         let mean = angles.iter().sum::<f64>() / angles.len().max(1) as f64;
         let max = angles.iter().copied().fold(0.0, f64::max);
@@ -29,7 +29,7 @@ impl Statistics {
 }
 
 impl From<MeanMax> for Statistics {
-    /// Of contour errors.
+    /// Statistics of contour errors, from m to mm.
     fn from(MeanMax { mean, max }: MeanMax) -> Self {
         Self { mean: mean / MM, max: max / MM }
     }
@@ -46,7 +46,7 @@ pub struct Before {
     pub both: Statistics,
 }
 
-/// The summary, as scripts and the page get it.
+/// The summary that scripts and the page receive.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
     /// Hash over the bits of all columns.
@@ -61,21 +61,23 @@ pub struct Summary {
     pub mean_force_n: [f64; 3],
     /// Name of the material.
     pub material: String,
-    /// Where its numbers come from, and how far to trust them.
+    /// Source of its coefficients, and how far to trust them.
     pub material_note: String,
     /// The cut: coefficients, engagement, spindle.
     pub cut: CutFigures,
-    /// The walls that it leaves, by the mean force and at the instant of their making.
+    /// The walls left by the cut, by the mean force and at the instants when the edge generates
+    /// them.
     pub walls: Vec<WallFigures>,
     /// Contour error before compensation [mm].
     pub before_mm: Before,
-    /// What the contour error before compensation is made of.
+    /// Breakdown of the contour error before compensation.
     pub budget: Budget,
     /// Contour error after compensation, every source acting [mm].
     pub after_mm: Statistics,
     /// Angle between actual and desired tool axis before compensation, every source acting [deg].
     pub before_axis_deg: Statistics,
-    /// The same after compensation; it is corrected only along a path whose tool axis turns [deg].
+    /// Angle between actual and desired tool axis after compensation, every source acting [deg]; it
+    /// is corrected only along a path whose tool axis turns.
     pub after_axis_deg: Statistics,
     /// Number of the pass whose path is commanded.
     pub passes: usize,
@@ -89,36 +91,36 @@ pub struct Summary {
     pub history_mean_mm: Vec<f64>,
     /// The verdict in words.
     pub verdict: String,
-    /// What was understood of the program, where the path came from one.
+    /// Summary of the program, if the path came from one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub program: Option<ProgramSummary>,
-    /// What the free spin brings, if it is free.
+    /// Gain from a free spin, if it is free.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spin: Option<RollGain>,
     /// Name of the robot.
     pub robot: String,
-    /// Where the joints' compliance comes from and how far to trust it.
+    /// Source of the joint compliances, and how far to trust them.
     pub stiffness: String,
-    /// How its inverse kinematics is solved: `closed form` or `numerically`.
+    /// How the inverse kinematics is solved: `closed form` or `numerically`.
     pub inverse: &'static str,
     /// The arm's branch at the start, in words.
     pub branch: String,
-    /// What is odd but workable.
+    /// Conditions that are odd but workable.
     pub warnings: Vec<Warning>,
 }
 
-/// What was understood of a program.
+/// Summary of a program as it was read.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ProgramSummary {
     /// `gcode`, `apt` or `csv`.
     pub language: &'static str,
-    /// Unit of length of the text.
+    /// Unit of length in the text.
     pub unit: &'static str,
-    /// Lines of the text.
+    /// Number of lines.
     pub lines: usize,
-    /// Moves that cut.
+    /// Number of cutting moves.
     pub cutting_moves: usize,
-    /// Moves that do not.
+    /// Number of rapid moves.
     pub rapid_moves: usize,
     /// Whether the tool axis turns.
     pub multi_axis: bool,
@@ -129,16 +131,16 @@ pub struct ProgramSummary {
     /// Smallest and largest feed that the program states [mm/s].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub feeds_mm_s: Option<[f64; 2]>,
-    /// Words without effect, each with the lines it stands in.
+    /// Words without effect, each with its lines.
     pub ignored: Vec<IgnoredWord>,
 }
 
-/// A word that is understood and has no effect on the path.
+/// A word that is recognised but has no effect on the path.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct IgnoredWord {
     /// As written.
     pub word: String,
-    /// Lines, from 1.
+    /// Line numbers, from 1.
     pub lines: Vec<usize>,
 }
 
@@ -184,12 +186,13 @@ impl ProgramSummary {
 }
 
 impl Report {
-    /// Mean milling force in {T} [N], at the feed per tooth of the job (of the full feed, if the chip follows it).
+    /// Mean milling force in {T} [N], at the job's feed per tooth (at full feed, if the chip load
+    /// follows the feed).
     pub fn mean_force(&self) -> Vector3<f64> {
         self.setup().mean_force.at(self.feed_per_tooth())
     }
 
-    /// The figures a person reads first.
+    /// The headline figures.
     pub fn summary(&self) -> Summary {
         let statistics = |deviation: &Deviation| Statistics::from(deviation.statistics);
         let mm = |values: &[f64]| values.iter().map(|v| v / MM).collect();

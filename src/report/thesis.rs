@@ -1,4 +1,5 @@
-//! "Thesis, recomputed": what the thesis prints beside what its own equations give, with the reason where they differ.
+//! "Thesis, recomputed": the printed figures beside those that its own equations give, and the
+//! reason where they differ.
 
 use crate::error::Error;
 use crate::math::Pose;
@@ -12,17 +13,17 @@ use serde::Serialize;
 /// One figure of the thesis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ThesisRow {
-    /// What it is.
+    /// The quantity.
     pub quantity: &'static str,
     /// Where the thesis prints it.
     pub source: &'static str,
     /// As printed.
     pub printed: &'static str,
-    /// As its equations give it.
+    /// As computed from its equations.
     pub ours: String,
     /// Whether the two agree to the digits printed.
     pub agrees: bool,
-    /// Why they differ, or what to know; may be empty.
+    /// Why they differ, or what else to note; may be empty.
     pub reason: &'static str,
 }
 
@@ -38,7 +39,8 @@ pub const TABLE_5_1: [([f64; 4], [f64; 3]); 8] = [
     ([1.5398, 1.6407, 1.5355, -0.0345], [13.2178, 426.2464, -261.0350]),
 ];
 
-/// The RX-90 of the thesis, with its d6 [m]: Table 3.2's 85 mm, or 0 where the thesis takes the wrist point as the tip.
+/// The RX-90 of the thesis, with its d6 [m]: Table 3.2's 85 mm, or 0 where the thesis takes the
+/// wrist point as the tip.
 pub fn rx90(d6: f64) -> Result<Robot, Error> {
     let preset = library::robot("staubli-rx90")?;
     let mut links = preset.links();

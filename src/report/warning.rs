@@ -1,4 +1,4 @@
-//! What is odd but workable: each warning says where along the motion it holds.
+//! Warnings: conditions that are odd but workable, each with the part of the motion it applies to.
 
 use crate::compensation::Compensation;
 use crate::cutting::along::ChipLoad;
@@ -21,18 +21,18 @@ use serde::Serialize;
 pub struct Warning {
     /// Stable slug.
     pub code: &'static str,
-    /// What a person reads.
+    /// Text for the reader.
     pub message: String,
-    /// First and last sample it holds for, where it is about a part of the motion.
+    /// First sample it applies to, if it concerns a part of the motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub from_sample: Option<usize>,
-    /// See `from_sample`.
+    /// Last sample it applies to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to_sample: Option<usize>,
-    /// The same as times [s].
+    /// Time of the first sample [s].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub from_s: Option<f64>,
-    /// See `from_s`.
+    /// Time of the last sample [s].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to_s: Option<f64>,
 }
@@ -50,18 +50,18 @@ impl Warning {
     }
 }
 
-/// A joint this near to its limit is remarked [rad].
+/// Margin to a joint limit below which a warning is given [rad].
 const LIMIT_MARGIN: f64 = 2.0 * DEG;
-/// A wrist centre this near to the shoulder singularity is remarked [m].
+/// Distance of the wrist centre from the shoulder singularity below which a warning is given [m].
 pub(crate) const SHOULDER_MARGIN: f64 = 10.0 * MM;
-/// An elbow or wrist angle this near to its singularity is remarked [rad].
+/// Angle from the elbow or wrist singularity below which a warning is given [rad].
 pub(crate) const ANGLE_MARGIN: f64 = 5.0 * DEG;
-/// A joint that turns further from one sample to the next is remarked [rad].
+/// Turn of a joint from one sample to the next above which a warning is given [rad].
 pub(crate) const JUMP: f64 = 5.0 * DEG;
-/// A feed further off the plane across the tool axis is remarked [rad].
+/// Angle between the feed and the plane across the tool axis above which a warning is given [rad].
 const RAMP: f64 = 30.0 * DEG;
 
-/// Tools of diameters nearer than this are the same [m]: CAM systems round inches.
+/// Tools whose diameters differ by less than this count as the same [m]: CAM systems round inches.
 const SAME_TOOL: f64 = 0.01 * MM;
 
 /// First and last sample at which something holds.
@@ -71,13 +71,15 @@ fn range(count: usize, holds: impl Fn(usize) -> bool) -> Option<(usize, usize)> 
     Some((first, last))
 }
 
-/// Everything worth a remark; a report starts with those of [`singularities`].
+/// All warnings of a report, whose own list so far holds those of [`singularities`].
 pub(crate) fn warnings(report: &Report) -> Vec<Warning> {
     let Report { plan, compensation, warnings: singular, .. } = report;
     let setup = report.setup();
     let mut warnings = Vec::new();
     if setup.stiffness_assumed {
-        let message = "nobody has published the joint stiffness of this robot: deflections are an order of magnitude, off by a factor of 2 as a rule and of 8 in single joints; enter your own";
+        let message = "nobody has published the joint stiffness of this robot: \
+                       deflections are an order of magnitude, off by a factor of 2 as a rule and of 8 in \
+                       single joints; enter your own";
         warnings.push(Warning::new("stiffness-assumed", message));
     }
     if let Err(reason) = plan.robot.closed_form() {
@@ -116,7 +118,7 @@ pub(crate) fn warnings(report: &Report) -> Vec<Warning> {
     warnings
 }
 
-/// How many samples of a motion are looked at for springs that do not settle.
+/// Largest number of samples checked for springs that do not settle.
 const LOOKS: usize = 200;
 
 fn springs(report: &Report, warnings: &mut Vec<Warning>) {
@@ -131,7 +133,7 @@ fn springs(report: &Report, warnings: &mut Vec<Warning>) {
     }
 }
 
-/// What the reader of the program found odd, with its line.
+/// The program reader's remarks with their lines, and a tool that differs from the job's.
 fn program(setup: &Setup, warnings: &mut Vec<Warning>) {
     for remark in setup.program.iter().flat_map(|source| &source.program.remarks) {
         warnings.push(Warning::new(remark.code, format!("line {}: {}", remark.line, remark.message)));
@@ -158,7 +160,7 @@ fn limits(report: &Report, warnings: &mut Vec<Warning>) {
     };
     let dt = plan.trajectory.sample_time;
     for (i, (low, high)) in limits.iter().enumerate() {
-        // How far a sample is beyond the range, by the desired or by the compensated command.
+        // Excess over the range, by the desired or by the compensated command.
         let beyond = |q: &Joints| (low - q[i]).max(q[i] - high);
         let worst = |k: usize| beyond(&desired[k]).max(beyond(&compensated[k]));
         let count = desired.len();
@@ -220,7 +222,8 @@ pub(crate) fn singularities(plan: &Plan, q: &[Joints], margins: &[Margin]) -> Ve
         near,
         |least| {
             format!(
-                "axes 4 and 6 come within {:.1} deg of each other (wrist singularity): small changes of the tool axis there turn joints 4 and 6 far",
+                "axes 4 and 6 come within {:.1} deg of each other (wrist singularity): \
+                 small changes of the tool axis there turn joints 4 and 6 far",
                 angle_of_sine(least) / DEG
             )
         },
@@ -241,7 +244,7 @@ fn angle_of_sine(sine: f64) -> f64 {
     math::atan2(sine, (1.0 - sine * sine).max(0.0).sqrt())
 }
 
-/// What is odd about the cut.
+/// Warnings about the cut.
 fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
     warnings.extend(chip_load(setup, plan));
     if setup.cut.axial_depth > 0.0 && setup.cut.section() == 0.0 {
@@ -273,7 +276,7 @@ fn feed(setup: &Setup, step: &Move) -> f64 {
     if let MovePace::Feed(feed) = step.pace { feed } else { setup.limits.feed }
 }
 
-/// A stated feed per tooth that feed and spindle speed contradict.
+/// A stated feed per tooth that contradicts feed and spindle speed.
 fn chip_load(setup: &Setup, plan: &Plan) -> Option<Warning> {
     let ChipLoad::Fixed(c) = setup.chip else { return None };
     let from_feed = |step: &Move| {
@@ -292,7 +295,7 @@ fn chip_load(setup: &Setup, plan: &Plan) -> Option<Warning> {
     Some(Warning::new("chip-load", message))
 }
 
-/// A feed along the tool axis, which the force model does not know.
+/// A feed along the tool axis, which the force model does not cover.
 fn plunge(plan: &Plan) -> Option<Warning> {
     let trajectory = &plan.trajectory;
     // At rest in a corner the heading only turns.
@@ -314,7 +317,7 @@ fn plunge(plan: &Plan) -> Option<Warning> {
     Some(Warning::new("plunge", message).within(range, trajectory.sample_time))
 }
 
-/// An arc that takes more acceleration across the path than the motion has along it.
+/// An arc that needs more acceleration across the path than the motion's limit along it.
 fn centripetal(setup: &Setup, plan: &Plan) -> Option<Warning> {
     let across = |step: &Move| feed(setup, step) * feed(setup, step) * step.segment.curvature();
     let step = cutting_moves(plan).max_by(|a, b| across(a).total_cmp(&across(b)))?;
@@ -329,7 +332,7 @@ fn centripetal(setup: &Setup, plan: &Plan) -> Option<Warning> {
     (across(step) > setup.limits.acceleration).then(|| Warning::new("centripetal", message))
 }
 
-/// The cut asks for more than the spindle has.
+/// A cut that needs more power than the spindle has.
 fn spindle(report: &Report) -> Option<Warning> {
     let (power, rated) = (report.spindle_power(), report.setup().spindle_power?);
     let message = format!(
@@ -340,7 +343,7 @@ fn spindle(report: &Report) -> Option<Warning> {
     (power > rated).then(|| Warning::new("spindle-power", message))
 }
 
-/// Without the wait, shaping rounds corners: what that costs within half a shaper's way of a stop.
+/// Without the wait, shaping rounds corners: the error within a shaper duration's travel of a stop.
 fn corners(setup: &Setup, plan: &Plan, shaping_only: &Deviation, warnings: &mut Vec<Warning>) {
     let trajectory = &plan.trajectory;
     if trajectory.stops.is_empty() || setup.limits.corner_dwell >= setup.shaper.duration() {

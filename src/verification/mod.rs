@@ -1,5 +1,5 @@
-//! What a program is worth, not the samples it was made from: it is rehearsed before it is written, and
-//! read back after.
+//! The accuracy of a program itself, not of the samples it was made from: it is rehearsed before it
+//! is written, and can be read back afterwards.
 
 mod programs;
 pub mod rehearsal;

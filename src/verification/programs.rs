@@ -1,4 +1,4 @@
-//! The programs of a report: each is rehearsed once, for its accuracy, its header and its file.
+//! The programs of a report. One rehearsal of each serves its accuracy, its header and its file.
 
 use crate::error::Error;
 use crate::export::style::PostStyle;
@@ -9,22 +9,22 @@ use crate::verification::rehearsal::{Rehearsal, rehearse};
 use serde::Serialize;
 use std::sync::OnceLock;
 
-/// Rehearsals of one report's path with the usual thinning; formats that say a path in the same style
-/// share one.
+/// Rehearsals of one report's path with the default thinning; formats that write a path in the same
+/// style share one.
 #[derive(Debug, Default)]
 pub struct Programs {
     rehearsed: [OnceLock<Result<Rehearsal, Error>>; PostStyle::COUNT],
 }
 
-/// What the report's path is worth as a program. Programs hold no times, so a controller times them
+/// Accuracy of the report's path as a program. Programs hold no times, so the controller times them
 /// itself; only joint commands keep the run's timing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ProgramAccuracy {
-    /// Largest contour error that comes out of the program [mm].
+    /// Largest contour error when the program runs [mm].
     pub max_mm: f64,
     /// Whether that is within the job's tolerance.
     pub met: bool,
-    /// The same in words.
+    /// The accuracy in words.
     pub sentence: String,
 }
 
@@ -40,8 +40,8 @@ impl Programs {
     /// The file of the format `id`.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a format that is not in [`export::FORMATS`] or cannot say the path; else see
-    /// [`rehearse`].
+    /// [`Error::Invalid`] for a format that is not in [`export::FORMATS`] or cannot express the
+    /// path; otherwise see [`rehearse`].
     pub fn export(&self, report: &Report, id: &str, options: &ExportOptions) -> Result<Export, Error> {
         let format = export::format(id)?;
         let Some(style) = PostStyle::of(format, report) else { return Ok(export::table(report, format)) };
@@ -56,10 +56,10 @@ impl Programs {
         export::program(report, format, commanded_path, command)
     }
 
-    /// What the path is worth as a program of the format `id` with the usual thinning.
+    /// Accuracy of the path as a program of the format `id` with the default thinning.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a format that is no program; else see [`rehearse`].
+    /// [`Error::Invalid`] for a format that is not a program; otherwise see [`rehearse`].
     pub fn accuracy(&self, report: &Report, id: &str) -> Result<ProgramAccuracy, Error> {
         let format = export::format(id)?;
         let style = PostStyle::of(format, report)

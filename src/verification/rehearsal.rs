@@ -1,9 +1,11 @@
-//! The commanded_path of a program, tuned to the program's own timing.
+//! The commanded path of a program, tuned to the program's own timing.
 //!
-//! The report's correction belongs to the clock of the desired path. A program tells positions and feeds; what runs it plans the
-//! motion anew along the commanded path, which bends and is longer, so it comes a little earlier or later to each place, and a shaper or a force
-//! that follows the feed makes an error of that. Each pass runs the program as it would be written and adds what is missing, as
-//! [`compensate`](crate::compensation::compensate) does, filed under the instants that its samples stand for.
+//! The report's correction follows the timing of the desired path. A program holds positions and
+//! feeds, and the controller re-times it along the commanded path, which bends and is longer. It
+//! reaches each place a little earlier or later, and a shaper or a force that follows the feed
+//! turns that into an error. Each pass simulates the program as it would be written and adds the
+//! missing correction, as [`compensate`](crate::compensation::compensate) does, at the instants of
+//! the report's run that its samples correspond to.
 
 use crate::compensation;
 use crate::cutting::along::ChipLoad;
@@ -16,25 +18,28 @@ use crate::report::Report;
 use crate::verification::replay::{self, Replay};
 use nalgebra::Vector3;
 
-/// A pass that leaves more than this share of the error is no improvement.
+/// A pass that leaves more than this share of the error does not count as an improvement.
 const IMPROVEMENT: f64 = 0.99;
-/// Where the force follows the feed, a bend of the commanded path changes the speed along the desired one, so the force and the next bend: what is
-/// shorter than this [s] would feed on itself and is smoothed out. Tried on lines, arcs and circles: half of it grows, twice of it hardly corrects.
+/// Time constant of the smoothing [s]. Where the force follows the feed, a bend in the commanded
+/// path changes the speed along the desired one, hence the force and the next bend. Anything
+/// shorter than this would feed back on itself. Found by trial on lines, arcs and circles: with
+/// half of it the error grows, with twice of it hardly anything is corrected.
 const SMOOTHING: f64 = 0.01;
 
-/// A program that was tried: where it sends the tool, and what is written for it.
+/// A rehearsed program: the commanded path, and the moves written for it.
 #[derive(Debug, Clone)]
 pub struct Rehearsal {
-    /// Where the tool is sent at each of the report's samples.
+    /// The commanded path at each of the report's samples.
     pub commanded_path: CommandedPath,
     /// The moves as written.
     pub command: Command,
-    /// Largest contour error that comes out of them, run with their own timing [m].
+    /// Largest contour error when they run with their own timing [m].
     pub reached: f64,
 }
 
-/// The commanded_path and what is written for it, with the largest contour error it reaches: the report's own, if that keeps the job's tolerance as a
-/// program or nothing was compensated; else the best of as many passes as the job allows.
+/// Rehearses a report's path as a program. The report's own commanded path is kept if it meets the
+/// job's tolerance as a program, or if nothing was compensated. Otherwise the result is the best of
+/// as many passes as the job allows.
 ///
 /// # Errors
 /// See [`Command::new`] and [`replay::run`].
@@ -64,7 +69,7 @@ pub fn rehearse(report: &Report, thinning: Option<f64>, style: PostStyle) -> Res
     Ok(best.0)
 }
 
-/// The commanded_path with what was missing when its program was run.
+/// The commanded path with the correction that was missing when its program ran.
 fn corrected(report: &Report, commanded_path: &CommandedPath, outcome: &Replay) -> CommandedPath {
     let Trajectory { sample_time, moving, .. } = *outcome.trajectory;
     let undone = |missing: Vec<Vector3<f64>>| {
@@ -73,7 +78,7 @@ fn corrected(report: &Report, commanded_path: &CommandedPath, outcome: &Replay) 
             ChipLoad::Fixed(_) => change,
             ChipLoad::FromFeed { .. } => smoothed(change, SMOOTHING / sample_time),
         };
-        filed(&change, &outcome.instants, report)
+        resampled(&change, &outcome.instants, report)
     };
     let known = (commanded_path.correction.as_slice(), &commanded_path.axis);
     let Replay { target, axis, deviation, .. } = outcome;
@@ -82,7 +87,8 @@ fn corrected(report: &Report, commanded_path: &CommandedPath, outcome: &Replay) 
     CommandedPath { correction, axis }
 }
 
-/// Values that follow the given ones with a lag of so many samples, forwards and then backwards, so that none is late.
+/// Values smoothed by a first-order lag of `lag` samples, forwards and then backwards, so that none
+/// is delayed.
 fn smoothed(mut values: Vec<Vector3<f64>>, lag: f64) -> Vec<Vector3<f64>> {
     let share = 1.0 / (1.0 + lag);
     for k in 1..values.len() {
@@ -94,8 +100,9 @@ fn smoothed(mut values: Vec<Vector3<f64>>, lag: f64) -> Vec<Vector3<f64>> {
     values
 }
 
-/// Values at a program's samples as values at the report's; from the end of its motion on they rest.
-fn filed(values: &[Vector3<f64>], instants: &[f64], report: &Report) -> Vec<Vector3<f64>> {
+/// Resamples values from a program's samples to the report's; after the end of the motion they stay
+/// constant.
+fn resampled(values: &[Vector3<f64>], instants: &[f64], report: &Report) -> Vec<Vector3<f64>> {
     let last = values.len() - 1;
     let mut k = 0;
     let at = |instant: usize| {
@@ -108,9 +115,9 @@ fn filed(values: &[Vector3<f64>], instants: &[f64], report: &Report) -> Vec<Vect
         let part = if span > 0.0 { ((t - instants[k]) / span).clamp(0.0, 1.0) } else { 0.0 };
         values[k].lerp(&values[next], part)
     };
-    let mut filed: Vec<_> = (0..report.samples()).map(at).collect();
+    let mut resampled: Vec<_> = (0..report.samples()).map(at).collect();
     let moving = report.plan.trajectory.moving;
-    let arrived = filed[moving - 1];
-    filed[moving..].fill(arrived);
-    filed
+    let arrived = resampled[moving - 1];
+    resampled[moving..].fill(arrived);
+    resampled
 }

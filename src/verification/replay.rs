@@ -1,9 +1,10 @@
-//! What comes out of a program, not of the samples it was made from: it is sent through the whole model.
+//! Simulates a program itself, not the samples it was made from, through the whole model.
 //!
-//! This run has its own timing: the program's moves, feeds, corners and waits, under the job's acceleration. The cut is the
-//! part's, though, not the command's: force follows the desired path's direction where the run has come to, as in the run that made the
-//! program. Each point of the program stands for the instant of that run at which the same point was commanded; thinned moves
-//! never stray further from those points than they may be thinned.
+//! The run has its own timing: the program's moves, feeds, corners and waits, under the job's
+//! acceleration. The cut, however, belongs to the part, not to the command: the force follows the
+//! direction of the desired path at the place reached, as in the run that made the program. Each
+//! point of the program corresponds to the instant of that run at which the same point was
+//! commanded. Thinned moves stray from those points by no more than the thinning tolerance.
 
 use crate::cutting::along;
 use crate::deviation::{Deviation, Reference, Sources, simulate};
@@ -21,18 +22,19 @@ use crate::verification::Programs;
 use nalgebra::Vector3;
 use std::sync::Arc;
 
-/// The outcome of a program.
+/// The outcome of a simulated program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replay {
-    /// The desired motion that its samples stand for.
+    /// The desired motion that its samples correspond to.
     pub trajectory: Arc<Trajectory>,
-    /// The desired path's points where the shaped motion is [m].
+    /// Points of the desired path at the shaped motion [m].
     pub target: Vec<Vector3<f64>>,
-    /// Its tool axes there.
+    /// Tool axes of the desired path at these points.
     pub axis: Axes,
-    /// What becomes of its commands, every source acting, judged against the path first desired.
+    /// Deviation of its commands from the original desired path, every source acting.
     pub deviation: Deviation,
-    /// For each sample the instant of the report's run that it stands for, in samples; it never goes back.
+    /// For each sample, the corresponding instant of the report's run, in samples; never
+    /// decreasing.
     pub instants: Vec<f64>,
 }
 
@@ -48,11 +50,11 @@ impl Replay {
     }
 }
 
-/// Reads the file of the format `id` (`gcode`, `apt` or `path-csv`) back and runs it.
+/// Reads back the file of the format `id` (`gcode`, `apt` or `path-csv`) and simulates it.
 ///
 /// # Errors
-/// [`Error::Invalid`] for a format that has no reader; else see [`Programs::export`], the readers and
-/// [`run`].
+/// [`Error::Invalid`] for a format that has no reader; otherwise see [`Programs::export`], the
+/// readers and [`run`].
 pub fn read_back(
     report: &Report,
     programs: &Programs,
@@ -67,7 +69,7 @@ pub fn read_back(
     run(report, &commanded_path, &read(id, &text)?)
 }
 
-/// Reads a program that was written in the format `id`.
+/// Reads a program written in the format `id`.
 fn read(id: &str, text: &str) -> Result<Program, Error> {
     match id {
         "gcode" => {
@@ -82,14 +84,16 @@ fn read(id: &str, text: &str) -> Result<Program, Error> {
     }
 }
 
-/// Runs a program that sends the tool along `commanded_path`.
+/// Simulates a program that sends the tool along `commanded_path`.
 ///
 /// # Errors
-/// [`Error::Missing`] for a program without a move; [`Error::Unreachable`] where it is out of reach.
+/// [`Error::Missing`] for a program without a move; [`Error::Unreachable`] where it is out of
+/// reach.
 pub fn run(report: &Report, commanded_path: &CommandedPath, program: &Program) -> Result<Replay, Error> {
     let empty = || Error::Missing { field: "program".into(), expected: "a move".into() };
     let commanded = Path::of_program(program).ok_or_else(empty)?.placed(&report.setup().workpiece);
-    // A program of points says nothing about the roll: the run's own is taken, at the same share of the way.
+    // A program of points does not define the roll: the report's own is used, at the same fraction
+    // of the path.
     let commanded = commanded.rolled_as(&report.plan.path);
     let own = Trajectory::new(&commanded, &report.setup().limits);
     let targets = Targets::desired(&commanded, &own);
@@ -113,15 +117,16 @@ pub fn run(report: &Report, commanded_path: &CommandedPath, program: &Program) -
     Ok(Replay { target, axis, deviation, instants, trajectory: plan.trajectory })
 }
 
-/// For each sample of the program's own motion the instant of the report's, in samples.
-fn instants(told: &[Vector3<f64>], own: &Trajectory) -> Option<Vec<f64>> {
-    let mut along = Vec::with_capacity(told.len());
-    let mut segments = Vec::with_capacity(told.len());
+/// For each sample of the program's own motion, the corresponding instant of the report's run, in
+/// samples.
+fn instants(commanded: &[Vector3<f64>], own: &Trajectory) -> Option<Vec<f64>> {
+    let mut along = Vec::with_capacity(commanded.len());
+    let mut segments = Vec::with_capacity(commanded.len());
     let mut length = 0.0;
     along.push(0.0);
-    for pair in told.windows(2) {
+    for pair in commanded.windows(2) {
         let step = (pair[1] - pair[0]).norm();
-        // Path::new leaves out what has no length; so does this.
+        // Path::new skips segments of zero length, and so does this.
         if step > 0.0 {
             segments.push(Segment::Line { from: pair[0], to: pair[1] });
             length += step;
@@ -136,7 +141,8 @@ fn instants(told: &[Vector3<f64>], own: &Trajectory) -> Option<Vec<f64>> {
         let radius = 3.0 * ((position - last).norm() + (position - path.point(near)).norm()) + 1e-6;
         near = path.closest(position, near, radius).s.clamp(0.0, length);
         last = *position;
-        // Where the report's command rests, many instants share one place: they pass as the program's own rest does.
+        // Where the report's command rests, many instants share one place: they elapse in step with
+        // the program's own rest.
         let first = along.partition_point(|&l| l < near - 1e-9);
         let end = along.partition_point(|&l| l <= near + 1e-9);
         if end > first {
@@ -154,7 +160,7 @@ fn instants(told: &[Vector3<f64>], own: &Trajectory) -> Option<Vec<f64>> {
     Some(own.position.iter().enumerate().map(instant).map(forward).collect())
 }
 
-/// For each sample at rest the share of the rest that is over; 0 for samples that move.
+/// For each sample at rest, the elapsed share of that rest; 0 for samples in motion.
 fn rests(own: &Trajectory) -> Vec<f64> {
     let speed = &own.timing.speed;
     let mut rests = vec![0.0; speed.len()];
@@ -169,9 +175,11 @@ fn rests(own: &Trajectory) -> Vec<f64> {
     rests
 }
 
-/// The desired motion that a run of the program stands for, and the share of its force across the tool axis.
+/// The desired motion that a run of the program corresponds to, and for each sample the share of
+/// the force across the tool axis.
 ///
-/// Where the direction jumps from one instant to the next, the force goes over evenly: the mean of the two, not one of their size in between.
+/// Where the direction jumps from one instant to the next, the force is interpolated as a vector:
+/// halfway it is the mean of the two, and thus smaller than either.
 fn standing_for(report: &Report, own: &Trajectory, instants: &[f64]) -> (Trajectory, Vec<f64>) {
     let original = &*report.plan.trajectory;
     let last = original.len() - 1;

@@ -1,4 +1,4 @@
-//! Charts of a run: what there is, drawings, and the values drawn.
+//! Charts of a run: their list, drawings, and the values drawn.
 
 use crate::chart;
 use crate::column::Column;
@@ -11,9 +11,13 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &'static str = r#"
-export interface ChartEntry { name: string; title: string; view: string; figure: string; kind: "time" | "curve" | "space"; }
+export interface ChartEntry {
+  name: string; title: string; view: string; figure: string; kind: "time" | "curve" | "space";
+}
 export interface ChartColumn { key: string; label: string; unit: string; values: Float64Array; }
-export interface Axis { label: string; unit: string; min: number; max: number; log: boolean; full: [number, number]; }
+export interface Axis {
+  label: string; unit: string; min: number; max: number; log: boolean; full: [number, number];
+}
 export interface Chart {
   name: string; title: string; description: string; svg: string; width: number; height: number;
   plot: { left: number; top: number; width: number; height: number }; x: Axis; y: Axis;
@@ -51,7 +55,7 @@ impl Run {
         object(&chart::charts_of(&self.report))
     }
 
-    /// One chart, drawn in the size asked for.
+    /// One chart, drawn at the requested size.
     #[wasm_bindgen(unchecked_return_type = "Chart")]
     pub fn chart(
         &self,
@@ -62,8 +66,8 @@ impl Run {
         object(&chart::chart(&self.report, name, &options).map_err(|error| thrown(&error))?)
     }
 
-    /// The values that a chart shows, every sample of them: what stands along its first axis (in space:
-    /// the time), then each series.
+    /// All values that a chart shows: those along its first axis (in space, the time), then each
+    /// series.
     #[wasm_bindgen(unchecked_return_type = "ChartColumn[]")]
     pub fn chart_data(
         &self,

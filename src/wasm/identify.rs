@@ -18,7 +18,8 @@ export interface JointSummary {
   mixed_with: number[]; load_factor: number | null; verdict: string; sentence: string;
 }
 export interface StiffnessSummary {
-  robot: string; source: string; rows: number; degrees_of_freedom: number; joint_compliance_rad_per_nm: number[];
+  robot: string; source: string; rows: number; degrees_of_freedom: number;
+  joint_compliance_rad_per_nm: number[];
   explained: number; residual_rms_mm: number; standard_deviation_mm: number; mean_relative_residual: number;
   mean_relative_left_out: number; condition: number | null; joints: JointSummary[];
   residuals: { line: number; measured_mm: number; fitted_mm: number; residual_mm: number; left_out_mm: number }[];
@@ -36,7 +37,7 @@ export interface ResponseSummary {
 export type Identification = StiffnessSummary | ResponseSummary;
 "#;
 
-/// Something identified from measurements.
+/// A result identified from measurements.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct Identified {
@@ -49,8 +50,8 @@ enum Found {
     Response(response::Signal, Box<Mode>, summary::ResponseSummary),
 }
 
-/// Joint compliances of a job's robot from rows of joint angles, force and displacement; `convention`
-/// is `table` or `coupled-j3`.
+/// Joint compliances of a job's robot from rows of joint angles, force and displacement;
+/// `convention` is `table` or `coupled-j3`.
 #[wasm_bindgen]
 pub fn identify_stiffness(job: &str, text: &str, convention: &str) -> Result<Identified, JsValue> {
     let identify = || {
@@ -65,8 +66,8 @@ pub fn identify_stiffness(job: &str, text: &str, convention: &str) -> Result<Ide
     identify().map_err(|error: Error| thrown(&error))
 }
 
-/// Frequency and damping from rows of time and signal, from the instant `from_s` on (from the largest
-/// excursion unless given).
+/// Frequency and damping from rows of time and signal, from the instant `from_s` on (by default
+/// from the largest excursion).
 #[wasm_bindgen]
 pub fn identify_response(text: &str, from_s: Option<f64>) -> Result<Identified, JsValue> {
     let identify = || {
@@ -80,7 +81,7 @@ pub fn identify_response(text: &str, from_s: Option<f64>) -> Result<Identified, 
 
 #[wasm_bindgen]
 impl Identified {
-    /// What was found: joint compliances, or a vibration.
+    /// The result: joint compliances, or a vibration.
     #[wasm_bindgen(unchecked_return_type = "Identification")]
     pub fn summary(&self) -> Result<JsValue, JsValue> {
         match &self.found {
@@ -89,7 +90,7 @@ impl Identified {
         }
     }
 
-    /// Measurements and fit, drawn in the size asked for.
+    /// Measurements and fit, drawn at the requested size.
     #[wasm_bindgen(unchecked_return_type = "Chart")]
     pub fn chart(
         &self,

@@ -1,4 +1,4 @@
-//! What goes into a job: its check, its inputs, the libraries.
+//! Job input: its check, its fields, the libraries.
 
 use crate::export::FORMATS;
 use crate::job::fields as table;
@@ -22,7 +22,9 @@ export interface Field {
   min?: number; max?: number; default: FieldValue; defaults?: Record<string, FieldValue>;
   help: string; when?: { path: string; is: string[] };
 }
-export interface DhRow { alpha_deg: number; a_mm: number; d_mm: number; theta_offset_deg: number; joint_sign: number; }
+export interface DhRow {
+  alpha_deg: number; a_mm: number; d_mm: number; theta_offset_deg: number; joint_sign: number;
+}
 export interface Opw {
   a1_mm: number; a2_mm: number; b_mm: number; c1_mm: number; c2_mm: number; c3_mm: number; c4_mm: number;
   joint_sign: number[]; joint_offset_deg: number[];
@@ -47,7 +49,7 @@ pub fn default_job() -> String {
     Job::default().to_json()
 }
 
-/// Checks a job without computing it; throws what is wrong.
+/// Checks a job without computing it; throws an error if it is invalid.
 #[wasm_bindgen]
 pub fn check(json: &str) -> Result<(), JsValue> {
     let setup = Job::from_json(json).and_then(|job| Setup::of(&job, &mut Progress::none()));
@@ -66,22 +68,22 @@ pub fn presets() -> Result<JsValue, JsValue> {
     object(&libraries::presets())
 }
 
-/// Every kind of file that a run can be exported to.
+/// Every export format.
 #[wasm_bindgen(unchecked_return_type = "Format[]")]
 pub fn formats() -> Result<JsValue, JsValue> {
     object(&FORMATS.to_vec())
 }
 
-/// Where a job's arm stands with all joint values zero: base, six joints and TCP in the base frame,
-/// each as origin [mm] and x, y, z axes (12 numbers). Throws what is wrong with the robot.
+/// Frames of a job's arm with all joint values zero: base, six joints and TCP in the base frame,
+/// each as origin [mm] and x, y, z axes (12 numbers). Throws an error if the robot is invalid.
 #[wasm_bindgen]
 pub fn arm(json: &str) -> Result<Float64Array, JsValue> {
     let robot = Job::from_json(json).and_then(|job| setup::robot(&job)).map_err(|error| thrown(&error))?;
     Ok(Float64Array::from(scene::arm(&robot, &Joints::zeros()).as_slice()))
 }
 
-/// The x, y, z [mm] of the workpiece frame that bring the path in front of the robot. Throws if no
-/// place there holds it.
+/// The x, y, z [mm] of the workpiece frame that bring the path in front of the robot. Throws an
+/// error if it fits no place there.
 #[wasm_bindgen]
 pub fn place_in_front(json: &str) -> Result<Float64Array, JsValue> {
     let place = Job::from_json(json).and_then(|job| placement::in_front(&job));

@@ -1,9 +1,9 @@
 //! The boundary to JavaScript, the only folder that knows it; its files mirror the core's modules.
 //!
-//! A job comes in as JSON text, so that every mistake keeps its line and column. Options come in and
-//! results go out as small typed objects (serde-wasm-bindgen), columns as `Float64Array`, drawings as
-//! strings. Errors cross as `Error` objects with `code`, `message` and, where they apply, `field`,
-//! `line` and `column`.
+//! A job comes in as JSON text, so that every error keeps its line and column. Options come in and
+//! results go out as small typed objects (serde-wasm-bindgen), columns as `Float64Array`, drawings
+//! as strings. Errors cross as `Error` objects with `code`, `message` and, where they apply,
+//! `field`, `line` and `column`.
 
 mod error;
 mod options;
@@ -53,7 +53,7 @@ pub fn trap() {
     }
 }
 
-/// Plain data as a JavaScript object; what is absent is `null` unless its type leaves it out.
+/// Plain data as a JavaScript object; absent values are `null` unless their type omits them.
 fn object<T: Serialize>(value: &T) -> Result<JsValue, JsValue> {
     Ok(value.serialize(&Serializer::json_compatible())?)
 }

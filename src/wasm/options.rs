@@ -1,4 +1,4 @@
-//! Options as JavaScript gives them: read into a type, refused with the key that is wrong.
+//! Options from JavaScript: read into a type, or refused with an error that names the wrong key.
 
 use crate::chart::{self, ForceUnit, Units};
 use crate::error::Error;
@@ -13,7 +13,9 @@ use wasm_bindgen::{JsCast, JsValue};
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &'static str = r#"
 export interface ChartUnits { length?: "mm" | "inch"; force?: "N" | "lbf"; }
-export interface ChartOptions extends ChartUnits { width: number; height: number; x_range?: [number, number]; y_range?: [number, number]; hidden?: string[]; }
+export interface ChartOptions extends ChartUnits {
+  width: number; height: number; x_range?: [number, number]; y_range?: [number, number]; hidden?: string[];
+}
 "#;
 
 /// `length` of the options.
@@ -35,7 +37,7 @@ enum Force {
     Lbf,
 }
 
-/// Units to read a chart in; mm and N unless given.
+/// Units of a chart; mm and N by default.
 #[derive(Deserialize)]
 #[serde(default)]
 #[derive(Default)]
@@ -82,7 +84,7 @@ fn chosen(length: Length, force: Force) -> Units {
     Units { length, force }
 }
 
-/// Reads a struct; none at all counts as an empty object.
+/// Reads a struct; `undefined` counts as an empty object.
 fn read<T: DeserializeOwned>(options: JsValue) -> Result<T, JsValue> {
     let options = if options.is_undefined() { Object::new().into() } else { options };
     serde_path_to_error::deserialize(Strict(&options)).map_err(|error| {
@@ -111,8 +113,8 @@ fn refused(path: &str, message: &str, options: &JsValue) -> Error {
     }
 }
 
-/// serde-wasm-bindgen's deserializer, which passes over keys that a struct does not have; this one
-/// refuses them.
+/// serde-wasm-bindgen's deserializer ignores keys that a struct does not have; this one refuses
+/// them.
 struct Strict<'a>(&'a JsValue);
 
 impl<'de> Deserializer<'de> for Strict<'_> {

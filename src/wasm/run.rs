@@ -1,4 +1,4 @@
-//! A run: a job computed, its figures and columns.
+//! A run: a computed job, its figures and columns.
 
 use crate::error::Error;
 use crate::report::Report;
@@ -14,21 +14,29 @@ use wasm_bindgen::prelude::wasm_bindgen;
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &'static str = r#"
 export interface Statistics { mean: number; max: number; }
-export interface Warning { code: string; message: string; from_sample?: number; to_sample?: number; from_s?: number; to_s?: number; }
+export interface Warning {
+  code: string; message: string; from_sample?: number; to_sample?: number; from_s?: number; to_s?: number;
+}
 export interface Parts { joints: number[]; tool: number; shaping: number; total: number; }
 export interface Budget { sample: number; time_s: number; worst_mm: Parts; mean_mm: Parts; sentence: string; }
 export interface Understood {
-  language: "gcode" | "apt" | "csv"; unit: string; lines: number; cutting_moves: number; rapid_moves: number; multi_axis: boolean;
+  language: "gcode" | "apt" | "csv"; unit: string; lines: number; cutting_moves: number; rapid_moves: number;
+  multi_axis: boolean;
   lowest_mm: [number, number, number]; highest_mm: [number, number, number]; feeds_mm_s?: [number, number];
   ignored: { word: string; lines: number[] }[];
 }
 export interface Effort { joint_travel_deg: number; joint_speed_deg_s: number; error_mm: number; }
-export interface SpinGain { used_deg: [number, number]; fixed_deg: number; free: Effort; fixed?: Effort; sentence: string; }
+export interface SpinGain {
+  used_deg: [number, number]; fixed_deg: number; free: Effort; fixed?: Effort; sentence: string;
+}
 export interface CutFigures {
-  ktc_n_mm2: number; krc_n_mm2: number; kac_n_mm2: number; kte_n_mm: number; kre_n_mm: number; kae_n_mm: number;
-  diameter_mm: number; corner_radius_mm: number; axial_depth_mm: number; feed_per_tooth_mm: number; mean_chip_mm: number;
-  section_mm2: number; removal_cm3_min: number; peak_force_n: number; torque_nm: number; tooth_passing_hz: number; power_kw: number;
-  entry_deg?: number; exit_deg?: number; radial_depth_mm?: number; spindle_power_kw?: number; tool_bending_um_n?: number;
+  ktc_n_mm2: number; krc_n_mm2: number; kac_n_mm2: number;
+  kte_n_mm: number; kre_n_mm: number; kae_n_mm: number;
+  diameter_mm: number; corner_radius_mm: number; axial_depth_mm: number;
+  feed_per_tooth_mm: number; mean_chip_mm: number; section_mm2: number; removal_cm3_min: number;
+  peak_force_n: number; torque_nm: number; tooth_passing_hz: number; power_kw: number;
+  entry_deg?: number; exit_deg?: number; radial_depth_mm?: number;
+  spindle_power_kw?: number; tool_bending_um_n?: number;
   made_at_chip_mm?: number; spread_percent?: number; kc11_n_mm2?: number; mc?: number;
 }
 export interface WallFigures {
@@ -36,16 +44,21 @@ export interface WallFigures {
   by_mean_force_mm: number; by_mean_force_max_mm: number; at_instant_mm: number; at_instant_max_mm: number;
 }
 export interface Summary {
-  fingerprint: string; samples: number; duration_s: number; path_length_mm: number; mean_force_n: [number, number, number];
+  fingerprint: string; samples: number; duration_s: number; path_length_mm: number;
+  mean_force_n: [number, number, number];
   material: string; material_note: string; cut: CutFigures; walls: WallFigures[];
-  before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics }; after_mm: Statistics; budget: Budget;
-  before_axis_deg: Statistics; after_axis_deg: Statistics; program?: Understood; spin?: SpinGain;
-  passes: number; converged: boolean; tolerance_mm: number; history_max_mm: number[]; history_mean_mm: number[];
-  verdict: string; robot: string; inverse: "closed form" | "numerically"; stiffness: string; branch: string; warnings: Warning[];
+  before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics };
+  after_mm: Statistics; budget: Budget; before_axis_deg: Statistics; after_axis_deg: Statistics;
+  program?: Understood; spin?: SpinGain;
+  passes: number; converged: boolean; tolerance_mm: number;
+  history_max_mm: number[]; history_mean_mm: number[]; verdict: string;
+  robot: string; inverse: "closed form" | "numerically"; stiffness: string; branch: string;
+  warnings: Warning[];
 }
 "#;
 
-/// Computes a job; `on_progress(fraction, stage)` is called at intervals. Throws what is wrong.
+/// Computes a job; `on_progress(fraction, stage)` is called at intervals. Throws an error if the
+/// job is invalid or cannot be computed.
 #[wasm_bindgen]
 pub fn run(
     json: &str,
@@ -67,11 +80,11 @@ pub fn run(
 #[derive(Debug)]
 pub struct Run {
     pub(super) report: Report,
-    /// Its path as programs, each tried once.
+    /// Its path as programs, each rehearsed once.
     pub(super) programs: Programs,
 }
 
-/// What a column is.
+/// Key, label and unit of a column.
 #[derive(Serialize)]
 struct Head {
     key: String,
@@ -81,7 +94,7 @@ struct Head {
 
 #[wasm_bindgen]
 impl Run {
-    /// The figures a person reads first.
+    /// The headline figures.
     #[wasm_bindgen(unchecked_return_type = "Summary")]
     pub fn summary(&self) -> Result<JsValue, JsValue> {
         object(&self.report.summary())
@@ -95,7 +108,7 @@ impl Run {
         object(&heads.collect::<Vec<_>>())
     }
 
-    /// One column, one value a sample.
+    /// One column, one value per sample.
     pub fn column(&self, key: &str) -> Result<Float64Array, JsValue> {
         let series = self.report.series().into_iter().find(|series| series.key == key);
         let series = series.ok_or_else(|| {
@@ -104,15 +117,16 @@ impl Run {
         Ok(Float64Array::from(series.column().values.as_slice()))
     }
 
-    /// Where the arm stands at a sample: base, six joints, TCP and workpiece in the base frame, each as
-    /// origin [mm] and x, y, z axes (12 numbers).
+    /// Frames at a sample: base, six joints, TCP and workpiece in the base frame, each as origin
+    /// [mm] and x, y, z axes (12 numbers).
     pub fn frames(&self, sample: usize) -> Float64Array {
         Float64Array::from(self.report.frames(sample).as_slice())
     }
 
-    /// The paths for a picture in space, in at most about `most` rows of 17 numbers: sample, whether it
-    /// cuts, then x, y, z [mm] of the desired point, the closest point of the desired path, the ways
-    /// from there to the actual tip before and after compensation, and the correction to command.
+    /// The paths for a picture in space, in at most about `most` rows of 17 numbers: sample,
+    /// whether it cuts, then x, y, z [mm] of the desired point, the closest point of the desired
+    /// path, the vectors from the path to the actual tip before and after compensation, and the
+    /// correction to command.
     pub fn track(&self, most: usize) -> Float64Array {
         Float64Array::from(self.report.track(most).as_slice())
     }

@@ -9,7 +9,9 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &'static str = r#"
-export interface ThesisRow { quantity: string; source: string; printed: string; ours: string; agrees: boolean; reason: string; }
+export interface ThesisRow {
+  quantity: string; source: string; printed: string; ours: string; agrees: boolean; reason: string;
+}
 "#;
 
 /// The thesis's printed figures beside ours, for the default job.

@@ -1,8 +1,8 @@
 //! The compensated path as APT cutter location text (CLDATA, ISO 3592 in its readable form).
 //!
-//! `UNITS`, `MULTAX` where the tool axis is given, `SPINDL`, `RAPID` before each move that it is
-//! for, `FEDRAT` where it changes, `DELAY` in seconds, `GOTO` with x, y, z and, where the axis is
-//! not +Z all along, i, j, k. Comments start with `$$`.
+//! `UNITS`, `MULTAX` where the tool axis is given, `SPINDL`, `RAPID` before each rapid move,
+//! `FEDRAT` where the feed changes, `DELAY` in seconds, `GOTO` with x, y, z and, unless the axis is
+//! +Z throughout, i, j, k. Comments start with `$$`.
 
 use super::{Dialect, PostedStep};
 use crate::export::command::{Command, CommandedMove};
@@ -63,7 +63,7 @@ impl Dialect for Apt {
         format!("DELAY/{}", number(time, 4))
     }
 
-    /// A rapid has none: the feed before it stays in force.
+    /// A rapid has none: the previous feed stays in force.
     fn feed(&self, commanded: &CommandedMove) -> Option<String> {
         let unit = if self.inch { "IPM" } else { "MMPM" };
         let feed = number(commanded.feed / (self.size() * RPM), 4);

@@ -3,11 +3,11 @@
 //! `L P[i] ... mm/sec FINE` to each point in user frame 1 with tool frame 1; lengths in mm, W, P, R
 //! [deg] about the fixed x, y and z axes. Frames are numbers on the controller, so their values are
 //! stated in remarks. `FINE` stops exactly at every point. `CONFIG` is written `N U T, 0, 0, 0`
-//! throughout: it depends on the controller's own joint zeros, so the arm must start in the
-//! configuration wanted.
+//! throughout: it depends on the controller's own joint zeros, so the arm must start in the desired
+//! configuration.
 //!
-//! The layout follows listings in the open; it was not tried on a controller. Long programs may
-//! exceed the controller's memory or its number of lines: state a coarser thinning, or split them.
+//! The layout follows published listings; it has not been tried on a controller. Long programs may
+//! exceed the controller's memory or its limit on lines: state a coarser thinning, or split them.
 
 use super::{Dialect, PostedStep};
 use crate::export::command::Command;

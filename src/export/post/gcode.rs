@@ -1,7 +1,7 @@
 //! The compensated path as G-code (RS-274, ISO 6983).
 //!
-//! Points are absolute, in the workpiece frame, in the original's unit of length: its work offsets
-//! and tool lengths are in them already. I, J and K count from the start of the arc (G91.1); P
+//! Points are absolute, in the workpiece frame, in the original's unit of length: they already
+//! include its work offsets and tool lengths. I, J and K count from the start of the arc (G91.1); P
 //! counts turns where an arc has more than one.
 
 use super::{Dialect, PostedStep};
@@ -64,7 +64,7 @@ pub(super) fn comment(text: &str) -> String {
     format!("({text})")
 }
 
-/// A rest [s].
+/// A dwell [s].
 pub(super) fn wait(time: f64) -> String {
     format!(
         "G4 P{} (seconds at rest, until the shaped command has settled or as programmed)",
@@ -72,7 +72,7 @@ pub(super) fn wait(time: f64) -> String {
     )
 }
 
-/// The words of one move after the other: a word that is still in force is left out.
+/// Writes the words of one move after another; a word that is still in force is left out.
 pub(super) struct MoveWords {
     inch: bool,
     /// Where the tool is [m].
@@ -89,7 +89,7 @@ impl MoveWords {
     /// The words before the first move.
     ///
     /// # Errors
-    /// [`Error::Invalid`] if the tool axis is other than +Z anywhere: three axes cannot say it.
+    /// [`Error::Invalid`] if the tool axis differs from +Z anywhere: three axes cannot express it.
     pub(super) fn new(command: &Command) -> Result<Self, Error> {
         if command.is_tilted() {
             return Err(Error::Invalid {
@@ -107,13 +107,13 @@ impl MoveWords {
         if self.inch { INCH } else { MM }
     }
 
-    /// The modes that the moves count on.
+    /// The modes that the moves rely on.
     pub(super) fn modes(&self) -> String {
         let unit = if self.inch { "G20" } else { "G21" };
         format!("{unit} G17 G40 G49 G80 G90 G94")
     }
 
-    /// The rapid to where the command starts.
+    /// The rapid to the start of the command.
     pub(super) fn start(&mut self, command: &Command) -> String {
         self.words(&Step { to: command.start, arc: None }, None)
     }

@@ -5,8 +5,8 @@
 //! exactly at every point, which is right but slow; the file says where to turn blending on. The
 //! first move is a `PTP` that keeps the arm's present status and turn.
 //!
-//! The language was followed from programs and post-processors in the open (`BAS(#INITMOV,0)`,
-//! FRAME aggregates, `WAIT SEC`), not tried on a controller.
+//! The syntax follows published programs and post-processors (`BAS(#INITMOV,0)`, FRAME aggregates,
+//! `WAIT SEC`); it has not been tried on a controller.
 
 use super::{Dialect, PostedStep};
 use crate::export::command::{Command, CommandedMove};

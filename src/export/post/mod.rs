@@ -1,9 +1,9 @@
 //! Programs for machines and robots: one driver, one `Dialect` for each controller.
 //!
-//! The driver walks the moves of a [`Command`] once and follows what changes from one to the next:
-//! the line of the original program, the spindle, the feed, a wait. A dialect has the words for
-//! each of these. Another controller takes a file with its dialect here, its line in [`program`],
-//! and its row in [`FORMATS`](crate::export::FORMATS).
+//! The driver walks the moves of a [`Command`] once and tracks what changes from one to the next:
+//! the line of the original program, the spindle, the feed, a wait. A dialect provides the words
+//! for each of these. To support another controller, add a file with its dialect here, a line in
+//! [`program`], and a row in [`FORMATS`](crate::export::FORMATS).
 //!
 //! A program that was read from G-code is not written from scratch but `rewritten`: it keeps its
 //! lines.
@@ -26,8 +26,8 @@ use crate::report::Report;
 /// Writes the program of the format `id`.
 ///
 /// # Errors
-/// [`Error::Invalid`] for a format that is no program, and for G-code if the tool axis is other
-/// than +Z anywhere.
+/// [`Error::Invalid`] for a format that is not a program, and for G-code if the tool axis differs
+/// from +Z anywhere.
 pub fn program(report: &Report, command: &Command, id: &str) -> Result<String, Error> {
     Ok(match id {
         "gcode" => match rewritten::original(report, command) {
@@ -43,25 +43,26 @@ pub fn program(report: &Report, command: &Command, id: &str) -> Result<String, E
     })
 }
 
-/// The language of a controller. A text is one line of the program or several, without the last
+/// The language of a controller. Each text is one or more lines of the program, without the final
 /// line break.
 trait Dialect {
-    /// Everything before the first move: `header` as comments, the frames, the way to the start.
+    /// Everything before the first move: `header` as comments, the frames, the approach to the
+    /// start.
     fn opening(&mut self, report: &Report, command: &Command, header: &[String]) -> Vec<String>;
 
     /// A comment among the moves.
     fn comment(&self, text: &str) -> String;
 
-    /// Another spindle speed [rev/min].
+    /// A change of spindle speed [rev/min].
     fn spindle(&self, rpm: f64) -> String {
         self.comment(&format!("spindle clockwise at {} rpm: switch it by your own signals", number(rpm, 2)))
     }
 
-    /// A rest [s].
+    /// A dwell [s].
     fn wait(&self, time: f64) -> String;
 
     /// The feed of a move, where it differs from the last one written. `None` if it needs no line
-    /// of its own here; the next move is asked again.
+    /// of its own here; the next move then gets another chance.
     fn feed(&self, _commanded: &CommandedMove) -> Option<String> {
         None
     }
@@ -78,7 +79,7 @@ trait Dialect {
     }
 }
 
-/// A step of a move, as a dialect is asked to write it.
+/// A step of a move for a dialect to write.
 struct PostedStep<'a> {
     /// Its end, and the arc to it if it is not straight.
     step: &'a Step,
@@ -90,7 +91,7 @@ struct PostedStep<'a> {
     stops: bool,
 }
 
-/// The command in a dialect.
+/// Writes the command in a dialect.
 fn write(report: &Report, command: &Command, dialect: &mut dyn Dialect) -> String {
     let mut lines = dialect.opening(report, command, &header::lines(report, Some(command)));
     let (mut line, mut spindle, mut feed) = (0, None, None);

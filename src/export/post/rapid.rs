@@ -3,10 +3,10 @@
 //! `MoveL` to each point in a work object, with the tip as tool; lengths in mm, quaternions with
 //! the scalar first, speeds in mm/s. Stops are `fine`, points in between `z0`, the smallest zone,
 //! which still rounds (0.3 mm at most): the file says so. The configuration is not asserted
-//! (`ConfL\Off`), since the model's joint zeros may be others than the controller's.
+//! (`ConfL\Off`), since the model's joint zeros may differ from the controller's.
 //!
 //! The layout of robtarget, tooldata, wobjdata and speeddata follows ABB's published data types; it
-//! was not tried on a controller.
+//! has not been tried on a controller.
 
 use super::{Dialect, PostedStep};
 use crate::export::command::Command;

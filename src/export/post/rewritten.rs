@@ -1,9 +1,9 @@
-//! A program read from G-code with its compensated path.
+//! Rewrites a program read from G-code with its compensated path.
 //!
-//! It keeps its lines, block numbers, comments, spindle and auxiliary words; only what gives
-//! positions, modes and feeds is replaced. A block that stays one straight move or one arc stays
-//! one block; others are split within the thinning tolerance, arcs into arcs where these are fewer,
-//! behind a comment with the original.
+//! The program keeps its lines, block numbers, comments, spindle and auxiliary words; only the
+//! words for positions, modes and feeds are replaced. A block that remains one straight move or one
+//! arc remains one block. Others are split within the thinning tolerance, arcs into arcs where that
+//! takes fewer moves, after a comment with the original.
 
 use super::gcode::{self, MoveWords};
 use crate::error::Error;
@@ -20,7 +20,7 @@ const REPLACED: [char; 9] = ['X', 'Y', 'Z', 'F', 'I', 'J', 'K', 'R', 'P'];
 /// Codes that are replaced in every block.
 const MOTION: [&str; 7] = ["G0", "G1", "G2", "G3", "G17", "G18", "G19"];
 
-/// The program to rewrite, where there is one whose lines the command follows.
+/// The program to rewrite, if there is one and the command follows the order of its lines.
 pub(super) fn original<'r>(report: &'r Report, command: &Command) -> Option<&'r SourceProgram> {
     let follows = || command.moves.is_sorted_by_key(|commanded| commanded.line);
     report.setup().program.as_ref().filter(|listing| listing.language == "gcode" && follows())
@@ -58,8 +58,8 @@ pub(super) fn program(report: &Report, command: &Command, original: &SourceProgr
     Ok(writer.text)
 }
 
-/// Whether a program says what I, J and K count from. Its control then knows G91.1; others might
-/// refuse it.
+/// Whether a program states what I, J and K are relative to. Its control then knows G91.1; others
+/// might refuse it.
 fn chooses_centers(original: &SourceProgram) -> bool {
     let chooses =
         |line| OriginalLine::of(line).code.split(' ').any(|word| ["G90.1", "G91.1"].contains(&word));
@@ -83,7 +83,7 @@ impl Writer {
         }
     }
 
-    /// One line of the original, with what its moves have become.
+    /// Writes one line of the original with its commanded moves.
     fn rewrite(&mut self, line: &OriginalLine, moves: &[&CommandedMove]) {
         if let Some(first) = moves.first() {
             self.wait(first);
@@ -95,8 +95,8 @@ impl Writer {
             _ => String::new(),
         };
         let after = if stays || steps == 0 { line.after.as_str() } else { "" };
-        let said = stays && line.simple || !line.dropped;
-        let was = if said { String::new() } else { format!("(was: {})", line.code) };
+        let kept = stays && line.simple || !line.dropped;
+        let was = if kept { String::new() } else { format!("(was: {})", line.code) };
         self.line(&joined(&[&line.number, &line.before, &one, after, &line.comments, &was]));
         if stays || steps == 0 {
             return;
@@ -120,21 +120,21 @@ fn joined(parts: &[&str]) -> String {
     parts.iter().filter(|part| !part.trim().is_empty()).map(|part| part.trim()).collect::<Vec<_>>().join(" ")
 }
 
-/// A line of the original, taken apart.
+/// A line of the original, split into its parts.
 struct OriginalLine {
     /// Its words without blanks inside, comments left out, upper case.
     code: String,
     /// The block number.
     number: String,
-    /// Words that stay, before the motion.
+    /// Words kept before the motion.
     before: String,
-    /// Words that stay, after the motion.
+    /// Words kept after the motion.
     after: String,
     /// Its comments.
     comments: String,
-    /// Whether it has words that do not stay.
+    /// Whether some of its words are dropped.
     dropped: bool,
-    /// Whether these are no more than a motion, its plane, positions and a feed.
+    /// Whether the dropped words are only a motion, its plane, positions and a feed.
     simple: bool,
 }
 
@@ -151,7 +151,7 @@ impl OriginalLine {
             simple: true,
         };
         if original.is_optional() {
-            // Its words act or not by a switch on the control, which a move could not follow.
+            // A switch on the control decides whether its words act; a move could not follow that.
             (original.dropped, original.simple) = (true, false);
             return original;
         }
@@ -185,7 +185,7 @@ impl OriginalLine {
     }
 
     /// Whether the header may follow this line, if it makes no move: the tape mark and the
-    /// program's number must be first, and what does not count may stand before them.
+    /// program's number must come first, and lines without effect may precede them.
     fn precedes_header(&self) -> bool {
         self.code.is_empty() || self.is_optional() || self.before.contains(['%', 'O'])
     }
@@ -206,7 +206,7 @@ fn words_and_comments(line: &str) -> (Vec<String>, String) {
                 let word: String = token.text.split_whitespace().collect();
                 let word = word.to_ascii_uppercase();
                 match words.last_mut() {
-                    // Only where no control reads, a number can be parted from its letter.
+                    // A number apart from its letter occurs only in a line that no control accepts.
                     Some(last) if word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) => {
                         last.push_str(&word);
                     }
@@ -244,13 +244,13 @@ mod tests {
             ("O1000", vec!["O1000"], ""),
             ("/2 G1 X 1 . 5", vec!["/2", "G1", "X1.5"], ""),
             ("\u{feff}G91.1", vec!["\u{feff}", "G91.1"], ""),
-            // What no control reads.
+            // Lines that no control accepts.
             ("X(a)1 \u{a0}2 (b(c)d)", vec!["X12", "D"], "(a)(b(c))"),
             ("5#\u{e4} (open", vec!["5", "#", "\u{e4}"], "(open"),
         ] {
-            let (found, said) = words_and_comments(line);
+            let (found, remarks) = words_and_comments(line);
             assert_eq!(
-                (found, said.as_str()),
+                (found, remarks.as_str()),
                 (words.into_iter().map(String::from).collect(), comments),
                 "{line}"
             );

@@ -6,8 +6,8 @@
 //! first move is a `movej`.
 //!
 //! The XML frame follows published programs; instructions and the fields of `mdesc` are partly from
-//! memory, and nothing was tried on a controller. Project and data files are not written: their
-//! version is the controller's.
+//! memory, and nothing has been tried on a controller. Project and data files are not written:
+//! their version depends on the controller.
 
 use super::{Dialect, PostedStep};
 use crate::export::command::{Command, CommandedMove};

@@ -4,7 +4,7 @@ use super::Measured;
 use crate::math;
 use nalgebra::{Matrix3, Matrix5, Vector3, Vector5};
 
-/// Most passes of a fit.
+/// Maximum number of passes of a fit.
 const MOST_PASSES: usize = 60;
 /// A step smaller than this share of the frequency ends the fit.
 const AT_REST: f64 = 1e-12;
@@ -17,7 +17,7 @@ pub(super) struct Samples<'a> {
     pub(super) value: &'a [f64],
 }
 
-/// exp(-rate t) (cosine cos(damped t) + sine sin(damped t)) + offset, t from `start` on.
+/// exp(-rate t) (cosine cos(damped t) + sine sin(damped t)) + offset, with t counted from `start`.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Decay {
     /// [s]
@@ -63,8 +63,9 @@ impl Decay {
         Vector5::new(cos, sin, 1.0, -t * wave, t * quarter)
     }
 
-    /// Undamped natural frequency and damping ratio; `reach` is the standard deviation of a sample times Student's t. The variances
-    /// of rate and damped frequency go through w^2 = rate^2 + w_d^2, zeta = rate / w to first order.
+    /// Undamped natural frequency and damping ratio with their intervals; `reach` is the standard
+    /// deviation of a sample times Student's t. The variances of rate and damped frequency are
+    /// propagated through w^2 = rate^2 + w_d^2, zeta = rate / w to first order.
     pub(super) fn uncertain(&self, samples: &Samples<'_>, reach: f64) -> (Measured, Measured) {
         let (frequency, damping) = self.undamped();
         let mut normal = Matrix5::zeros();
@@ -120,7 +121,7 @@ impl<'a> Samples<'a> {
         self.time.iter().zip(self.value).map(|(t, v)| (v - decay.at(*t)) * (v - decay.at(*t))).sum()
     }
 
-    /// Amplitudes and offset for the rate and frequency as they are: linear least squares.
+    /// Fits amplitudes and offset at fixed rate and frequency by linear least squares.
     fn with_amplitudes(&self, mut decay: Decay) -> Decay {
         let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
         for (&time, &value) in self.time.iter().zip(self.value) {
@@ -136,8 +137,8 @@ impl<'a> Samples<'a> {
         decay
     }
 
-    /// Least squares by Gauss-Newton steps with Marquardt's damping (D. Marquardt, J. SIAM 11, 1963): the fit, its passes, and whether
-    /// it came to rest.
+    /// Least squares by Gauss-Newton steps with Marquardt's damping (D. Marquardt, J. SIAM 11,
+    /// 1963): the fit, its passes, and whether it converged.
     pub(super) fn fit(&self, guess: Decay) -> (Decay, usize, bool) {
         let mut decay = self.with_amplitudes(Decay { start: self.time[0], ..guess });
         let mut left = self.left(&decay);

@@ -3,9 +3,10 @@
 use super::decay::{Decay, Samples};
 use crate::math;
 
-/// An excursion counts from this share of the largest on, so that noise below it makes no extrema; a lower one where too few count.
+/// Smallest excursion that counts, as a share of the largest, so that noise below it makes no
+/// extrema. The lower shares are used where too few count.
 const COUNTS: [f64; 3] = [0.15, 0.05, 0.02];
-/// Extrema that a guess takes: one and a half cycles.
+/// Number of extrema that a guess needs: one and a half cycles.
 const FEWEST: usize = 4;
 
 /// The sample furthest from the signal's mean.
@@ -15,7 +16,8 @@ pub(super) fn largest(samples: &Samples<'_>) -> usize {
     (0..samples.len()).max_by(|a, b| far(a).total_cmp(&far(b)).then(b.cmp(a))).unwrap_or(0)
 }
 
-/// Frequency from the time between extrema, decay rate from the logarithms of their heights by a straight line.
+/// Frequency from the time between extrema, decay rate from a straight line through the logarithms
+/// of their heights.
 pub(super) fn guess(samples: &Samples<'_>) -> Option<Decay> {
     let mean = samples.mean();
     let height = samples.value.iter().map(|v| (v - mean).abs()).fold(0.0, f64::max);
@@ -27,7 +29,7 @@ pub(super) fn guess(samples: &Samples<'_>) -> Option<Decay> {
         .map(|share| beyond(samples, mean, share * height))
         .find(|extrema| extrema.len() >= FEWEST)?;
     if extrema.len() > FEWEST && extrema[0].0 <= samples.time[0] {
-        // The signal was already falling: no extremum but the beginning.
+        // The signal was already falling: this is its beginning, not an extremum.
         extrema.remove(0);
     }
     let n = extrema.len() as f64;
@@ -40,7 +42,8 @@ pub(super) fn guess(samples: &Samples<'_>) -> Option<Decay> {
     Some(Decay { start: samples.time[0], rate: -fall / run, damped: math::PI / half, ..Decay::default() })
 }
 
-/// One extremum for each run on one side of the mean, time and height; a run ends where the other side is entered beyond `least`.
+/// One extremum (time and height) for each run on one side of the mean; a run ends where the signal
+/// exceeds `least` on the other side.
 fn beyond(samples: &Samples<'_>, mean: f64, least: f64) -> Vec<(f64, f64)> {
     let mut extrema: Vec<(f64, f64)> = Vec::new();
     for (t, v) in samples.time.iter().zip(samples.value) {
