@@ -1,4 +1,4 @@
-//! The stages of the default job, each timed alone on what the earlier ones have made.
+//! The stages of the default job, each timed alone on the output of the earlier ones.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -13,14 +13,14 @@ use armill::{Error, Job, Report};
 
 use crate::Work;
 
-/// The default job as JSON text, sampled so finely that it has about this many samples. Path, physics and passes stay the same, so that
-/// only their number tells the sizes apart.
+/// The default job as JSON text, sampled so finely that it has roughly this many samples. Path,
+/// physics and passes stay the same, so that sizes differ in nothing else.
 pub fn job(samples: usize) -> String {
     // The default job takes 19.7 s.
     format!("{{\"version\":1,\"motion\":{{\"sample_time_s\":{}}}}}", 20.0 / samples as f64)
 }
 
-/// A job, and what each of its stages starts from.
+/// A job, and the input of each of its stages.
 pub struct Stages {
     text: String,
     setup: Setup,
@@ -31,7 +31,8 @@ pub struct Stages {
     report: Report,
 }
 
-/// The stages in the order of the work. Deviation contains shaper, force and contour error, as the job does; the passes contain all of them.
+/// The stages in order of execution. Deviation contains shaper, force and contour error, as in the
+/// job; the passes contain all of them.
 pub const STAGES: [Work<Stages>; 9] = [
     ("reading the job", |s| drop(black_box(read(&s.text)))),
     ("path: sampling", |s| drop(black_box(Trajectory::new(&s.setup.path, &s.setup.tempo)))),
@@ -61,10 +62,10 @@ pub const STAGES: [Work<Stages>; 9] = [
     ("report: summary", |s| drop(black_box(s.report.summary()))),
 ];
 
-/// A whole job: from its text to the figures that a person reads first.
+/// A whole job: from its text to the main figures.
 ///
 /// # Errors
-/// What is wrong with the job.
+/// If the job is invalid.
 pub fn whole(text: &str) -> Result<Report, Error> {
     let report = armill::run_json(text, &mut Progress::none())?;
     drop(black_box(report.summary()));
@@ -72,7 +73,7 @@ pub fn whole(text: &str) -> Result<Report, Error> {
 }
 
 impl Stages {
-    /// Makes ready what the stages of the default job with about this many samples start from.
+    /// Prepares the inputs of the stages of the default job with roughly this many samples.
     ///
     /// # Errors
     /// If the job does not run.
@@ -85,7 +86,7 @@ impl Stages {
         Ok(Self { text, setup, plan, joints, pace, before, report })
     }
 
-    /// Where the tool is, and the force on it.
+    /// The tool's poses, and the force on it.
     fn passage(&self) -> Passage<'_> {
         Passage::new(&self.plan, self.pace.clone(), Sources::ALL)
     }
