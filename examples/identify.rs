@@ -1,17 +1,20 @@
 //! Identifies joint compliances from measured loads, or frequency and damping from a measured
 //! response, and prints one JSON object.
 //!
-//! `cargo run --release --example identify -- data.csv [--robot preset|job.json]
-//! [--joints table|coupled-j3]` or
-//! `cargo run --release --example identify -- data.csv --response [--from seconds]`
+//! ```sh
+//! cargo run --release --example identify -- \
+//!     data.csv [--robot preset|job.json] [--joints table|coupled-j3]
+//! cargo run --release --example identify -- data.csv --response [--from seconds]
+//! ```
 
 use armill::identify::{Convention, measurement, response, stiffness, summary};
 use armill::{Error, Job};
 use std::process::ExitCode;
 
-const USAGE: &str = "identify data.csv [--robot preset|job.json] [--joints table|coupled-j3], or identify data.csv --response [--from seconds]";
+const USAGE: &str = "identify data.csv [--robot preset|job.json] [--joints table|coupled-j3], \
+     or identify data.csv --response [--from seconds]";
 
-/// Why there is nothing to print.
+/// Why there is no result to print.
 enum Refusal {
     Usage(String),
     Identify(Error),
@@ -27,7 +30,7 @@ fn main() -> ExitCode {
     match identify() {
         Ok(found) => {
             use std::io::Write;
-            // A reader that hung up early (`| head`) is no error.
+            // A reader that closed the pipe early (`| head`) is not an error.
             let _ = writeln!(std::io::stdout(), "{found:#}");
             ExitCode::SUCCESS
         }

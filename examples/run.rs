@@ -1,5 +1,6 @@
-//! Computes a job file (the default job without one), prints its summary as one JSON object, with
-//! what comes out of its path as a program (`as_program`), and, if asked, writes all columns.
+//! Computes a job file (the default job without one) and prints its summary as one JSON object,
+//! together with the accuracy of its path as a program (`as_program`). On request it writes all
+//! columns.
 //!
 //! `cargo run --release --example run -- [job.json] [--columns out.csv]`
 
@@ -43,7 +44,7 @@ fn main() -> ExitCode {
     match serde_json::to_string_pretty(&summary) {
         Ok(summary) => {
             use std::io::Write;
-            // A reader that hung up early (`| head`) is no error.
+            // A reader that closed the pipe early (`| head`) is not an error.
             let _ = writeln!(std::io::stdout(), "{summary}");
             ExitCode::SUCCESS
         }

@@ -1,4 +1,4 @@
-//! APT and CLDATA read back: points, arcs, axes, feeds, units and mistakes, all worked out by hand.
+//! APT and CLDATA input: points, arcs, axes, feeds, units and mistakes, all worked out by hand.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
@@ -16,18 +16,18 @@ fn read(text: &str) -> Result<Program, armill::Error> {
 #[test]
 fn moves_are_read() {
     for (text, expected) in [
-        // Straight moves. The first point is only where the path starts.
+        // Straight moves. The first point only sets the start of the path.
         ("GOTO/0,0,0\nGOTO/10,0,0", "line 10 0 0 job"),
         ("FROM/0,0,5\nGOTO/0,0,0", "line 0 0 0 job"),
         ("goto / 1., 2.,3\nGoTo/ -.5 , +2.5E+1, 1e-1", "line -0.5 25 0.1 job"),
         ("GOTO/0,0,0\n\n  GOTO/1,2,3\nGOTO/4,5,6", "line 1 2 3 job; line 4 5 6 job"),
         ("GOTO/0,0,0\nGOTO/0,0,0\nGOTO/1,0,0\nGOTO/1,0,0", "line 1 0 0 job"),
         ("\u{feff}GOTO/0,0,0\r\nGOTO/1,0,0\r\n", "line 1 0 0 job"),
-        // Lines that go on, and comments.
+        // Continuation lines and comments.
         ("GOTO/0,0,0 $$ start\n$$ GOTO/5,5,5\nGOTO/1, $\n2,3", "line 1 2 3 job"),
         ("GOTO/0,0,0\nGOTO/1, $ $$ half\n\n 2, $\n3", "line 1 2 3 job"),
         ("GOTO/0,0,0\nGOTO $\n/1 $\n,2,3", "line 1 2 3 job"),
-        // Rapid moves: the next GOTO only.
+        // Rapid moves: only the next GOTO.
         ("GOTO/0,0,0\nRAPID\nGOTO/1,0,0\nGOTO/2,0,0", "line 1 0 0 rapid; line 2 0 0 job"),
         ("RAPID\nGOTO/0,0,0\nFEDRAT/60,MMPM\nGOTO/1,0,0", "line 1 0 0 feed 1"),
         // Feeds, all in mm/s here.
@@ -64,7 +64,7 @@ fn moves_are_read() {
         ("GOTO/10,0,0\nCIRCLE/0,0,0,0,0,1,10\nGOTO/10,0,0", "arc 10 0 0 about 0 0 0 by 360 job"),
         ("GOTO/0,0,10\nCIRCLE/0,0,0,0,1,0,10\nGOTO/10,0,0", "arc 10 0 0 about 0 0 0 by 90 job"),
         ("GOTO/0,0,10\nCIRCLE/0,0,0,0,-1,0,10\nGOTO/10,0,0", "arc 10 0 0 about 0 0 0 by 270 job"),
-        // PTC's thread: a turn that rises, then the same from where it ends.
+        // PTC's thread: a turn that rises, then another from its end.
         (
             "UNITS/INCHES\nGOTO / 1, 0, -1\nFEDRAT / 6, IPM\nCIRCLE / 0, 0, -1, $ $$ 1ST ORBIT\n0, 0, 1, 1\nGOTO / 1, 0, 0",
             "arc 25.4 0 0 about 0 0 -25.4 by 360 rise 25.4 feed 2.54",
@@ -76,7 +76,7 @@ fn moves_are_read() {
             "GOTO/10,0,0\nMOVARC/0,0,0,0,0,1,10, ANGLE, 810\nGOTO/0,10,9",
             "arc 0 10 9 about 0 0 0 by 810 rise 9 job",
         ),
-        // CATIA's arcs: which way is said by a direction.
+        // CATIA's arcs: a direction vector gives the sense of rotation.
         (
             "GOTO/10,0,0\nINDIRV/0,1,0\nTLON,GOFWD/ (CIRCLE/ 0, 0, 0,$\n 10),ON,(LINE/ 0, 0, 0, 0, 10, 0)",
             "arc 0 10 0 about 0 0 0 by 90 job",
@@ -85,7 +85,8 @@ fn moves_are_read() {
             "GOTO/10,0,0\nINDIRV/0,-1,0\nFEDRAT/60\nTLON,GOFWD/(CIRCLE/0,0,0,10),ON,2,INTOF,(LINE/0,0,0,0,10,0)\nGOTO/0,20,0",
             "arc 0 10 0 about 0 0 0 by 270 feed 1; line 0 20 0 feed 1",
         ),
-        // The radius as rounded by the CAM system: within 0.01 mm, and both ends stay as written.
+        // A radius rounded by the CAM system: accepted within 0.01 mm, and both ends stay as
+        // written.
         (
             "GOTO/10.004,0,0\nCIRCLE/0,0,0,0,0,1,10\nGOTO/-9.996,0,0",
             "arc -9.996 0 0 about 0.004 0 0 by 180 job",
@@ -259,7 +260,7 @@ fn waits_stand_between_moves() {
     assert_eq!(waits, [(0, 1.5, 2), (1, 2.0, 4), (1, 3.0, 5)]);
 }
 
-/// A random program of moves that can be followed.
+/// A random valid program.
 fn random_program(random: &mut fastrand::Rng, unit: &str, scale: f64) -> String {
     use std::fmt::Write;
     let mut text = format!("UNITS/{unit}\nMULTAX/ON\nGOTO/0,0,0\n");
@@ -386,6 +387,6 @@ fn half_a_million_lines_are_read_in_seconds() {
     let program = read(&text).unwrap();
     let time = start.elapsed().as_secs_f64();
     assert_eq!(program.moves.len(), 499_999);
-    // Far above what it takes (about 0.3 s), so that a busy machine does not fail it.
+    // Well above the usual time (about 0.3 s), so that a busy machine does not fail it.
     assert!(time < 5.0, "{time} s");
 }

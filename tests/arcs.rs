@@ -1,4 +1,5 @@
-//! Arcs in exported G-code: one that is still one after compensation stays one block; one that bends becomes as few arcs as do.
+//! Arcs in exported G-code: one that is still an arc after compensation stays one block; one that
+//! bends becomes as few arcs as will do.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
@@ -16,7 +17,8 @@ use common::run;
 use nalgebra::Vector3;
 use serde_json::json;
 
-/// A program, computed without shaper and compensation: what is commanded is what was programmed.
+/// A program, computed without shaper and compensation, so that the commands equal the programmed
+/// path.
 fn uncompensated(text: &str) -> Report {
     run(&[
         ("path", json!({"kind":"gcode","text":text})),
@@ -26,14 +28,14 @@ fn uncompensated(text: &str) -> Report {
     ])
 }
 
-/// The same with another correction, which is a function of the place.
+/// The report with its correction replaced by a function of position.
 fn corrected(text: &str, correction: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Report {
     let mut report = uncompensated(text);
     report.compensation.correction = report.plan.trajectory.position.iter().map(correction).collect();
     report
 }
 
-/// Every kind of arc that a program may hold, each of them from where the one before ends.
+/// Every kind of arc that a program may hold, each starting where the one before ends.
 const EVERY: &str = "N1 G21 G90 G17 G94
 N2 G0 X600 Y0 Z100
 N3 S3000 M3
@@ -94,7 +96,7 @@ fn examples_that_are_not_compensated_keep_their_arcs() {
     }
 }
 
-/// What was read back has the moves of the original, one for one, and no block was split.
+/// The moves read back match the original one for one; no block was split.
 fn stays(report: &Report, export: &Export, read: &Program) {
     let original = &report.setup().program.as_ref().unwrap().program.moves;
     assert_eq!(read.moves.len(), original.len(), "{}", export.text);
@@ -108,7 +110,8 @@ fn stays(report: &Report, export: &Export, read: &Program) {
                 Segment::Arc { center, u, v, radius, sweep, rise },
                 Segment::Arc { center: c, u: m, v: n, radius: r, sweep: s, rise: h },
             ) => {
-                // The centre of a short arc is worse known than its points: by the tolerance over the arc's height.
+                // The centre of a short arc is known less exactly than its points: by the tolerance
+                // over the arc's height.
                 assert!((center - c).norm() < 1e-6 && (radius - r).abs() < 1e-6, "{name}: {center}, not {c}");
                 assert!((u - m).norm() < 1e-4 && (v - n).norm() < 1e-4, "{name}");
                 assert!((sweep - s).abs() < 1e-4 && (rise - h).abs() < 5e-8, "{name}: {sweep}, not {s}");
@@ -137,7 +140,8 @@ fn an_arc_that_moves_or_grows_stays_one_block() {
 
 #[test]
 fn an_arc_that_bends_becomes_few_arcs() {
-    // An oval: 0.3 mm longer along X than along Y. No circle fits it within a micrometre, a few arcs do.
+    // An oval: 0.3 mm longer along X than along Y. No circle fits it within a micrometre, a few
+    // arcs do.
     let oval = corrected(CIRCLE, |p| Vector3::new((p.x - 0.6) * 0.01, 0.0, 0.0));
     for thinning in [1e-6, 5e-6] {
         let (export, read) = read_back(&oval, "gcode", &ExportOptions { thinning: Some(thinning) });
@@ -147,14 +151,16 @@ fn an_arc_that_bends_becomes_few_arcs() {
         let chords = Command::new(&oval, &CommandedPath::of(&oval), Some(thinning), PostStyle::default())
             .unwrap()
             .points();
-        // A chord of a radius r strays by r a^2 / 8 over the angle a, an arc of an oval by the oval's share of that.
+        // A chord of radius r deviates by r a^2 / 8 over the angle a, an arc of an oval by the
+        // oval's share of that.
         assert!(arcs > 1 && arcs * 5 < chords, "{arcs} arcs, {chords} chords");
         let lines = read.moves.len() - arcs;
         assert_eq!(lines, 2, "the straight moves before and behind it");
     }
 }
 
-/// Random arcs with random bends: what is measured stays within what is asked for, and turns the same way about the same axis.
+/// Random arcs with random bends: the measured deviation stays within the tolerance, and the arcs
+/// keep axis and sense of rotation.
 #[test]
 fn arcs_keep_within_the_tolerance() {
     let mut random = fastrand::Rng::with_seed(11);

@@ -1,4 +1,4 @@
-//! The error budget and the scene: their parts add up to what the report says of the whole.
+//! The error budget and the scene: their parts add up to the report's totals.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
@@ -10,13 +10,13 @@ use common::{column, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 
-/// A job's report with some values replaced, on paths that bend, stop and turn.
+/// The report of a job with some values replaced, on paths that bend, stop and turn.
 fn reports() -> Vec<Report> {
     let rectangle =
         json!({"kind":"rectangle","center_mm":[600,0,100],"width_mm":80,"height_mm":50,"corner_radius_mm":5});
     let sharp = json!({"kind":"csv","text":"600,-60,100\n660,0,120\n600,60,100"});
     let leaning = json!({"kind":"csv","text":"600,-60,100,0,0,1\n660,0,120,0.1,0,1\n600,60,100,0,0.1,1"});
-    // The RX-90 as if a parallelogram held its forearm.
+    // The RX-90 as if a parallelogram linkage drove its forearm.
     let held = json!({"opw":{"c1_mm":420,"c2_mm":450,"c3_mm":650,"c4_mm":85},"joint_3":"parallelogram",
         "joint_compliance_rad_per_nm":[9e-7,11e-7,15e-7,28e-7,98e-7,1e-6]});
     let changes: [Vec<(&str, Value)>; 5] = [
@@ -38,7 +38,7 @@ fn what_the_joints_give_adds_up_to_the_deflection() {
     for report in reports() {
         for k in (0..report.samples()).step_by(97) {
             let sum: Vector3<f64> = report.deflection_by_joint(k).iter().sum();
-            // The same sum in the same order, but of another rounding where it is added up.
+            // Summed in the same order, but rounded differently on the way.
             assert!((sum - report.deflection[k]).norm() < 1e-15);
         }
     }
@@ -51,7 +51,8 @@ fn tip_and_axis_go_where_the_turned_joints_put_them() {
         for k in (0..report.samples()).step_by(211) {
             let (q, force) = (report.shaped(&report.q).at(k), report.force[k]);
             let tip = |q| forward::forward(robot, &q).position;
-            // Work: a joint's torque is the force times the tip's way (eq. 3.47), by central differences.
+            // Work: a joint's torque is the force times the tip's motion (eq. 3.47), by central
+            // differences.
             let turns = Joints::from_fn(|i, _| {
                 let mut step = Joints::zeros();
                 step[i] = 1e-5;
@@ -59,10 +60,11 @@ fn tip_and_axis_go_where_the_turned_joints_put_them() {
             });
             let bent = forward::forward(robot, &(q + turns));
             let axis = -bent.rotation.column(2);
-            // Levers are taken before the joints turn: the square of the turn is left, on 1.5 m.
+            // Levers are taken before the joints turn: the error is the square of the turn, on 1.5
+            // m.
             let square = turns.norm_squared() * 1.5;
             assert!((before.actual[k] - bent.position).norm() <= square, "sample {k}");
-            // Along a path with one axis all along only the angle to it is kept.
+            // A path with one constant axis stores only the angle to it.
             if report.plan.path.is_multi_axis() {
                 assert!((before.axis[k] - axis).norm() <= square, "sample {k}");
             }
@@ -78,7 +80,7 @@ fn the_parts_add_up_to_the_contour_error() {
         let (budget, both) = (summary.budget, summary.before_mm.both);
         for (parts, whole) in [(budget.worst_mm, both.max), (budget.mean_mm, both.mean)] {
             let sum = parts.deflection() + parts.shaping;
-            // Rounding of some twenty thousand additions of millimetres.
+            // Rounding of about twenty thousand additions of millimetres.
             assert!((sum - whole).abs() < 1e-10, "{sum} of {whole}");
             assert!((parts.total - whole).abs() < 1e-10);
         }
@@ -99,7 +101,8 @@ fn a_joint_that_alone_gives_way_gives_all_of_it() {
         for other in (0..6).filter(|other| *other != joint) {
             assert_eq!(worst.joints[other], 0.0);
         }
-        // On a line nothing but the joints moves the tip; the rest is the inverse model's closure.
+        // On a line only the joints move the tip; the rest is the closure error of the inverse
+        // model.
         assert!((worst.joints[joint] - worst.total).abs() < 1e-6, "{worst:?}");
     }
 }
@@ -109,7 +112,7 @@ fn a_rigid_arm_leaves_everything_to_the_shaper() {
     let robot = json!({"preset":"staubli-rx90","joint_compliance_rad_per_nm":[0,0,0,0,0,0]});
     let budget = run(&[("robot", robot)]).budget();
     assert_eq!(budget.worst_mm.joints, [0.0; 6]);
-    // A projection on its own direction: the last bits.
+    // A projection onto its own direction: the last bits.
     assert!((budget.worst_mm.shaping - budget.worst_mm.total).abs() < 1e-12);
     assert_eq!(budget.sentence, "Shaping gives 100 % of the contour error where it is largest.");
 }

@@ -1,5 +1,5 @@
-//! The cell: tool, base and workpiece frames with their orientation, followed through every stage by a second kinematics written here
-//! with quaternions and plain DH steps.
+//! The cell: tool, base and workpiece frames with their orientation, checked through every stage by
+//! a second kinematic model written here with quaternions and plain DH steps.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -12,7 +12,7 @@ use common::{column, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 
-/// A rotation as a quaternion w, x, y, z and a shift [mm].
+/// A rotation as a quaternion w, x, y, z and a translation [mm].
 #[derive(Clone, Copy)]
 struct Placed {
     turn: [f64; 4],
@@ -28,7 +28,7 @@ fn times([a, b, c, d]: [f64; 4], [e, f, g, h]: [f64; 4]) -> [f64; 4] {
     ]
 }
 
-/// Turn by an angle [deg] about an axis of the frame: 0, 1, 2.
+/// Rotation by an angle [deg] about an axis of the frame: 0, 1, 2.
 fn about(axis: usize, deg: f64) -> [f64; 4] {
     let half = deg.to_radians() / 2.0;
     let mut q = [half.cos(), 0.0, 0.0, 0.0];
@@ -47,7 +47,8 @@ impl Placed {
         Placed { turn: times(self.turn, inner.turn), at: self.at + turned(self.turn, inner.at) }
     }
 
-    /// A frame of a job: fixed axes x, y, z in this order, so that z is the outermost turn.
+    /// A frame of a job: rotations about the fixed axes x, y, z in this order, so that z is the
+    /// outermost.
     fn of(xyz: [f64; 3], [roll, pitch, yaw]: [f64; 3]) -> Placed {
         let turn = times(about(2, yaw), times(about(1, pitch), about(0, roll)));
         Placed { turn, at: Vector3::from(xyz) }
@@ -59,14 +60,15 @@ impl Placed {
         Placed { turn, at: -turned(turn, self.at) }
     }
 
-    /// Roll, pitch and yaw [deg], read off the turned axes.
+    /// Roll, pitch and yaw [deg], computed from the rotated axes.
     fn rpy(self) -> [f64; 3] {
         let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()].map(|v| turned(self.turn, v));
         [y.z.atan2(z.z), (-x.z).asin(), x.y.atan2(x.x)].map(f64::to_degrees)
     }
 }
 
-/// The RX-90's flange in the base for joint angles [deg], and each joint's frame (thesis Table 3.1).
+/// The RX-90's flange in the base for joint angles [deg], and each joint's frame (thesis Table
+/// 3.1).
 fn flange(q: &[f64]) -> Vec<Placed> {
     let rows = [
         (0.0, 0.0, 420.0, 0.0),
@@ -94,7 +96,8 @@ fn frame((xyz, rpy): ([f64; 3], [f64; 3])) -> Value {
     json!({"xyz_mm": xyz, "rpy_deg": rpy})
 }
 
-/// A spindle at 45 deg on the flange, a base turned on its plinth, a tilted part; a short tilted arc.
+/// A spindle at 45 deg on the flange, a base rotated on its plinth, a tilted part; a short tilted
+/// arc.
 fn angled(changes: &[(&str, Value)]) -> Report {
     let arc = json!({"kind":"arc","center_mm":[0,0,0],"radius_mm":60,"normal":[0.1,0,1],"start_deg":20,"sweep_deg":120});
     let mut all = vec![
@@ -129,7 +132,8 @@ fn joint_commands_put_an_angled_spindle_on_a_tilted_part() {
     let report = angled(&[]);
     let (tool, part) = (Placed::of(TOOL.0, TOOL.1), part_in_base());
     let desired = vectors(&report, "desired", "mm");
-    // The arc about its normal, from +X projected across it (DESIGN section 4), in the part.
+    // The arc about its normal, starting at +X projected onto its plane (DESIGN section 4), in the
+    // part.
     let normal = Vector3::new(0.1, 0.0, 1.0).normalize();
     let x = (Vector3::x() - normal * normal.x).normalize();
     let y = normal.cross(&x);
@@ -137,11 +141,11 @@ fn joint_commands_put_an_angled_spindle_on_a_tilted_part() {
         let tcp = flange(q)[5].then(tool);
         let angle = 20_f64.to_radians() + s / 60.0;
         let on_part = x * (60.0 * angle.cos()) + y * (60.0 * angle.sin());
-        // Micrometre fractions: two kinematics in double precision, metres across.
+        // Fractions of a micrometre: two kinematic models in double precision over metres.
         assert!((tcp.at - desired).norm() < 1e-6, "the tip is where the path is");
         assert!((part.at + turned(part.turn, on_part) - desired).norm() < 1e-6, "the path is on the part");
         let [tcp_x, tcp_z] = [Vector3::x(), Vector3::z()].map(|v| turned(tcp.turn, v));
-        // The tool stands upright on the part, and its x axis is the part's.
+        // The tool stands upright on the part; its x axis is the part's.
         assert!((tcp_z + turned(part.turn, Vector3::z())).norm() < 1e-9);
         assert!((tcp_x - turned(part.turn, Vector3::x())).norm() < 1e-9);
     }
@@ -162,9 +166,11 @@ fn force_turns_with_the_part_and_bends_the_arm_at_the_tip() {
         let feed = desired[k + 1] - desired[k - 1];
         let Some(x) = (feed - up * up.dot(&feed)).try_normalize(1e-6) else { continue };
         let expected = x * mean.x + up.cross(&x) * mean.y + up * mean.z;
-        // The chord of three samples is parallel to the tangent up to the speed's change between them.
+        // The chord of three samples is parallel to the tangent, except for the change of speed
+        // between them.
         assert!((force[k] - expected).norm() < 2e-3 * mean.norm(), "sample {k}");
-        // Eqs. 3.41 to 3.47 by differences: the torque about each joint, its turn, what that does to the tip.
+        // Eqs. 3.41 to 3.47 by differences: the torque about each joint, its turn, and the
+        // resulting motion of the tip.
         let tip = |i: usize, deg: f64| {
             let mut q = q[k];
             q[i] += deg;
@@ -206,7 +212,8 @@ fn only_where_the_part_is_from_the_base_matters() {
     }
 }
 
-/// The numbers of a KRL aggregate `{... X 1,Y 2,Z 3,A 4,B 5,C 6}` as a frame: A, B, C about z, the new y, the new x.
+/// The numbers of a KRL aggregate `{... X 1,Y 2,Z 3,A 4,B 5,C 6}` as a frame: A, B, C about z, the
+/// new y, the new x.
 fn krl(line: &str) -> Placed {
     let inside = line.split_once('{').unwrap().1.trim_end_matches('}').replace("FRAME: ", "");
     let v: Vec<f64> =
@@ -224,7 +231,7 @@ fn a_robot_program_holds_frames_that_lead_back_to_the_joints() {
     let arrives = |line: &str, q: &[f64; 6]| {
         let tcp = base.then(krl(line));
         let arm = flange(q)[5].then(tool);
-        // Five decimals of a millimetre and six of a degree are written.
+        // Output has five decimals of a millimetre and six of a degree.
         assert!((tcp.at - arm.at).norm() < 2e-5, "{} and {}", tcp.at, arm.at);
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
             assert!((turned(tcp.turn, axis) - turned(arm.turn, axis)).norm() < 1e-7);
@@ -235,6 +242,6 @@ fn a_robot_program_holds_frames_that_lead_back_to_the_joints() {
     arrives(text.lines().rfind(|line| line.starts_with("LIN {")).unwrap(), &q[q.len() - 1]);
     assert!(
         text.contains("robot base in the cell at x -400.0 y 250.0 z 700.0 mm"),
-        "the header tells the base"
+        "the header states the base"
     );
 }

@@ -31,7 +31,7 @@ fn rows_are_read() {
         ("1 2 3\n 4   -5\t6 ", two),
         ("1,2,3,\n4,-5,6,", two),
         ("\u{feff}1e0 2. +3\r\n4 -5 6\r\n", two),
-        // Decimal commas, where something else separates.
+        // Decimal commas, with another separator.
         ("1,0;2;3\n4,5;-5,5;6", half),
         ("1,0 2 3\n4,5 -5,5 6", half),
         ("1,0\t2\t3\n4,5\t-5,5\t6,0", half),
@@ -50,7 +50,7 @@ fn rows_are_read() {
         ("x_mm,y_mm,z_mm\n1,2,3\n4,-5,6", two),
         ("x (in);y (in);z (in)\n0;0;0\n1;0,5;0", "line 25.4 12.7 0 job"),
         ("x_inch,y_inch,z\n0,0,0\n1,0.5,0", "line 25.4 12.7 0 job"),
-        // Feeds: a row's feed is that of the move that ends there.
+        // Feeds: a row's feed belongs to the move that ends there.
         ("1,2,3,10.0\n4,-5,6,50.0", fed),
         ("feed,x,y,z\n10,1,2,3\n50,4,-5,6", fed),
         ("x,y,z,f\n1,2,3,10\n4,-5,6,50", fed),
@@ -66,7 +66,7 @@ fn rows_are_read() {
         ("axis_i axis_j axis_k x y z\n0 0 1 1 2 3\n0 0.6 0.8 4 -5 6", tilted),
         ("1,2,3,0,0,1,10\n4,-5,6,0,0.6,0.8,50", both),
         ("f;k;j;i;z;y;x\n10;1;0;0;3;2;1\n50;0,8;0,6;0;6;-5;4", both),
-        // Whole numbers without a header are plain where one row shows that commas separate.
+        // Whole numbers without a header are unambiguous once one row shows that commas separate.
         ("1,2,3,10\n4,-5,6,50", fed),
         ("1,2,3,10\n2,2,3,10\n4.0,-5,6,50", "line 2 2 3 feed 10; line 4 -5 6 feed 50"),
         // A row at the same place makes no move.
@@ -279,6 +279,6 @@ fn half_a_million_rows_are_read_in_seconds() {
     let program = read(&text).unwrap();
     let time = start.elapsed().as_secs_f64();
     assert_eq!((program.moves.len(), program.lines), (499_999, 500_001));
-    // Far above what it takes (about 0.2 s), so that a busy machine does not fail it.
+    // Well above the usual time (about 0.2 s), so that a busy machine does not fail it.
     assert!(time < 5.0, "{time} s");
 }

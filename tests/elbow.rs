@@ -1,4 +1,5 @@
-//! Arms whose joint 3 is counted from the base: FANUC's pendants, and parallelograms, whose springs then belong to other turns.
+//! Arms whose joint 3 is relative to the base: FANUC's pendants, and parallelograms, whose springs
+//! then belong to other turns.
 #![cfg(not(target_arch = "wasm32"))]
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
@@ -20,7 +21,7 @@ use std::sync::Arc;
 
 const COUNTED: [Elbow; 2] = [Elbow::Pendant, Elbow::Parallelogram];
 
-/// A FANUC and a KUKA: joint 3 turns against joint 2 on the one, with it on the other.
+/// A FANUC and a KUKA: joint 3 turns against joint 2 on one, with it on the other.
 fn arms() -> Vec<Robot> {
     let arm = |id: &str| {
         let preset = library::robot(id).unwrap();
@@ -35,7 +36,8 @@ fn poses(seed: u64) -> impl Iterator<Item = Joints> {
     (0..300).map(move |_| Joints::from_fn(|_, _| between(&mut random, -1.5, 1.5)))
 }
 
-/// The tip's motion for each joint as told, by differences of the forward model alone.
+/// The tip's motion for each joint in the controller's convention, by differences of the forward
+/// model alone.
 fn slopes(robot: &Robot, q: &Joints) -> [Vector3<f64>; 6] {
     [0, 1, 2, 3, 4, 5].map(|i| {
         let step = Joints::ith(i, 1e-5);
@@ -48,17 +50,19 @@ fn slopes(robot: &Robot, q: &Joints) -> [Vector3<f64>; 6] {
 fn the_forearm_keeps_its_inclination_while_joint_2_alone_turns() {
     for arm in arms() {
         for elbow in COUNTED {
-            let told = arm.clone().with_elbow(elbow).unwrap();
+            let coupled = arm.clone().with_elbow(elbow).unwrap();
             for q in poses(3) {
                 let turned = q + Joints::ith(1, 0.4);
-                let (before, after) = (forward::frames(&told, &q)[2], forward::frames(&told, &turned)[2]);
+                let (before, after) =
+                    (forward::frames(&coupled, &q)[2], forward::frames(&coupled, &turned)[2]);
                 assert!((before.rotation - after.rotation).norm() < 1e-14);
                 assert!((before.position - after.position).norm() > 0.1);
-                // The serial arm does the same when its joint 3 is turned back by hand.
+                // The serial arm does the same with its joint 3 turned back by hand.
                 let back = arm.links()[1].sign * arm.links()[2].sign * q[1];
                 let by_hand = q - Joints::ith(2, back);
                 assert!(
-                    (forward::forward(&arm, &by_hand).position - forward::forward(&told, &q).position).norm()
+                    (forward::forward(&arm, &by_hand).position - forward::forward(&coupled, &q).position)
+                        .norm()
                         < 1e-14
                 );
             }
@@ -89,9 +93,9 @@ fn forward_agrees_with_another_authors_parallelogram() {
 fn the_inverse_gives_the_joints_as_told() {
     for arm in arms() {
         for elbow in COUNTED {
-            let told = arm.clone().with_elbow(elbow).unwrap();
+            let coupled = arm.clone().with_elbow(elbow).unwrap();
             for q in poses(5) {
-                let solutions = inverse::inverse(&told, &forward::forward(&told, &q), &q).unwrap();
+                let solutions = inverse::inverse(&coupled, &forward::forward(&coupled, &q), &q).unwrap();
                 let near = solutions.nearest(&q).unwrap();
                 assert!(near.margin.wrist < 0.02 || (near.q - q).amax() < 1e-9, "{} for {q}", near.q);
             }
@@ -103,10 +107,10 @@ fn the_inverse_gives_the_joints_as_told() {
 fn the_jacobian_is_the_slope_by_the_joints_as_told() {
     for arm in arms() {
         for elbow in COUNTED {
-            let told = arm.clone().with_elbow(elbow).unwrap();
+            let coupled = arm.clone().with_elbow(elbow).unwrap();
             for q in poses(6) {
-                let j = jacobian::jacobian(&told, &q);
-                for (i, slope) in slopes(&told, &q).into_iter().enumerate() {
+                let j = jacobian::jacobian(&coupled, &q);
+                for (i, slope) in slopes(&coupled, &q).into_iter().enumerate() {
                     assert!((j.fixed_view::<3, 1>(0, i) - slope).norm() < 1e-8);
                 }
             }
@@ -114,15 +118,16 @@ fn the_jacobian_is_the_slope_by_the_joints_as_told() {
     }
 }
 
-/// By differences: a parallelogram's springs turn the joints as told, those behind a pendant the serial arm's.
+/// By differences: a parallelogram's springs turn the joints in the controller's convention, those
+/// behind a pendant the serial arm's.
 #[test]
 fn springs_give_way_where_the_drives_are() {
     for arm in arms() {
         for elbow in COUNTED {
-            let told = arm.clone().with_elbow(elbow).unwrap();
+            let coupled = arm.clone().with_elbow(elbow).unwrap();
             for q in poses(7) {
                 let slopes = match elbow {
-                    Elbow::Parallelogram => slopes(&told, &q),
+                    Elbow::Parallelogram => slopes(&coupled, &q),
                     _ => {
                         let back = arm.links()[1].sign * arm.links()[2].sign * q[1];
                         slopes(&arm, &(q - Joints::ith(2, back)))
@@ -134,13 +139,13 @@ fn springs_give_way_where_the_drives_are() {
                     .zip(arm.compliance())
                     .map(|(slope, c)| slope * (c * slope.dot(&force)))
                     .sum();
-                let c = compliance::cartesian_compliance(&told, &q);
+                let c = compliance::cartesian_compliance(&coupled, &q);
                 let wrench = Vector6::new(force.x, force.y, force.z, 0.0, 0.0, 0.0);
                 let ours = (c * wrench).fixed_rows::<3>(0).into_owned();
                 assert!((ours - moved).norm() < 1e-6 * moved.norm(), "{elbow:?}: {ours} {moved}");
             }
         }
-        // The two are not the same: that is why nobody may take one for the other.
+        // The two differ, so one must not be taken for the other.
         let q = Joints::new(0.1, 0.5, -0.4, 0.3, 0.9, 0.2);
         let c = COUNTED
             .map(|elbow| compliance::cartesian_compliance(&arm.clone().with_elbow(elbow).unwrap(), &q));
@@ -164,19 +169,19 @@ fn force_and_weight_are_in_balance_with_a_parallelogram_too() {
             gravity: Vector3::new(0.0, 0.0, -9.8),
             touched_off: false,
         };
-        let told = arm.clone().with_elbow(Elbow::Parallelogram).unwrap();
+        let coupled = arm.clone().with_elbow(Elbow::Parallelogram).unwrap();
         let force = Vector3::new(-400.0, 300.0, 250.0);
         for q in poses(8) {
-            let balance = equilibrium(&told, &statics, &q, &force);
+            let balance = equilibrium(&coupled, &statics, &q, &force);
             assert!(balance.converged);
             let signs = Joints::from_fn(|i, _| arm.links()[i].sign);
             let rest = q + Joints::from(balance.turns).component_mul(&signs);
             let work = |q: Joints| {
-                let frames = forward::frames(&told, &q);
+                let frames = forward::frames(&coupled, &q);
                 let weight = loads
                     .iter()
                     .map(|load| load.mass * statics.gravity.dot(&frames[load.link].point(&load.center)));
-                force.dot(&frames[5].compose(told.tool()).position) + weight.sum::<f64>()
+                force.dot(&frames[5].compose(coupled.tool()).position) + weight.sum::<f64>()
             };
             for i in 0..6 {
                 let step = Joints::ith(i, 1e-5);
@@ -184,11 +189,11 @@ fn force_and_weight_are_in_balance_with_a_parallelogram_too() {
                 let turn = arm.compliance()[i] * torque * signs[i];
                 assert!((turn - balance.turns[i]).abs() < 1e-10, "joint {i}: {turn} {:?}", balance.turns);
             }
-            let there = forward::forward(&told, &rest).position - forward::forward(&told, &q).position;
+            let there = forward::forward(&coupled, &rest).position - forward::forward(&coupled, &q).position;
             let parts: Vector3<f64> = balance.parts.iter().map(|(moved, _)| moved).sum();
             assert!((parts - there).norm() < 1e-9, "{parts} {there}");
         }
-        // Behind a pendant the springs are the serial arm's, whatever the display says.
+        // Behind a pendant the springs are the serial arm's, whatever the display shows.
         let pendant = arm.clone().with_elbow(Elbow::Pendant).unwrap();
         for q in poses(9) {
             let back = arm.links()[1].sign * arm.links()[2].sign * q[1];

@@ -1,4 +1,5 @@
-//! Springs that are no straight lines and the weight of links and spindle: the joints come to rest where every torque is in balance.
+//! Nonlinear springs and the weight of links and spindle: the joints come to rest where every
+//! torque balances.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -21,7 +22,7 @@ fn arm() -> Robot {
         .with_tool(tool)
 }
 
-/// Lost motion of an arc minute, then 6 N m/arcmin, then twice that.
+/// Lost motion of one arc minute, then 6 N m/arcmin, then twice that.
 fn worn() -> Spring {
     let arcmin = (1.0_f64 / 60.0).to_radians();
     let points = [(1.0, 1.0), (7.0, 2.0), (19.0, 3.0)].map(|(torque, turn)| (torque, turn * arcmin));
@@ -57,7 +58,8 @@ fn sum(parts: &[(Vector3<f64>, Vector3<f64>); 6]) -> Vector3<f64> {
     parts.iter().map(|(moved, _)| moved).sum()
 }
 
-/// The torque of each joint as the slope of the work that force and weight do, by differences of the forward model alone.
+/// The torque of each joint as the slope of the work of force and weight, by differences of the
+/// forward model alone.
 #[test]
 fn at_rest_each_joint_turns_as_its_spring_says_under_the_slope_of_the_work() {
     let robot = arm();
@@ -79,15 +81,16 @@ fn at_rest_each_joint_turns_as_its_spring_says_under_the_slope_of_the_work() {
                 let step = Joints::ith(joint, 1e-5);
                 let torque = (work(&(rest + step)) - work(&(rest - step))) / 2e-5;
                 let turn = statics.springs[joint].turn(torque);
-                // Differences over 1e-5 rad are good to 1e-6 N m; the softest piece turns 3e-4 rad a N m.
+                // Differences over 1e-5 rad are good to 1e-6 N m; the softest segment turns 3e-4
+                // rad per N m.
                 assert!((turn - balance.turns[joint]).abs() < 1e-9, "joint {joint}: {turn} {balance:?}");
             }
-            // The parts of the joints take the tip there.
+            // The contributions of the joints add up to the tip's motion.
             let there = forward::forward(&robot, &rest).position - forward::forward(&robot, &q).position;
-            // The mid-point rule errs by a 24th of the third power, at a reach of less than 2 m.
+            // The midpoint rule errs by 1/24 of the third power, at a reach of less than 2 m.
             let turned: f64 = balance.turns.iter().map(|turn| turn.abs()).sum();
             assert!((sum(&balance.parts) - there).norm() < 2.0 * turned.powi(3) / 24.0 + 1e-14);
-            // And they turn it as far, about the axis that the difference of the rotations shows.
+            // And to its rotation, about the axis given by the difference of the rotations.
             let [there, here] = [rest, q].map(|q| forward::forward(&robot, &q).rotation);
             let turn = there * here.transpose();
             let axis = Vector3::new(turn[(2, 1)], turn[(0, 2)], turn[(1, 0)]);
@@ -97,7 +100,8 @@ fn at_rest_each_joint_turns_as_its_spring_says_under_the_slope_of_the_work() {
     }
 }
 
-/// With straight springs and no weight it is C F, but for what the pose changes: a thousandth at a millimetre, and half of that at half the force.
+/// With linear springs and no weight it is C F, apart from the change of pose: a thousandth at a
+/// millimetre, and half of that at half the force.
 #[test]
 fn straight_springs_without_weight_are_the_thesiss_compliance_in_the_limit() {
     let robot = arm();
@@ -160,7 +164,7 @@ fn sag_counts_from_where_the_part_was_touched_off() {
     for (a, b) in absolute.deflection.iter().zip(&touched.deflection) {
         assert!((a - b - first).norm() < 1e-15);
     }
-    // A base that hangs from the ceiling sags the other way, seen from itself.
+    // A base that hangs from the ceiling sags the other way, in its own frame.
     let hung = arc(
         robot("model"),
         &[
@@ -172,7 +176,7 @@ fn sag_counts_from_where_the_part_was_touched_off() {
     for (a, b) in absolute.deflection.iter().zip(&hung.deflection) {
         assert!((a + b).norm() < 2e-3 * a.norm() + 1e-12, "{a} {b}");
     }
-    // The budget's parts are the whole, whatever the springs.
+    // The parts of the budget add up to the whole, whatever the springs.
     let parts: Vector3<f64> = absolute.deflection_by_joint(500).iter().sum();
     assert!((parts - absolute.deflection[500]).norm() < 1e-15);
 }
@@ -198,7 +202,7 @@ fn worn_joints_and_a_heavy_spindle_are_compensated_too() {
 #[test]
 fn an_arm_that_does_not_come_to_rest_is_told() {
     let robot = json!({"preset":"staubli-rx90","joint_springs_nm_arcmin":[[2, 0.01, 3000],[3, 0.01, 3000]]});
-    // The figures after compensation hold the force whatever is compensated.
+    // The figures after compensation include the force, whatever is compensated.
     for sources in [json!(["deflection", "shaping"]), json!(["shaping"]), json!([])] {
         let changes = [("compensation.max_passes", json!(0)), ("compensation.sources", sources)];
         let report = arc(robot.clone(), &changes);

@@ -1,4 +1,4 @@
-//! The example programs of the page: each reads as it was meant, computes, and gains from compensation.
+//! The page's example programs: each reads as intended, computes, and gains from compensation.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
@@ -21,24 +21,24 @@ struct Entry {
     note: String,
 }
 
-/// What a program is, told by hand. Lengths in mm.
+/// The expected content of a program, worked out by hand. Lengths in mm.
 struct Known {
     file: &'static str,
     unit: &'static str,
     lines: usize,
     cutting: usize,
     rapid: usize,
-    /// Corners of the box that the tip's path fills.
+    /// Corners of the bounding box of the tip's path.
     lowest: [f64; 3],
     highest: [f64; 3],
-    /// Whether an arc reaches beyond the ends of the moves: the summary's box is then the smaller one.
+    /// Whether an arc reaches beyond the ends of the moves; the summary's box is then smaller.
     bulges: bool,
     multi_axis: bool,
-    /// What the reader remarks on.
+    /// The reader's remarks.
     remarks: &'static [&'static str],
 }
 
-/// A program in mm with the tool upright and nothing to remark on.
+/// A program in mm with the tool upright and no remarks.
 const PLAIN: Known = Known {
     file: "",
     unit: "mm",
@@ -112,8 +112,9 @@ const KNOWN: [Known; 9] = [
         remarks: &["tool-length-missing"],
         ..PLAIN
     },
-    // Spots: a feed each; down, away, five times over and away. Drill: 3 pecks each; 4 rapids between a hole's pecks, 1 away,
-    // 5 times over, twice down to R (the first hole's G98 goes back up). At last up to 120.
+    // Spots: one feed each; down, away, five times over and away. Drill: 3 pecks each; 4 rapids
+    // between a hole's pecks, 1 away, 5 times over, twice down to R (the first hole's G98 goes back
+    // up). Finally up to 120.
     Known {
         file: "holes.nc",
         lines: 30,
@@ -124,7 +125,8 @@ const KNOWN: [Known; 9] = [
         remarks: &["tool-change"],
         ..PLAIN
     },
-    // On the sphere of radius 220 with its top at (600, 0, 100): starts 25 above (-12, -54), ends 25 above (12, 45), along the radius.
+    // On the sphere of radius 220 with its top at (600, 0, 100): starts 25 above (-12, -54), ends
+    // 25 above (12, 45), along the radius.
     Known {
         file: "dome.apt",
         lines: 116,
@@ -134,7 +136,8 @@ const KNOWN: [Known; 9] = [
         multi_axis: true,
         ..PLAIN
     },
-    // An ellipse of 80 by 56 in 120 sampled_moves, quarter circles of radius 12 in 12 sampled_moves before and after.
+    // An ellipse of 80 by 56 in 120 sampled_moves, quarter circles of radius 12 in 12 sampled_moves
+    // before and after.
     Known {
         file: "rim.csv",
         lines: 146,
@@ -160,7 +163,7 @@ fn the_index_names_the_files_that_are_there() {
     let mut present: BTreeSet<_> = std::fs::read_dir(folder())
         .unwrap()
         .map(|file| file.unwrap().file_name().into_string().unwrap())
-        // Measurements are the panel Identify's.
+        // Measurements belong to the panel Identify.
         .filter(|name| !name.starts_with("identify-"))
         .collect();
     assert!(present.remove("index.json"));

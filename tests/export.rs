@@ -1,4 +1,5 @@
-//! Files to take away: what is thinned stays within its tolerance, orientations multiply back, every file says where it comes from.
+//! Exported files: thinning stays within its tolerance, orientations multiply back, every file
+//! states its origin.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_types, reason = "nalgebra's own rotations are the second way")]
 
@@ -19,7 +20,7 @@ use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use serde_json::json;
 use std::f64::consts::FRAC_PI_2;
 
-/// Each point standing for itself.
+/// Each point on its own.
 fn alone(points: &[Point]) -> Vec<Vec<Point>> {
     points.iter().map(|point| vec![*point]).collect()
 }
@@ -46,7 +47,8 @@ fn thinned_lines_keep_every_point_within_the_tolerance() {
         assert_eq!((kept[0], kept[kept.len() - 1]), (0, points.len() - 1), "case {case}: the ends are kept");
         assert!(kept.is_sorted_by(|a, b| a < b), "case {case}");
         let left: Vec<Point> = kept.iter().map(|&k| points[k]).collect();
-        // By brute force: each point against all moves, at 1,000 places of each, tip and axis together.
+        // By brute force: each point against all moves, at 1,000 places of each, tip and axis
+        // together.
         let worst = points
             .iter()
             .map(|p| {
@@ -67,7 +69,8 @@ fn thinned_lines_keep_every_point_within_the_tolerance() {
     }
 }
 
-/// A corner in the middle of a move: what is rounded keeps near it, turns nowhere by more than it may, and touches nothing else.
+/// A corner in the middle of a move: rounding stays near it, turns nowhere by more than allowed,
+/// and touches nothing else.
 #[test]
 fn a_fillet_leaves_out_a_corner() {
     const LIMIT: f64 = 0.07;
@@ -85,14 +88,15 @@ fn a_fillet_leaves_out_a_corner() {
         assert_eq!((rounded[0], rounded[rounded.len() - 1]), (points[0], after));
         let moves: Vec<_> = rounded.windows(2).map(|ends| ends[1].position - ends[0].position).collect();
         for pair in moves.windows(2) {
-            // The chords touch the arc's middle, so at its ends they turn by half.
+            // The chords touch the arc's middle, so they turn by half at its ends.
             assert!(angle_between(&pair[0], &pair[1]) <= LIMIT + 1e-9, "{turn}");
         }
         assert!(left_out <= tolerance * (1.0 + 1e-9), "{turn}: {left_out}");
-        // No less than it may, give or take the chord: as far from the corner as allowed, or up to the middle of a move.
+        // No less than allowed, up to the chord: as far from the corner as permitted, or up to the
+        // middle of a move.
         let reach = (rounded[1].position - points[1].position).norm();
         assert!(left_out > 0.75 * tolerance || (reach - MM).abs() < 1e-12, "{turn}: {left_out} {reach}");
-        // What may turn, rests before it, or cannot be said in such steps stays.
+        // A corner that may turn, follows a rest, or cannot be rounded in such steps stays.
         assert_eq!(fillet::round(&points, 1, turn + 1e-6, tolerance, 1e-8).concat(), points);
         assert_eq!(fillet::round(&points, 2, LIMIT, tolerance, 1e-8).concat(), points);
         assert_eq!(fillet::round(&points, 1, LIMIT, tolerance, 1e-3).concat(), points);
@@ -115,7 +119,7 @@ fn thinning_is_exact_on_lines_and_bears_a_million_points() {
     assert_eq!(thin(&line(1000), 1e-9), [0, 999]);
     assert_eq!(thin(&line(1), 1e-9), [0]);
     assert!(thin(&[], 1e-9).is_empty());
-    // A helix: every span must be split, over and over.
+    // A helix: every span must be split, recursively.
     let helix: Vec<Point> = (0..1_000_000)
         .map(|i| {
             let angle = f64::from(i) * 1e-3;
@@ -125,7 +129,8 @@ fn thinning_is_exact_on_lines_and_bears_a_million_points() {
         })
         .collect();
     let kept = thin(&helix, 1e-6);
-    // A chord of a circle of 100 mm within 1 um spans at most 8.9 mrad: ten steps at least eight of which are used.
+    // A chord of a circle of 100 mm within 1 um spans at most 8.9 mrad: ten steps, of which at
+    // least eight are used.
     assert!((1_000_000 / 9..1_000_000 / 4).contains(&kept.len()), "{}", kept.len());
     assert!(deviation(&helix, &kept, &alone(&kept.iter().map(|&k| helix[k]).collect::<Vec<_>>())) <= 1e-6);
 }
@@ -136,7 +141,8 @@ fn orientations_multiply_back() {
     let mut rotations: Vec<Matrix3<f64>> = (0..2000)
         .map(|_| rotation_about(&any_vector(&mut random, 1.0).normalize(), between(&mut random, -3.2, 3.2)))
         .collect();
-    // Gimbal lock, exact and all but: pitch or ry of +-90 deg; half turns, where the scalar of the quaternion is zero.
+    // Gimbal lock, exact and nearly so: pitch or ry of +-90 deg; half turns, where the quaternion's
+    // scalar is zero.
     for sign in [1.0, -1.0] {
         for near in [0.0, 1e-15, 1e-12, 1e-9, 1e-6] {
             for roll in [0.0, 0.3, -2.5] {
@@ -153,7 +159,8 @@ fn orientations_multiply_back() {
     for r in &rotations {
         let turn = |axis: Vector3<f64>, angle: f64| rotation_about(&axis, angle);
         let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
-        // FANUC: W, P, R about the fixed axes; KUKA: A about z, B about the new y, C about the new x.
+        // FANUC: W, P, R about the fixed axes; KUKA: A about z, B about the new y, C about the new
+        // x.
         let [roll, pitch, yaw] = roll_pitch_yaw(r);
         let fanuc = turn(z, yaw) * (turn(y, pitch) * turn(x, roll));
         let (a, b, c) = (yaw, pitch, roll);
@@ -182,7 +189,7 @@ fn every_program_says_where_it_comes_from_and_what_it_does_not_promise() {
             assert_eq!(export.points, report.samples());
             continue;
         }
-        // FANUC's remarks are short: a sentence runs over several.
+        // FANUC's remarks are short: a sentence spans several.
         let text: String = export
             .text
             .lines()
@@ -209,7 +216,7 @@ fn every_program_says_where_it_comes_from_and_what_it_does_not_promise() {
             );
             assert!(export.deviation > 0.0 && export.deviation <= 1e-6, "{}", format.id);
             assert!(
-                // An arc of 200 deg: few arcs say what takes many chords.
+                // An arc of 200 deg: few arcs replace many chords.
                 export.points > if format.id == "gcode" { 20 } else { 50 }
                     && export.points < report.samples() / 5,
                 "{}: {}",
@@ -230,7 +237,8 @@ fn every_program_says_where_it_comes_from_and_what_it_does_not_promise() {
     }
 }
 
-/// Programs that were read and then could not be written, or were written so that they could not be read (found by `cargo xtask fuzz`).
+/// Programs that were read and then could not be written, or were written and could not be read
+/// back (found by `cargo xtask fuzz`).
 #[test]
 fn odd_programs_are_written_so_that_they_are_read_again() {
     let moves = "G21 F6000 G0 X600 Y0 Z100\nG1 Y20\nX620\n";

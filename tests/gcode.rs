@@ -1,4 +1,4 @@
-//! The G-code reader: a table of snippets worked by hand, the same path said in two ways, and texts at random.
+//! The G-code reader: a table of snippets worked by hand, equivalent programs, and random texts.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -9,11 +9,12 @@ use armill::path::program::{MovePace, Program};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
-/// What a snippet must give. Lengths in mm, feeds in mm/min.
+/// The expected result of a snippet. Lengths in mm, feeds in mm/min.
 enum Gives {
     /// The end of every move.
     Ends(&'static [[f64; 3]]),
-    /// One arc: centre, normal about which it turns counter-clockwise, radius, angle swept in degrees, rise along that normal.
+    /// One arc: centre, normal about which it turns counter-clockwise, radius, angle swept in
+    /// degrees, rise along that normal.
     Arc([f64; 3], [f64; 3], f64, f64, f64),
     /// The length of the whole path.
     Length(f64),
@@ -23,13 +24,14 @@ enum Gives {
     Remark(&'static str, usize),
     /// Words without effect, each with its line.
     Ignored(&'static [(&'static str, usize)]),
-    /// Refused at this line and column; the message holds these words.
+    /// Rejected at this line and column; the message holds these words.
     Error(usize, usize, &'static str),
 }
 
 use Gives::{Arc, Ends, Feeds, Ignored, Length, Remark};
 
-/// Stands before every snippet as line 1, so that snippets begin at line 2 with a known place and a feed.
+/// Precedes every snippet as line 1, so that snippets begin at line 2 with a known place and a
+/// feed.
 const HEAD: &str = "G21 G90 G94 F600 G0 X0 Y0 Z0";
 
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
@@ -59,7 +61,7 @@ fn feed(pace: MovePace) -> f64 {
     }
 }
 
-/// Micrometres are what is milled; 1e-9 mm is what the arithmetic of these small numbers keeps.
+/// Programs are milled to micrometres; this arithmetic is good to 1e-9 mm.
 fn near(found: f64, expected: f64) -> bool {
     (found - expected).abs() < 1e-9 * (1.0 + expected.abs())
 }
@@ -119,7 +121,7 @@ fn check(name: &str, text: &str, gives: &Gives, options: &Options) {
 }
 
 #[test]
-#[rustfmt::skip] // One case a line.
+#[rustfmt::skip] // One case a line where it fits.
 fn lines_and_layout() {
     for (name, text, gives) in [
         ("a plain line", "G1 X10", Ends(&[[10., 0., 0.]])),
@@ -145,7 +147,11 @@ fn lines_and_layout() {
         ("what follows the end is remarked", "M2\nX2", Remark("text-after-end", 3)),
         ("a percent sign ends", "G1 X1\n%\nX2", Ends(&[[1., 0., 0.]])),
         ("the motion of the M30 line is made", "G1 X1 M30", Ends(&[[1., 0., 0.]])),
-        ("harmless words are listed", "T1 M6 M8\nG40 G49 G80\nG64 P0.01 M5", Ignored(&[("M8", 2), ("T1", 2), ("M6", 2), ("G40", 3), ("G64", 4), ("P0.01", 4)])),
+        (
+            "harmless words are listed",
+            "T1 M6 M8\nG40 G49 G80\nG64 P0.01 M5",
+            Ignored(&[("M8", 2), ("T1", 2), ("M6", 2), ("G40", 3), ("G64", 4), ("P0.01", 4)]),
+        ),
         ("corner blending is remarked", "G64 P0.01", Remark("blending", 2)),
         ("another tool is remarked", "T1 M6\nT2 M6", Remark("tool-change", 3)),
         ("a common first line of CAM posts", "G0 G17 G40 G49 G80 G90\nX1", Ends(&[[1., 0., 0.]])),
@@ -155,7 +161,7 @@ fn lines_and_layout() {
 }
 
 #[test]
-#[rustfmt::skip] // One case a line.
+#[rustfmt::skip] // One case a line where it fits.
 fn units_and_distances() {
     for (name, text, gives) in [
         ("inch", "G20 G1 X1 Y-0.5", Ends(&[[25.4, -12.7, 0.]])),
@@ -172,7 +178,7 @@ fn units_and_distances() {
 }
 
 #[test]
-#[rustfmt::skip] // One case a line.
+#[rustfmt::skip] // One case a line where it fits.
 fn arcs() {
     for (name, text, gives) in [
         ("quarter, counter-clockwise", "G1 X10\nG3 X0 Y10 I-10 J0", Length(10. + 5. * PI)),
@@ -214,7 +220,7 @@ fn arcs() {
 }
 
 #[test]
-#[rustfmt::skip] // One case a line.
+#[rustfmt::skip] // One case a line where it fits.
 fn feeds_speeds_and_waits() {
     for (name, text, gives) in [
         ("rapids have no feed, feed is modal", "G0 X1\nG1 X2\nX3 F1200", Feeds(&[0., 600., 1200.])),
@@ -243,7 +249,7 @@ fn feeds_speeds_and_waits() {
 }
 
 #[test]
-#[rustfmt::skip] // One case a line.
+#[rustfmt::skip] // One case a line where it fits.
 fn offsets() {
     let mut options = Options::default();
     options.work_offsets[0] = Some(Vector3::new(0.1, 0.0, 0.0));
@@ -282,18 +288,58 @@ fn offsets() {
 }
 
 #[test]
-#[rustfmt::skip] // One case a line.
+#[rustfmt::skip] // One case a line where it fits.
 fn canned_cycles() {
     for (name, text, gives) in [
-        ("G81, back to the level before", "Z10\nG81 X5 Z-3 R2", Ends(&[[0., 0., 10.], [5., 0., 10.], [5., 0., 2.], [5., 0., -3.], [5., 0., 10.]])),
-        ("G99: back to R, next hole from there", "Z10\nG99 G81 X5 Z-3 R2\nX6", Ends(&[[0., 0., 10.], [5., 0., 10.], [5., 0., 2.], [5., 0., -3.], [5., 0., 2.], [6., 0., 2.], [6., 0., -3.], [6., 0., 2.]])),
+        (
+            "G81, back to the level before",
+            "Z10\nG81 X5 Z-3 R2",
+            Ends(&[
+                [0., 0., 10.], [5., 0., 10.], [5., 0., 2.], [5., 0., -3.], [5., 0., 10.],
+            ]),
+        ),
+        (
+            "G99: back to R, next hole from there",
+            "Z10\nG99 G81 X5 Z-3 R2\nX6",
+            Ends(&[
+                [0., 0., 10.], [5., 0., 10.], [5., 0., 2.], [5., 0., -3.], [5., 0., 2.],
+                [6., 0., 2.], [6., 0., -3.], [6., 0., 2.],
+            ]),
+        ),
         ("from below R the tool rises first", "G81 X5 Z-3 R2", Ends(&[[0., 0., 2.], [5., 0., 2.], [5., 0., -3.], [5., 0., 2.]])),
         ("only the way down cuts", "Z10\nG81 X5 Z-3 R2", Feeds(&[0., 0., 0., 600., 0.])),
         ("G85 cuts on the way up too", "Z10\nG85 X5 Z-3 R2", Feeds(&[0., 0., 0., 600., 600., 0.])),
-        ("G83 with Q2: 2 to 0 to -2 to -3, back to R, 0.254 above the last depth", "G83 X5 Z-3 R2 Q2", Ends(&[[0., 0., 2.], [5., 0., 2.], [5., 0., 0.], [5., 0., 2.], [5., 0., 0.254], [5., 0., -2.], [5., 0., 2.], [5., 0., -1.746], [5., 0., -3.], [5., 0., 2.]])),
-        ("G83 whose depth is a multiple of Q has no empty peck", "G99 G83 Z-2 R1 Q1.5", Ends(&[[0., 0., 1.], [0., 0., -0.5], [0., 0., 1.], [0., 0., -0.246], [0., 0., -2.], [0., 0., 1.]])),
-        ("G73 breaks the chip in the hole", "G73 Z-2 R1 Q2", Ends(&[[0., 0., 1.], [0., 0., -1.], [0., 0., -0.746], [0., 0., -2.], [0., 0., 1.]])),
-        ("G91: R from the start, bottom from R, L holes a step apart", "Z10\nG91 G81 X5 Z-4 R-8 L2", Ends(&[[0., 0., 10.], [5., 0., 10.], [5., 0., 2.], [5., 0., -2.], [5., 0., 10.], [10., 0., 10.], [10., 0., 2.], [10., 0., -2.], [10., 0., 10.]])),
+        (
+            "G83 with Q2: 2 to 0 to -2 to -3, back to R, 0.254 above the last depth",
+            "G83 X5 Z-3 R2 Q2",
+            Ends(&[
+                [0., 0., 2.], [5., 0., 2.], [5., 0., 0.], [5., 0., 2.], [5., 0., 0.254],
+                [5., 0., -2.], [5., 0., 2.], [5., 0., -1.746], [5., 0., -3.], [5., 0., 2.],
+            ]),
+        ),
+        (
+            "G83 whose depth is a multiple of Q has no empty peck",
+            "G99 G83 Z-2 R1 Q1.5",
+            Ends(&[
+                [0., 0., 1.], [0., 0., -0.5], [0., 0., 1.], [0., 0., -0.246], [0., 0., -2.],
+                [0., 0., 1.],
+            ]),
+        ),
+        (
+            "G73 breaks the chip in the hole",
+            "G73 Z-2 R1 Q2",
+            Ends(&[
+                [0., 0., 1.], [0., 0., -1.], [0., 0., -0.746], [0., 0., -2.], [0., 0., 1.],
+            ]),
+        ),
+        (
+            "G91: R from the start, bottom from R, L holes a step apart",
+            "Z10\nG91 G81 X5 Z-4 R-8 L2",
+            Ends(&[
+                [0., 0., 10.], [5., 0., 10.], [5., 0., 2.], [5., 0., -2.], [5., 0., 10.],
+                [10., 0., 10.], [10., 0., 2.], [10., 0., -2.], [10., 0., 10.],
+            ]),
+        ),
         ("G80 ends the cycle", "G81 Z-1 R0\nG80 G1 X1", Ends(&[[0., 0., -1.], [0., 0., 0.], [1., 0., 0.]])),
         ("L0 drills nothing but remembers", "G81 Z-1 R0 L0\nX1", Ends(&[[1., 0., 0.], [1., 0., -1.], [1., 0., 0.]])),
         ("in G19 the drill points along X", "G19 G81 Y2 X-3 R0", Ends(&[[0., 2., 0.], [-3., 2., 0.], [0., 2., 0.]])),
@@ -311,13 +357,13 @@ fn canned_cycles() {
         check(name, &format!("{HEAD}\n{text}"), &gives, &Options::default());
     }
     let program = read(&format!("{HEAD}\nG82 Z-1 R1 P0.5\nX1 P2\nG89 Z-1 R1 P1"));
-    // Two moves to R and down, then the wait; the next hole: up, across, down.
+    // Two moves to R and down, then the dwell; the next hole: up, across, down.
     let waits: Vec<_> = program.dwells.iter().map(|dwell| (dwell.after, dwell.time)).collect();
     assert_eq!(waits, [(2, 0.5), (5, 2.0), (7, 1.0)]);
 }
 
 #[test]
-#[rustfmt::skip] // One case a line.
+#[rustfmt::skip] // One case a line where it fits.
 fn where_the_path_begins() {
     for (name, text, gives) in [
         ("at the first full position", "G21 G90\nG0 Z5\nG0 X1 Y2\nG1 Z0 F100", Ends(&[[1., 2., 0.]])),
@@ -349,7 +395,7 @@ fn where_the_path_begins() {
 }
 
 #[test]
-#[rustfmt::skip] // One case a line.
+#[rustfmt::skip] // One case a line where it fits.
 fn refusals_are_placed_and_say_what_to_do() {
     for (name, text, column, words) in [
         ("cutter compensation left", "G1 G41 D1 X10", 4, "centre"),
@@ -437,7 +483,8 @@ fn refusals_are_placed_and_say_what_to_do() {
     ] {
         check(name, &format!("{HEAD}\n{text}"), &Gives::Error(2, column, words), &Options::default());
     }
-    // The tolerance is 0.005 mm + 0.001 of the radius: 0.015 mm at 10 mm, half of which moves both distances apart by it.
+    // The tolerance is 0.005 mm + 0.001 of the radius: 0.015 mm at 10 mm. A centre off by half of
+    // it makes the two radii differ by all of it.
     assert!(read_with(&format!("{HEAD}\nG2 X20 I10.007"), &Options::default()).is_ok());
     assert!(read_with(&format!("{HEAD}\nG2 X20 I10.008"), &Options::default()).is_err());
     let wide = Options { arc_tolerance: 1e-4, ..Options::default() };

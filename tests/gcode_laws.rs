@@ -1,4 +1,5 @@
-//! Laws of the G-code reader: the same path said in two ways is the same path, programs at random keep together, no text breaks it.
+//! Laws of the G-code reader: two notations of a path read as the same path, random programs have
+//! no gaps, no text breaks it.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
@@ -22,7 +23,7 @@ fn ends(segment: &Segment) -> [Vector3<f64>; 2] {
     }
 }
 
-/// Points along a program, 5 a move, with the end of the last.
+/// Points along a program: 5 per move, and the end of the last.
 fn points(program: &Program) -> Vec<Vector3<f64>> {
     let mut points = Vec::new();
     for step in &program.moves {
@@ -44,7 +45,8 @@ fn coordinate(random: &mut fastrand::Rng) -> f64 {
     between(random, -200.0, 200.0).round() + f64::from(random.u32(0..1000)) / 1000.0
 }
 
-/// A move of a random program, by its end and, for an arc, the ends' angles about the centre: all that both ways of saying it need.
+/// A move of a random program, by its end and, for an arc, the ends' angles about the centre:
+/// enough for either notation.
 enum Step {
     Line([f64; 3]),
     Arc { counter_clockwise: bool, center: [f64; 2], end: [f64; 3], radius: f64, long: bool },
@@ -73,7 +75,7 @@ fn any_steps(random: &mut fastrand::Rng) -> Vec<Step> {
         .collect()
 }
 
-/// How a program is written down.
+/// A notation for programs.
 #[derive(Clone, Copy, PartialEq)]
 enum Way {
     Plain,
@@ -126,7 +128,8 @@ fn one_path_said_in_five_ways() {
         let plain = read(&write(&steps, Way::Plain));
         for way in [Way::Inches, Way::Increments, Way::CenterPoints, Way::Radii] {
             let text = write(&steps, way);
-            // A radius near half the chord places its centre to the root of the rounding only: 1e-7 m of 0.1 m.
+            // A radius near half the chord locates its centre only to the root of the rounding:
+            // 1e-7 m of 0.1 m.
             let tolerance = if way == Way::Radii { 1e-8 } else { 1e-11 };
             assert_same(&plain, &read(&text), tolerance, &text);
         }
@@ -237,7 +240,8 @@ fn arcs_with_rounded_centres_keep_their_ends_and_stay_near_the_circle() {
         assert!((last - Vector3::new(end[0], end[1], 5.0)).norm() < 1e-4, "{text}");
         for point in points(&program) {
             let distance = hypot(point.x * 1e3 - center[0], point.y * 1e3 - center[1]);
-            // Two coordinates rounded by half of 0.001 each: 0.0015 mm for difference and place together; 0.001 to keep one piece.
+            // Two coordinates rounded by half of 0.001 each: 0.0015 mm for difference and place
+            // together; 0.001 to stay one piece.
             assert!((distance - radius).abs() < 2.5e-3, "{text} {distance}");
         }
         let turned: f64 = program
@@ -250,7 +254,7 @@ fn arcs_with_rounded_centres_keep_their_ends_and_stay_near_the_circle() {
     }
 }
 
-/// Every move begins where the one before ended, and no number is NaN.
+/// Every move begins where the one before ended, and every number is finite.
 fn assert_chained(program: &Program, text: &str) {
     let mut before: Option<(Vector3<f64>, f64)> = None;
     for step in &program.moves {
@@ -275,7 +279,7 @@ fn assert_chained(program: &Program, text: &str) {
     assert!(program.moves.iter().all(|step| step.spindle.is_none_or(|speed| speed > 0.0)), "{text}");
 }
 
-/// Reads what may be refused; the place of an error lies in the text.
+/// Reads a text that may be rejected; an error's place lies in the text.
 fn survive(text: &str) -> bool {
     let mut lines = 0;
     match gcode::program(text, &Options::default(), |line| lines = line) {
@@ -338,7 +342,8 @@ fn no_words_break_the_reader() {
     let (mut whole, mut lines) = (0, 0);
     for _ in 0..20_000 {
         let mut text = String::from("G21 G0 X0 Y0 Z0 F100 S100\n");
-        // Lines that the reader takes are kept, so that programs grow odd states instead of ending at their first mistake.
+        // Accepted lines are kept, so that programs build up odd states instead of ending at their
+        // first mistake.
         for _ in 0..8 {
             let before = text.len();
             if random.bool() {

@@ -1,4 +1,5 @@
-//! The G-code reader against LinuxCNC's interpreter: one program, move by move (see `data/gcode/README.md`).
+//! The G-code reader against LinuxCNC's interpreter: one program, move by move (see
+//! `data/gcode/README.md`).
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use armill::path::Segment;
@@ -6,7 +7,7 @@ use armill::path::gcode::{self, Options};
 use armill::path::program::MovePace;
 use nalgebra::Vector3;
 
-/// What LinuxCNC says of a move; lengths in mm, in machine coordinates, feed in mm/min.
+/// A move as LinuxCNC reports it; lengths in mm, in machine coordinates, feed in mm/min.
 #[derive(Debug)]
 struct Canon {
     end: Vector3<f64>,
@@ -19,7 +20,7 @@ struct Canon {
 /// The recording prints 4 decimals, of an inch at the coarsest.
 const PRINTED: f64 = 25.4 * 1e-4;
 
-/// Reads the recording: its moves, and the number of moves before each dwell with the time.
+/// Reads the recording: its moves, and for each dwell the number of moves before it and its time.
 fn recording(text: &str) -> (Vec<Canon>, Vec<(usize, f64)>) {
     let (mut unit, mut feed) = (1.0, 0.0);
     let (mut work, mut shift, mut tool) = (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
@@ -47,7 +48,7 @@ fn recording(text: &str) -> (Vec<Canon>, Vec<(usize, f64)>) {
             "DWELL" => dwells.push((moves.len(), numbers[0])),
             "STRAIGHT_TRAVERSE" | "STRAIGHT_FEED" => {
                 let end = vector(0) + origin;
-                // LinuxCNC also calls for moves that go nowhere.
+                // LinuxCNC also calls for moves of zero length.
                 if (end - at).norm() > PRINTED {
                     moves.push(Canon { end, feed: (call == "STRAIGHT_FEED").then_some(feed), arc: None });
                     at = end;
@@ -95,7 +96,8 @@ fn the_same_moves_as_linuxcnc() {
             (Segment::Arc { center, u, v, sweep, .. }, Some((their_center, normal, turn))) => {
                 let mut apart = center * 1e3 - their_center;
                 apart -= normal * normal.dot(&apart);
-                // The reader moves a centre by what the two radii differ, here by the program's 4 decimals of an inch.
+                // The reader shifts a centre by the difference of the two radii, here by the
+                // program's 4 decimals of an inch.
                 assert!(apart.norm() < 4.0 * PRINTED, "{place}");
                 assert_eq!(u.cross(v).dot(normal) > 0.0, *turn > 0.0, "{place}");
                 assert_eq!((sweep / std::f64::consts::TAU - 1e-9).floor() + 1.0, turn.abs(), "{place}");

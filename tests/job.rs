@@ -1,4 +1,4 @@
-//! The job: every field does what its table says, every mistake is named.
+//! The job: every field does what its table states, and every mistake is named.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -80,9 +80,9 @@ fn every_number_is_checked_against_its_range() {
                 given["frequency_hz"] = json!(3);
             }
             match refused(&[(section, given)]) {
-                Error::OutOfRange { field: name, value: told, .. } => {
+                Error::OutOfRange { field: name, value: reported, .. } => {
                     assert_eq!(name, field.path);
-                    assert_eq!(told, value);
+                    assert_eq!(reported, value);
                 }
                 other => panic!("{} = {value}: {other:?}", field.path),
             }
@@ -192,7 +192,7 @@ fn programs_are_paths_and_their_mistakes_are_placed() {
             "{kind}: {error}"
         );
     }
-    // A missing F uses the job's feed and is remarked; rapids move the arm and do not cut.
+    // A missing F uses the job's feed and produces a remark; rapids move the arm and do not cut.
     let report = run(&[
         program("gcode", "G21 G90 S4000 M3\nG0 X600 Y0 Z120\nG0 Z100\nG1 X650"),
         ("motion.feed_mm_s", json!(40)),
@@ -225,7 +225,7 @@ fn programs_are_paths_and_their_mistakes_are_placed() {
         assert!((force.norm() - cuts * whole).abs() < 1e-9 * whole, "{} at {cuts}", force.norm());
     }
     assert!(cuts.iter().any(|cuts| (0.1..0.9).contains(cuts)));
-    // A tool of another diameter is remarked on; the same one in inches is not.
+    // A tool of another diameter produces a remark; an equal one in inches does not.
     for (tool, unit, warned) in
         [("CUTTER/12,0", "MM", true), ("TLDATA/MILL,10.0,2", "MM", false), ("CUTTER/.3937", "INCHES", false)]
     {
@@ -238,10 +238,10 @@ fn programs_are_paths_and_their_mistakes_are_placed() {
             100.0 / size
         );
         let warnings = run(&[program("apt", &text)]).warnings;
-        let told = warnings.iter().find(|warning| warning.code == "tool-differs");
-        assert_eq!(told.is_some(), warned, "{text}");
-        assert!(told.is_none_or(|told| {
-            told.message.starts_with("line 1: the program's tool has a diameter of 12.000 mm")
+        let reported = warnings.iter().find(|warning| warning.code == "tool-differs");
+        assert_eq!(reported.is_some(), warned, "{text}");
+        assert!(reported.is_none_or(|reported| {
+            reported.message.starts_with("line 1: the program's tool has a diameter of 12.000 mm")
         }));
     }
     let lines = common::column(&report, "program_line");
@@ -249,7 +249,7 @@ fn programs_are_paths_and_their_mistakes_are_placed() {
     // An inch program is read as inches.
     let inch = run(&[program("gcode", "G20 G90\nG0 X24 Y0 Z4\nG1 X25 F100")]).summary().program.unwrap();
     assert_eq!((inch.unit, inch.highest_mm[0]), ("inch", 635.0));
-    // A tool axis that turns is followed and corrected.
+    // A changing tool axis is followed and corrected.
     let tilted = run(&[
         program("csv", "x,y,z,i,j,k\n600,-50,100,0,0,1\n600,50,100,0.2,0,0.98"),
         ("shaper", json!({"kind":"zvd","frequency_hz":10,"damping":0.03})),
@@ -333,44 +333,46 @@ fn what_a_job_leaves_out_is_remarked() {
 
 #[test]
 fn progress_ascends_and_ends() {
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     armill::run_json(
         &Job::default().to_json(),
-        &mut armill::Progress::new(&mut |stage: armill::Stage| told.push(stage.fraction)),
+        &mut armill::Progress::new(&mut |stage: armill::Stage| reported.push(stage.fraction)),
     )
     .unwrap();
-    assert!(told.len() >= 5 && told.windows(2).all(|pair| pair[0] < pair[1]));
-    assert!(told[0] == 0.0 && told.iter().all(|fraction| *fraction <= 1.0));
-    // Many samples tell within their stages too.
-    let mut told = Vec::new();
+    assert!(reported.len() >= 5 && reported.windows(2).all(|pair| pair[0] < pair[1]));
+    assert!(reported[0] == 0.0 && reported.iter().all(|fraction| *fraction <= 1.0));
+    // With many samples, progress is reported within their stages too.
+    let mut reported = Vec::new();
     let job = job_text(&[("motion.sample_time_s", json!(4e-4))]);
     armill::run_json(
         &job,
-        &mut armill::Progress::new(&mut |stage: armill::Stage| told.push((stage.name, stage.fraction))),
+        &mut armill::Progress::new(&mut |stage: armill::Stage| reported.push((stage.name, stage.fraction))),
     )
     .unwrap();
-    assert!(told.windows(2).all(|pair| pair[0].1 < pair[1].1), "{told:?}");
+    assert!(reported.windows(2).all(|pair| pair[0].1 < pair[1].1), "{reported:?}");
     for (stage, least) in [("joint commands", 2), ("deflection and shaping", 2), ("compensation", 4)] {
-        assert!(told.iter().filter(|(name, _)| *name == stage).count() >= least, "{stage}: {told:?}");
+        assert!(reported.iter().filter(|(name, _)| *name == stage).count() >= least, "{stage}: {reported:?}");
     }
-    // A long program tells while it is read, whichever its language.
+    // A long program reports progress while it is read, in any language.
     let way = |row: fn(f64) -> String| (0..20_000).map(|i| row(f64::from(i) * 1e-3)).collect::<String>();
     for (kind, text) in [
         ("gcode", way(|x| format!("G1 X{} Y600 Z100 F6000\n", 10.0 + x))),
         ("apt", way(|x| format!("GOTO/{},600,100\n", 10.0 + x))),
         ("csv", way(|x| format!("{};600.5;100\n", 10.0 + x))),
     ] {
-        let mut told = Vec::new();
+        let mut reported = Vec::new();
         let job = job_text(&[("path", json!({"kind":kind,"text":text}))]);
         armill::run_json(
             &job,
-            &mut armill::Progress::new(&mut |stage: armill::Stage| told.push((stage.name, stage.fraction))),
+            &mut armill::Progress::new(&mut |stage: armill::Stage| {
+                reported.push((stage.name, stage.fraction))
+            }),
         )
         .unwrap();
-        assert!(told.windows(2).all(|pair| pair[0].1 < pair[1].1), "{kind}: {told:?}");
-        let reading = told.iter().take_while(|(name, _)| *name == "reading the program").count();
-        assert!(reading >= 9 && told[reading].0 == "joint commands", "{kind}: {told:?}");
-        assert!(told.iter().all(|(_, fraction)| (0.0..=1.0).contains(fraction)), "{kind}");
+        assert!(reported.windows(2).all(|pair| pair[0].1 < pair[1].1), "{kind}: {reported:?}");
+        let reading = reported.iter().take_while(|(name, _)| *name == "reading the program").count();
+        assert!(reading >= 9 && reported[reading].0 == "joint commands", "{kind}: {reported:?}");
+        assert!(reported.iter().all(|(_, fraction)| (0.0..=1.0).contains(fraction)), "{kind}");
     }
 }
 
@@ -431,7 +433,7 @@ fn every_chart_draws() {
     }
 }
 
-/// What a chart shows is what the columns hold, in the unit asked for; and its axes say which.
+/// A chart shows the values of the columns, in the requested unit; its axes name it.
 #[test]
 fn chart_data_are_the_columns_in_the_unit_asked_for() {
     use armill::chart::{ChartOptions, ForceUnit, Units, chart, data};

@@ -1,4 +1,5 @@
-//! Kinematics and compliance against published cases (tests/data/golden.json) and against their own definitions.
+//! Kinematics and compliance against published cases (tests/data/golden.json) and against their own
+//! definitions.
 #![allow(clippy::disallowed_types, reason = "quaternions by another library, compared within a tolerance")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -22,7 +23,8 @@ fn numbers<const N: usize>(value: &Value) -> [f64; N] {
     list.try_into().unwrap()
 }
 
-/// An arm by ortho-parallel parameters as golden.json prints them (metres); joint values are the maker's own.
+/// An arm by ortho-parallel parameters as golden.json prints them (metres); joint values are the
+/// maker's own.
 fn ortho_parallel(opw: &Value) -> Robot {
     let keys = ["a1", "a2", "b", "c1", "c2", "c3", "c4"];
     let opw = Opw {
@@ -162,8 +164,8 @@ fn inverse_then_forward_is_the_identity_on_all_branches() {
         let solutions = inverse(&robot, &tcp, &q).unwrap();
         for solution in solutions.iter() {
             let reached = forward::forward(&robot, &solution.q);
-            // The inverse carries sines and cosines and asks for angles at the end: nothing but rounding may be between them, which
-            // grows near a singularity.
+            // The inverse carries sines and cosines and computes angles only at the end: the
+            // difference is rounding, which grows near a singularity.
             let Margin { shoulder, elbow, wrist } = solution.margin;
             let rounding = 1e-13 / shoulder.min(elbow).min(wrist).clamp(1e-4, 1.0);
             assert!((reached.position - tcp.position).norm() < rounding, "{:?}", solution.margin);
@@ -173,7 +175,8 @@ fn inverse_then_forward_is_the_identity_on_all_branches() {
             let Branch { front, elbow_positive, wrist_positive } = solution.branch;
             seen[4 * usize::from(front) + 2 * usize::from(elbow_positive) + usize::from(wrist_positive)] += 1;
         }
-        // The joint values we came from are among the solutions; near a singularity they are ill defined, the pose is not.
+        // The original joint values are among the solutions; near a singularity they are ill
+        // defined, the pose is not.
         let (apart, margin) = solutions
             .iter()
             .map(|s| ((s.q - q).amax(), s.margin.elbow.min(s.margin.wrist).min(s.margin.shoulder)))
@@ -287,7 +290,8 @@ fn compliance_is_symmetric_positive_and_keeps_the_work() {
             "work {work} against {joint_work}"
         );
 
-        // Second way for eq. 3.49: turn each joint by c_i tau_i in the forward model itself, and take the chord.
+        // Independently for eq. 3.49: turn each joint by c_i tau_i in the forward model itself, and
+        // take the chord.
         let scale = 1e-6;
         let turned = q + robot.compliance().component_mul(&tau) * scale;
         let chord =
@@ -330,7 +334,7 @@ fn tables_outside_the_family_are_named_by_row() {
     assert_eq!(field(5, &|l| l.a = -0.1), "robot.modified_dh[5].a_mm");
     assert_eq!(field(2, &|l| l.a = 0.0), "robot.modified_dh[2].a_mm");
     assert_eq!(field(3, &|l| l.d = 0.0), "robot.modified_dh[3].d_mm");
-    // Values are told in the table's units, a whole turn away from what is legal too.
+    // Errors state values in the table's units, with whole turns kept.
     let said = |row: usize, change: &dyn Fn(&mut Link)| {
         bent(row, change).unwrap().closed_form().unwrap_err().to_string()
     };
@@ -346,7 +350,7 @@ fn tables_outside_the_family_are_named_by_row() {
 
 #[test]
 fn any_vector_is_bounded() {
-    // The generator itself: a wrong one would hollow out the tests above.
+    // The generator itself: a faulty one would make the tests above meaningless.
     let mut random = fastrand::Rng::with_seed(5);
     let longest = (0..1000).map(|_| any_vector(&mut random, 0.3).amax()).fold(0.0, f64::max);
     assert!(longest <= 0.3 && longest > 0.29);

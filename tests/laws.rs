@@ -1,4 +1,4 @@
-//! Laws that hold whatever the numbers: scaling, symmetry, limits, convergence.
+//! Laws that hold for any numbers: scaling, symmetry, limits, convergence.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -38,7 +38,7 @@ fn a_rigid_arm_does_not_deflect() {
     let report =
         arc(&[("robot", json!({"preset":"staubli-rx90","joint_compliance_rad_per_nm":[0,0,0,0,0,0]}))]);
     assert!(report.deflection.iter().all(|d| d.norm() == 0.0));
-    // What is left is the inverse model's closure.
+    // The rest is the closure error of the inverse model.
     assert!(report.summary().before_mm.deflection.max < 1e-6);
 }
 
@@ -103,7 +103,8 @@ fn published_shapers() {
     assert_eq!(count, 5, "no case gets lost");
 }
 
-/// Largest excursion of x'' + 2 z w x' + w^2 x = w^2 u from its end value after a shaped unit step has been given, by Runge-Kutta.
+/// Largest excursion of x'' + 2 z w x' + w^2 x = w^2 u from its end value after a shaped unit step,
+/// by Runge-Kutta.
 fn residual(shaper: &Shaper, frequency: f64, damping: f64) -> f64 {
     let command = |t: f64| {
         let given = shaper.impulses().iter().filter(|impulse| impulse.time <= t);
@@ -162,7 +163,8 @@ fn residual_vibration_is_what_delayed_steps_leave_together() {
         let shaper = Shaper::new(kind, between(&mut random, 5.0, 50.0), between(&mut random, 0.0, 0.25));
         let (w, z) = (between(&mut random, 5.0, 50.0), between(&mut random, 0.0, 0.5));
         let damped = w * f64::sqrt(1.0 - z * z);
-        // What is left of a unit step, and its speed, a time after it: the textbook's second-order system.
+        // Residual of a unit step, and its speed, some time after it: the textbook's second-order
+        // system.
         let step = |t: f64| {
             let (sin, cos) = (damped * t).sin_cos();
             let decay = (-z * w * t).exp();
@@ -188,7 +190,7 @@ fn misjudged_frequency_zvd_forgives_more_than_zv() {
 
 #[test]
 fn shaping_shrinks_a_cartesian_circle_by_the_variance_of_the_impulses() {
-    // Radius lost to first order: v^2 / (32 R f^2) by ZV, v^2 / (16 R f^2) by ZVD, undamped.
+    // Radius lost to first order: v^2 / (32 R f^2) with ZV, v^2 / (16 R f^2) with ZVD, undamped.
     let (radius, speed, dt) = (0.2, 0.05, 1e-3);
     for (id, share) in [("zv", 32.0), ("zvd", 16.0)] {
         for hertz in [4.0, 8.0, 16.0] {
@@ -199,7 +201,8 @@ fn shaping_shrinks_a_cartesian_circle_by_the_variance_of_the_impulses() {
             let shaped = shaper.apply(&circle, dt);
             let lost = radius - shaped[3999].norm();
             let expected = speed * speed / (share * radius * hertz * hertz);
-            // Next order: the fourth power of speed/(radius frequency), and straight interpolation between samples.
+            // Next order: the fourth power of speed/(radius frequency), and linear interpolation
+            // between samples.
             assert!((lost / expected - 1.0).abs() < 2e-3, "{id} at {hertz} Hz: {lost} against {expected}");
         }
     }
@@ -207,7 +210,7 @@ fn shaping_shrinks_a_cartesian_circle_by_the_variance_of_the_impulses() {
 
 #[test]
 fn a_shaped_joint_line_stays_on_its_line() {
-    // Equal lags in all joints: what is straight in joint space keeps its shape, whatever the profile.
+    // Equal lags in all joints: a line in joint space keeps its shape, whatever the profile.
     let (from, to) =
         (Joints::from([0.1, 0.2, 1.0, 0.0, 0.3, 0.0]), Joints::from([0.6, 0.5, 0.7, 0.4, -0.2, 1.0]));
     let profile = armill::motion::Profile::new(1.0, 0.5, 1.0);
@@ -229,7 +232,8 @@ fn undoing_a_shaper_gives_back_a_slow_command() {
     let slow = |k: i32| Vector3::new((f64::from(k) * 1e-3 * 0.5).sin(), 0.0, 1.0);
     let wanted: Vec<_> = (0..20_000).map(slow).collect();
     let shaped = shaper.apply(&shaper.undo(&wanted, 1e-3, wanted.len()), 1e-3);
-    // Away from the ends, where a command held before its start and after its end is no slow command.
+    // Away from the ends, where a command held before its start and after its end is not a slow
+    // command.
     let middle = 6000..14_000;
     let worst =
         shaped[middle.clone()].iter().zip(&wanted[middle]).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
@@ -246,7 +250,7 @@ fn undoing_a_shaper_gives_back_a_slow_command() {
 
 #[test]
 fn turning_path_and_base_together_changes_no_error() {
-    // Base and workpiece moved together in {B}: hung upside down and pushed aside.
+    // Base and workpiece moved together in {B}: hung upside down and shifted.
     let rows = |alpha: f64, a: f64| {
         json!([
             {"alpha_deg":alpha,"a_mm":a,"d_mm":420,"theta_offset_deg":0}, {"alpha_deg":-90,"a_mm":0,"d_mm":0,"theta_offset_deg":-90},
@@ -299,7 +303,8 @@ fn halving_the_sample_time_converges() {
 
 #[test]
 fn the_force_turns_with_the_feed() {
-    // A square around a point: on each side the force is the same in {T} and a quarter turn further in {B} (eq. 4.11).
+    // A square around a point: the force on each side is equal in {T} and a quarter turn further in
+    // {B} (eq. 4.11).
     let report = run(&[
         ("path", json!({"kind":"rectangle","center_mm":[600,0,100],"width_mm":100,"height_mm":100})),
         ("shaper", json!("none")),
@@ -319,7 +324,8 @@ fn the_force_turns_with_the_feed() {
 fn chip_from_feed_follows_the_speed() {
     let report = arc(&[("cutting.feed_per_tooth_mm", json!("from_feed")), ("shaper", json!("none"))]);
     let full = report.mean_force();
-    // 100 mm/s at 4000 rpm and 4 flutes: 0.375 mm a tooth, 3.75 times the thesis's force without edge terms.
+    // 100 mm/s at 4000 rpm and 4 flutes: 0.375 mm per tooth, 3.75 times the thesis's force without
+    // edge terms.
     assert!((full.y - 3.75 * 1071.887).abs() < 0.01);
     assert!(report.force[0].norm() < 1e-9, "no chip at rest");
     let fastest = report.force.iter().map(|f| f.norm()).fold(0.0, f64::max);
@@ -372,7 +378,8 @@ fn mean_force_by_edge_coefficients_adds() {
             arc(&[("material", json!({"ktc_n_mm2":1800,"krc_n_mm2":540,"kac_n_mm2":800,"kte_n_mm":kte}))]);
         report.mean_force()
     };
-    // N a k_te / (2 pi) times (-(sin 180 - sin 90), -(cos 180 - cos 90)) = N a k_te / (2 pi) (1, 1).
+    // N a k_te / (2 pi) times (-(sin 180 - sin 90), -(cos 180 - cos 90)) = N a k_te / (2 pi) (1,
+    // 1).
     let added = with_edges(20.0) - with_edges(0.0);
     let expected = 4.0 * 10.0 * 20.0 / (2.0 * PI);
     assert!((added - Vector3::new(expected, expected, 0.0)).norm() < 1e-9);

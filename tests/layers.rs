@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
-/// The modules from left to right. The job is read first, but its fields and its setup name what the
-/// stages offer (robots, materials, shapes), so these stand to its left; `column` is the currency of
-/// report, charts and files.
+/// The modules from left to right. The job is read first, but its fields and its setup name things
+/// that the stages offer (robots, materials, shapes), so these stand to its left. `column` is the
+/// currency of report, charts and files.
 const ORDER: [&str; 21] = [
     "math",
     "units",
@@ -82,8 +82,8 @@ fn files_stay_readable_in_one_sitting() {
     }
 }
 
-/// Types that mirror a section of the job's JSON keep its name and are read as `job::Tool`; so are the
-/// options of the three readers.
+/// Types that mirror a section of the job's JSON keep its name and are read as `job::Tool`; so are
+/// the options of the three readers.
 const READ_WITH_THEIR_MODULE: [&str; 12] = [
     "Branch",
     "Compensation",
@@ -99,7 +99,7 @@ const READ_WITH_THEIR_MODULE: [&str; 12] = [
     "Identified",
 ];
 
-/// Names of the types that a file defines; associated types are none.
+/// Names of the types that a file defines, except associated types.
 fn types(text: &str) -> impl Iterator<Item = String> {
     text.lines().filter_map(|line| {
         let code = line.trim_start_matches("pub(crate) ").trim_start_matches("pub(super) ");

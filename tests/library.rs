@@ -1,4 +1,5 @@
-//! The library of robots: its data are whole, its kinematics agree with another author's, its rule for unknown stiffness with its own sources.
+//! The library of robots: its data are complete, its kinematics agree with another author's, and
+//! its rule for unknown stiffness agrees with the rule's own sources.
 #![cfg(not(target_arch = "wasm32"))]
 #![allow(clippy::disallowed_types, clippy::disallowed_methods, reason = "compared within tolerances")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
@@ -37,7 +38,7 @@ fn glam_columns(peer: &rs_opw_kinematics::pose::Pose) -> Vec<f64> {
     q.to_rotation_matrix().matrix().iter().copied().collect()
 }
 
-/// q75, q99 and the largest.
+/// q75, q99 and the maximum.
 fn quantiles(mut errors: Vec<f64>) -> [f64; 3] {
     errors.sort_by(f64::total_cmp);
     let at = |share: f64| errors[((errors.len() - 1) as f64 * share) as usize];
@@ -101,7 +102,7 @@ fn forward_and_inverse_agree_with_another_authors() {
                 .iter()
                 .map(|s| s.margin.elbow.min(s.margin.wrist).min(s.margin.shoulder))
                 .fold(f64::INFINITY, f64::min);
-            // Near a singularity both are right about the pose and differ in the angles.
+            // Near a singularity both are right about the pose but differ in the angles.
             if margin < 0.05 {
                 continue;
             }
@@ -118,7 +119,8 @@ fn forward_and_inverse_agree_with_another_authors() {
     let [places, turns, angles] = [places, turns, angles].map(quantiles);
     println!("q75, q99, max: position {places:?} m, rotation {turns:?}, {count} solutions {angles:?} rad");
     assert!(count > 20_000, "{count} solutions were compared");
-    // Both are double precision over 3 m: rounding. Up to 0.05 from a singularity angles have twenty times that of the pose, and sums of them more.
+    // Both are double precision over 3 m: rounding. Up to 0.05 from a singularity the errors of
+    // angles are twenty times those of the pose, and of their sums more.
     assert!(places[2] < 1e-14 && turns[2] < 1e-14);
     assert!(angles[0] < 1e-14 && angles[1] < 1e-13 && angles[2] < 1e-11, "{angles:?}");
 }
@@ -137,7 +139,7 @@ fn any_parameters_mean_what_another_author_takes_them_for() {
         let q = any_joints(&mut random);
         let (ours, theirs) =
             (forward::forward(&robot(&preset), &q), pose_of(&peer(&preset).forward(&q.into())));
-        // Rounding of some dozen products of metres.
+        // Rounding of a few dozen products of metres.
         assert!((ours.position - theirs.position).norm() < 1e-14, "{preset:?}");
         assert!((ours.rotation - theirs.rotation).norm() < 1e-14, "{preset:?}");
     }
@@ -181,7 +183,8 @@ fn out_of_reach_the_nearer_shoulder_tells_its_distance() {
     assert!(near > 100 && far > 1000, "{near} too near, {far} too far");
 }
 
-/// Differences of the other author's forward model stand for the Jacobian, and C_x = J C_theta J^T (eq. 3.48) is built from them.
+/// C_x = J C_theta J^T (eq. 3.48), with the Jacobian from differences of the other author's forward
+/// model.
 #[test]
 fn jacobian_and_compliance_agree_with_differences_of_another_authors_poses() {
     let mut random = fastrand::Rng::with_seed(43);
@@ -220,7 +223,8 @@ fn jacobian_and_compliance_agree_with_differences_of_another_authors_poses() {
     let [jacobians, compliances] = [jacobians, compliances].map(quantiles);
     println!("q75, q99, max of {count}: Jacobian {jacobians:?}, compliance {compliances:?}, relative");
     assert!(count > 4000);
-    // Rounding of poses over the step, 4e-16 * 3 m / 1e-4, is a few 1e-12 of a lever arm; the step's fourth power is less.
+    // Rounding of poses over the step, 4e-16 * 3 m / 1e-4, is a few 1e-12 of a lever arm; the
+    // step's fourth power is less.
     for [q75, q99, max] in [jacobians, compliances] {
         assert!(q75 < 1e-11 && q99 < 2e-11 && max < 1e-10, "{q75}, {q99}, {max}");
     }
@@ -230,7 +234,8 @@ fn jacobian_and_compliance_agree_with_differences_of_another_authors_poses() {
 fn the_rule_for_unknown_stiffness_follows_from_the_published_sets() {
     let sets: Vec<_> = library::published().collect();
     assert_eq!(sets.len(), 8);
-    // ln k = ln K_i + p ln(payload / 200 kg): for given p, ln K_i is a mean; p by the smallest sum of squares.
+    // ln k = ln K_i + p ln(payload / 200 kg): for given p, ln K_i is a mean; p by the smallest sum
+    // of squares.
     let fit = |p: f64| {
         let logs = |i: usize| -> Vec<f64> {
             let of = |set: &library::Published| {
@@ -254,7 +259,7 @@ fn the_rule_for_unknown_stiffness_follows_from_the_published_sets() {
     let deviation = (rest.iter().map(|r| r * r).sum::<f64>() / (rest.len() - 7) as f64).sqrt().exp();
     let worst = rest.iter().fold(0.0_f64, |a, b| a.max(b.abs())).exp();
     assert!((1.8..2.0).contains(&deviation) && (8.0..9.0).contains(&worst), "{deviation}, {worst}");
-    // The table's values turned over, to one digit: for an eighth of the payload twice as much.
+    // The table's values inverted, to one digit: an eighth of the payload has twice the compliance.
     assert_eq!(library::assumed_compliance(200.0), [4e-7, 3e-7, 5e-7, 2e-6, 3e-6, 3e-6]);
     assert_eq!(library::assumed_compliance(25.0), [9e-7, 6e-7, 1e-6, 5e-6, 6e-6, 6e-6]);
 }

@@ -1,5 +1,5 @@
-//! The package in `target/npm`, installed and used as by somebody who has nothing else of this project: in Node, and by
-//! TypeScript's compiler. `cargo xtask test` installs it.
+//! The package in `target/npm`, installed and used by a project that has nothing else of this one:
+//! in Node, and by TypeScript's compiler. `cargo xtask test` installs it.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
@@ -11,7 +11,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-/// What `cargo xtask test` says in the environment.
+/// A folder that `cargo xtask test` names in the environment.
 fn folder(name: &str) -> PathBuf {
     let folder =
         env::var_os(name).unwrap_or_else(|| panic!("{name} is not set: `cargo xtask test` starts this"));
@@ -27,7 +27,7 @@ fn project() -> PathBuf {
     project
 }
 
-/// What a program prints when Node runs it; its messages if it fails.
+/// The output of a program in Node; its messages if it fails.
 fn node<S: AsRef<OsStr>>(project: &Path, words: impl IntoIterator<Item = S>) -> String {
     let output = Command::new("node").current_dir(project).args(words).output().expect("Node is needed");
     let text = |bytes| String::from_utf8_lossy(bytes).into_owned();

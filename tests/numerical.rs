@@ -1,4 +1,5 @@
-//! The numerical inverse against the closed form, against the forward model of published arms, and along a path.
+//! The numerical inverse against the closed form, against the forward model of published arms, and
+//! along a path.
 #![allow(clippy::disallowed_types, clippy::disallowed_methods, reason = "compared within tolerances")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "quantiles are worth seeing: cargo test -- --nocapture")]
@@ -13,8 +14,8 @@ use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// a, d [m] and alpha of the standard Denavit-Hartenberg rows that Universal Robots publishes ("DH Parameters for calculations of
-/// kinematics and dynamics", universal-robots.com, article 45257).
+/// a, d [m] and alpha of the standard Denavit-Hartenberg rows that Universal Robots publishes ("DH
+/// Parameters for calculations of kinematics and dynamics", universal-robots.com, article 45257).
 const ALPHA: [f64; 6] = [FRAC_PI_2, 0.0, 0.0, FRAC_PI_2, -FRAC_PI_2, 0.0];
 const UR5: [[f64; 6]; 2] =
     [[0.0, -0.425, -0.39225, 0.0, 0.0, 0.0], [0.089159, 0.0, 0.0, 0.10915, 0.09465, 0.0823]];
@@ -33,7 +34,7 @@ fn universal(table: [[f64; 6]; 2]) -> Robot {
     Robot::new("UR", modified(table), None, [0.0; 6]).unwrap()
 }
 
-/// Largest difference of two sets of joint values, whole turns apart.
+/// Largest difference of two sets of joint values, modulo whole turns.
 fn apart(a: &Joints, b: &Joints) -> f64 {
     (a - b).iter().map(|d| (d - TAU * (d / TAU).round()).abs()).fold(0.0, f64::max)
 }
@@ -49,7 +50,7 @@ fn both_inverses_agree_on_arms_of_the_family() {
     let mut random = fastrand::Rng::with_seed(51);
     let (mut angles, mut missed, mut all) = (Vec::new(), 0, 0);
     for _ in 0..60 {
-        // A tilted base: the same arm, but axis 1 is not vertical, which the closed form refuses.
+        // A tilted base: the same arm, but axis 1 is not vertical, which the closed form rejects.
         let closed = any_arm(&mut random);
         let tilt = Pose::from_xyz_rpy(Vector3::zeros(), [0.5, 0.0, 0.0]);
         let mut links = *closed.links();
@@ -70,7 +71,7 @@ fn both_inverses_agree_on_arms_of_the_family() {
                 continue;
             };
             angles.push(apart(&same.q, &solution.q));
-            // The same words for the same arm.
+            // The same branch names for the same arm.
             assert_eq!(same.branch, solution.branch);
             for (ours, theirs) in [
                 (same.margin.shoulder, solution.margin.shoulder),
@@ -109,14 +110,15 @@ fn arms_without_a_spherical_wrist_are_solved() {
                 let reached = forward::forward(&robot, &solution.q);
                 position.push((reached.position - tcp.position).norm());
                 rotation.push((reached.rotation - tcp.rotation).norm());
-                // Axes 2, 3 and 4 are parallel, the offset of the wrist is along them: the elbow is q3, and the upper arm points backwards.
+                // Axes 2, 3 and 4 are parallel, the offset of the wrist is along them: the elbow is
+                // q3, and the upper arm points backwards.
                 let (elbow, wrist) = (solution.q[2].sin(), solution.q[4].sin());
                 let Margin { elbow: bent, wrist: turned, .. } = solution.margin;
                 assert!((bent - elbow.abs()).abs() < 1e-9 && (turned - wrist.abs()).abs() < 1e-9);
                 assert_eq!(solution.branch.elbow_positive, elbow <= 0.0);
             }
             lost += u32::from(solutions.iter().all(|s| apart(&s.q, &q) > 1e-4));
-            // From nearby, the search finds its way back to where it came from.
+            // From nearby values, the search converges to the original solution.
             let near = q + Joints::from_fn(|i, _| if i % 2 == 0 { 0.01 } else { -0.01 });
             let back = inverse(&robot, &tcp, &near).unwrap();
             let margin = back.nearest(&near).unwrap().margin;
@@ -128,14 +130,15 @@ fn arms_without_a_spherical_wrist_are_solved() {
         println!(
             "position {position:?} m, rotation {rotation:?}; number of solutions {counts:?}; {lost} poses not found again"
         );
-        // Rounding; only beside a singularity the last steps are slow, within what any solution must keep.
+        // Rounding; only beside a singularity the last steps are slow, within the accuracy required
+        // of any solution.
         assert!(position[2] < 1e-9 && rotation[2] < 1e-9, "{position:?} {rotation:?}");
         assert!(position[1] < 1e-13 && rotation[1] < 1e-13, "{position:?} {rotation:?}");
         assert!(lost <= 2, "{lost} of 150");
     }
 }
 
-/// A UR10 as a job gives it.
+/// A UR10 as a job states it.
 fn ur10() -> Value {
     let links = modified(UR10).map(
         |link| json!({"alpha_deg": link.alpha.to_degrees(), "a_mm": link.a * 1e3, "d_mm": link.d * 1e3}),
@@ -159,7 +162,7 @@ fn a_path_is_milled_by_an_arm_that_is_solved_numerically() {
         assert!((tcp.position - position).norm() < 1e-9);
     }
     let steps = report.q.windows(2).map(|pair| (pair[1] - pair[0]).amax());
-    // 0.04 mm a sample, about 0.7 m from the base.
+    // 0.04 mm per sample, about 0.7 m from the base.
     assert!(steps.fold(0.0, f64::max) < 2e-3, "no joint jumps");
     let history = &report.compensation.history_max;
     assert!(

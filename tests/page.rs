@@ -1,5 +1,6 @@
-//! The built page in a real browser, used as a person would. `cargo xtask test` builds and serves the page, starts the driver
-//! and runs these. Numbers on the page are compared with native runs of the same job, bit for bit.
+//! The built page in a real browser, driven like a user. `cargo xtask test` builds and serves the
+//! page, starts the driver and runs these tests. Numbers on the page are compared with native runs
+//! of the same job, bit for bit.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 #[path = "page/browser.rs"]
@@ -55,12 +56,12 @@ use browser::{DESKTOP, Key, PHONE, Page, Result, visit};
 use common::run;
 use serde_json::{Value, json};
 
-/// Waits until the page shows the result of what stands in its inputs.
+/// Waits until the page shows the result of its current inputs.
 async fn current(page: &Page) -> Result {
     page.wait_for("document.querySelector('#results').dataset.state === 'current'", 60.0).await
 }
 
-/// Waits until the page says that its result is an older one.
+/// Waits until the page marks its result as outdated.
 async fn stale(page: &Page) -> Result {
     page.wait_for("document.querySelector('#results').dataset.state === 'stale'", 60.0).await
 }
@@ -163,13 +164,13 @@ fn invalid_input_is_answered_beside_the_field_and_the_last_result_stays() -> Res
             ))
             .await
         };
-        for (typed, told) in
+        for (typed, reason) in
             [("-5", "legal is 0.001 to 10000 mm/s"), ("fast", "not a number"), ("", "needed")]
         {
             page.type_into("#motion-feed_mm_s", typed).await?;
             stale(page).await?;
             assert!(
-                error("motion-feed_mm_s").await?.contains(told),
+                error("motion-feed_mm_s").await?.contains(reason),
                 "{typed}: {}",
                 error("motion-feed_mm_s").await?
             );
@@ -187,7 +188,7 @@ fn invalid_input_is_answered_beside_the_field_and_the_last_result_stays() -> Res
         assert_eq!(marked("motion-feed_mm_s").await?, false);
         assert_eq!(error("motion-feed_mm_s").await?, "");
 
-        // What only the core can know: the tooth would leave before it enters.
+        // Only the core can know this: the tooth would leave before it enters.
         unfold(page, "cutting").await?;
         page.type_into("#cutting-exit_deg", "45").await?;
         stale(page).await?;
@@ -267,7 +268,7 @@ fn a_trap_is_survived() -> Result {
         shows(page, &run(std::slice::from_ref(&job))).await?;
         page.with_module("core", "({ trap }) => trap()").await?;
         page.wait_for("document.querySelector('#alert').textContent.includes('started again')", 20.0).await?;
-        // The job is kept and computed anew; the next change works as before.
+        // The job is kept and computed again; the next change works as before.
         assert_eq!(page.value("#motion-feed_mm_s").await?, "120");
         shows(page, &run(&[job])).await?;
         page.type_into("#motion-feed_mm_s", "90").await?;
@@ -407,12 +408,12 @@ fn a_long_run_shows_progress_and_can_be_cancelled() -> Result {
             .await?;
         page.type_into("#motion-sample_time_s", "2e-5").await?;
         page.wait_for("document.querySelector('#results').classList.contains('slow')", 20.0).await?;
-        // It moves within a stage too: there are eight of them.
+        // It advances within a stage too: there are eight of them.
         page.wait_for("seen.size >= 12", 60.0).await?;
-        // The page answers meanwhile: a tab is changed and its charts of the last result are drawn.
+        // The page stays responsive: a tab is changed and its charts of the last result are drawn.
         page.click("#tab-shaper").await?;
         page.wait_for("document.querySelector('#chart-shaper-step svg')", 30.0).await?;
-        // What is typed is answered, and taken back it is computed anew.
+        // Typing gets a response, and undoing it computes again.
         unfold(page, "tool").await?;
         page.type_into("#tool-flutes", "four").await?;
         page.wait_for(
@@ -446,7 +447,8 @@ fn fits_a_phone_and_the_dark() -> Result {
         }
         // The verdict comes first, the inputs fold.
         let order = page
-            .js("const top = id => document.getElementById(id).getBoundingClientRect().top; return [top('verdict'), top('inputs'), top('views')]")
+            .js("const top = id => document.getElementById(id).getBoundingClientRect().top; \
+                 return [top('verdict'), top('inputs'), top('views')]")
             .await?;
         let order: Vec<f64> = serde_json::from_value(order)?;
         assert!(order[0] < order[1] && order[1] < order[2], "{order:?}");
@@ -466,11 +468,13 @@ fn fits_a_phone_and_the_dark() -> Result {
 fn nothing_moves_when_results_arrive() -> Result {
     visit("/", DESKTOP, async |page| {
         current(page).await?;
-        page.js("window.shift = 0; new PerformanceObserver(list => { for (const e of list.getEntries()) window.shift += e.value; }).observe({ type: 'layout-shift', buffered: true })").await?;
+        page.js("window.shift = 0; new PerformanceObserver(list => { for (const e of list.getEntries()) \
+             window.shift += e.value; }).observe({ type: 'layout-shift', buffered: true })")
+            .await?;
         page.wait_for("document.querySelector('#chart-before-after svg')", 20.0).await?;
         page.js("return new Promise(done => setTimeout(done, 300))").await?;
         let shift = page.js("return window.shift").await?.as_f64().unwrap();
-        // 0.1 is what browsers call good.
+        // Browsers call 0.1 good.
         assert!(shift < 0.1, "layout shift {shift}");
         Ok(())
     })
@@ -494,7 +498,7 @@ fn programs_come_in_and_go_out() -> Result {
         for part in ["8 lines in mm", "4 that cut, 0 rapid", "M8"] {
             assert!(understood.contains(part), "{understood}");
         }
-        // Each program out is the native one.
+        // Each exported program equals the native one.
         for (id, file) in [("gcode", "armill-gcode.nc"), ("krl", "armill-krl.src")] {
             page.choose("#export-format", id).await?;
             page.click("#download-program").await?;
@@ -502,19 +506,20 @@ fn programs_come_in_and_go_out() -> Result {
                 armill::verification::export(&report, id, &armill::export::ExportOptions::default())?;
             assert_eq!(page.downloaded(file).await?, native.text, "{id}");
         }
-        // The figure after a download is that file's: robot programs wait and move at rapid speed.
+        // The figure after a download belongs to that file: robot programs wait and move at rapid
+        // speed.
         let accuracy = armill::verification::Programs::default().accuracy(&report, "krl")?;
         page.wait_for(
             &format!("document.querySelector('#status').textContent === {:?}", accuracy.sentence),
             30.0,
         )
         .await?;
-        // A mistake is placed, and what was typed stays.
+        // A mistake is located, and the typed text stays.
         page.type_into("#path-text", "G21 G90\nG0 X600 Y0 Z100\nG41 D1 X610").await?;
         stale(page).await?;
         assert!(self::text(page, "path-text-error").await?.to_lowercase().contains("line 3, column 1"));
         assert!(page.value("#path-text").await?.contains("G41 D1"));
-        // An example opens as what it is.
+        // An example opens as its own kind.
         page.choose("#examples", "dome.apt").await?;
         current(page).await?;
         assert_eq!(page.value("#path-kind").await?, "apt");

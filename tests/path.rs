@@ -88,7 +88,8 @@ fn closest_point_equals_a_search_of_every_place() {
             .map(|i| (path.point(low + (high - low) * f64::from(i) / f64::from(steps)) - p).norm())
             .fold(f64::INFINITY, f64::min);
         let ours = (closest.point - p).norm();
-        // The search steps by 0.5 um; near a distance of some mm that costs 1e-10 m, near zero up to the step.
+        // The search steps by 0.5 um; near a distance of some mm that costs 1e-10 m, near zero up
+        // to the step.
         assert!(ours <= brute + 1e-12, "closest {ours}, search {brute}");
         assert!(ours >= brute - 6e-7);
         assert!((path.point(closest.s) - closest.point).norm() < 1e-12);
@@ -97,7 +98,8 @@ fn closest_point_equals_a_search_of_every_place() {
 
 #[test]
 fn a_crossing_is_matched_to_the_own_branch() {
-    // A figure that crosses itself at the origin: on the first leg the second one is nearer, and must not be taken.
+    // A figure that crosses itself at the origin: on the first leg the second one is nearer, but
+    // must not be chosen.
     let points =
         [[-0.1, 0.0], [0.1, 0.0], [0.1, 0.1], [0.0, 0.1], [0.0, -0.1]].map(|[x, y]| Vector3::new(x, y, 0.0));
     let path = Path::new(shape::polyline(&points)).unwrap();
@@ -178,7 +180,7 @@ fn a_sharp_corner_is_a_stop_and_a_blunt_one_is_not() {
     assert!((smooth.timing.speed[middle] - 0.1).abs() < 1e-12, "no slowing down");
     let stop = turn(6.0);
     assert_eq!(stop.stops.len(), 1);
-    // Two stretches of 0.1 m with 0.2 s ramps, and the wait.
+    // Two stretches of 0.1 m with 0.2 s ramps, and the dwell.
     let expected = 2.0 * (1.0 + 0.2) + 0.2;
     assert!((stop.moving as f64 * 1e-3 - expected).abs() < 3e-3, "{}", stop.moving);
     let resting = stop.timing.speed[5..stop.len() - 5].iter().filter(|speed| **speed == 0.0).count();
@@ -208,14 +210,15 @@ fn speed_and_acceleration_stay_within_what_was_asked() {
         }
         for k in 2..s.len() {
             let second = (s[k] - 2.0 * s[k - 1] + s[k - 2]) / 4e-6;
-            // Across a stop of no or little wait, two ramps meet within a step: twice the acceleration.
+            // Across a stop with little or no dwell, two ramps meet within a step: twice the
+            // acceleration.
             assert!(second.abs() <= 2.0 * limits.acceleration * (1.0 + 1e-6) + 1e-6, "{second}");
         }
         assert_eq!(*s.last().unwrap(), path.length());
     }
 }
 
-/// A smooth chain of lines along x with their own speeds.
+/// A smooth chain of lines along x, each with its own speed.
 fn straight(paces: &[(f64, MovePace)]) -> Path {
     let mut from = 0.0;
     let moves = paces
@@ -308,10 +311,11 @@ fn rapids_do_not_cut_and_waits_are_waited() {
     for (s, engaged) in trajectory.timing.arc_length.iter().zip(&trajectory.timing.engaged) {
         assert!(*s == 0.05 || *engaged == if *s < 0.05 { 0.0 } else { 1.0 });
     }
-    // Rapid: 0.05 m at up to 0.2 m/s; then 0.05 m at 0.1 m/s; both from rest to rest with 1 m/s^2; and the wait.
+    // Rapid: 0.05 m at up to 0.2 m/s; then 0.05 m at 0.1 m/s; both from rest to rest with 1 m/s^2;
+    // and the dwell.
     let expected = (0.05 / 0.2 + 0.2) + 0.3 + (0.05 / 0.1 + 0.1);
     assert!((trajectory.moving as f64 * 1e-3 - expected).abs() < 3e-3);
-    // Stations stand evenly from the start to the end, at each move's full speed.
+    // Stations are evenly spaced from start to end, at each move's full speed.
     let TimingLaw { arc_length, speed, engaged, .. } = Trajectory::stations(&path, &limits, 5).timing;
     assert!(arc_length.iter().zip([0.0, 0.025, 0.05, 0.075, 0.1]).all(|(s, even)| (s - even).abs() < 1e-15));
     assert_eq!([speed[1], speed[3], engaged[1], engaged[3]], [0.2, 0.1, 0.0, 1.0]);

@@ -1,4 +1,4 @@
-//! The map of places against whole runs: the same errors, the same limits, the same reach.
+//! The placement map against whole runs: equal errors, equal limits, equal reach.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
@@ -61,7 +61,8 @@ fn every_place_is_what_a_whole_run_there_says() {
                     }
                     PlacementStatus::Unreachable => panic!("{x}, {y}, {z} can be run"),
                 }
-                // By compensation a command may leave the range where the desired path just keeps it, not the other way round.
+                // Compensation may push a command out of a range that the desired path just keeps,
+                // never the other way round.
                 assert!(place.status != PlacementStatus::Limit || has(&["joint-limit"]), "{x}, {y}, {z}");
             }
         }

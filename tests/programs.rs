@@ -1,4 +1,5 @@
-//! Programs to take away: what is written reads back as the compensated path, and simulated again it meets the tolerance.
+//! Exported programs: they read back as the compensated path and, simulated again, meet the
+//! tolerance.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
@@ -36,8 +37,8 @@ fn a_wait_in_a_corner_is_written() {
     }
 }
 
-/// A report whose path is said to come from a program: down, along a side, around a corner, up. The path simulated is a polyline, which the
-/// moves repeat.
+/// A report whose path is said to come from a program: down, along a side, around a corner, up. The
+/// simulated path is a polyline, which the moves repeat.
 fn from_gcode(text: &str, unit: &'static str) -> Report {
     let corners = [
         [0.0, 0.0, 20.0],
@@ -88,13 +89,14 @@ fn a_program_keeps_its_lines() {
     assert!(lines[2].starts_with("(Armill "));
     let modes = find("G21 G17 G40 G49 G80 G90 G94");
     assert!(lines[modes + 1].starts_with("N10 S6000 M3 (was: N10 G21 G90 G0 X0 Y0 Z20 S6000 M3)"));
-    // The start, then each line with its own moves; where one move is enough, it stays one block.
+    // The start, then each line with its own moves; a line that needs only one move stays one
+    // block.
     assert!(lines[modes + 2].starts_with("G0 X"));
     assert!(lines[find("N40 ")].ends_with("(was: N40 G3 X80 Y20 I0 J20 M8)"));
     assert!(lines[find("N40 ")].starts_with("N40 M8"));
     assert_eq!(lines[find("(was: / N45")], "(was: / N45 M7)", "what a switch decides is not run");
     assert!(find("N20 ") < find("N30 ") && find("N30 ") < find("N40 ") && find("N50 ") < find("N60 M30"));
-    // Read back, it is the compensated path; the rapids are where they were.
+    // Read back, it is the compensated path; the rapids are unchanged.
     let (export, read) = read_back(&report, "gcode", &ExportOptions::default());
     assert!(largest_distance(&commanded(&report, &export), &chain(&read)) <= 1e-6);
     for step in &read.moves {
@@ -150,8 +152,9 @@ fn a_tilted_axis_goes_to_apt_not_to_gcode() {
     );
 }
 
-/// Exports a job's points, simulates them as a job of their own that compensates nothing, and gives each sample's distance [m] from the
-/// path first desired, with the place on it. The distance is sought over the whole path, not near an expected place.
+/// Exports a job's points and simulates them as a job of their own without compensation. Gives each
+/// sample's distance [m] from the path first desired, with its place on it. The distance is sought
+/// over the whole path, not near an expected place.
 fn simulated_again(changes: &[(&'static str, Value)]) -> Vec<(f64, Vector3<f64>)> {
     let report = run(changes);
     let (_, program) = read_back(&report, "gcode", &ExportOptions::default());
@@ -165,15 +168,20 @@ fn simulated_again(changes: &[(&'static str, Value)]) -> Vec<(f64, Vector3<f64>)
     run(&again).after.actual.iter().map(|p| ((p - nearest(p)).norm(), nearest(p))).collect()
 }
 
-/// Exported, read back and simulated with compensation off, a path stays within the job's tolerance plus the thinning's (0.011 mm) of the path first desired,
-/// at the same feed, acceleration and corner rule as the first time. Three bounds on this, all found by measuring:
+/// Exported, read back and simulated with compensation off, a path stays within the job's tolerance
+/// plus the thinning's (0.011 mm) of the path first desired, at the same feed, acceleration and
+/// corner rule as the first time. Three bounds on this, all found by measuring:
 ///
-/// - The second run takes the bent path for the path desired, so its cutting force follows the bent path's tangent. Deflection
-///   squared over the path's radius is what that costs (1.2 mm on 15 mm: 0.028 mm); hence the lighter cut on the rounded rectangle.
-/// - In a sharp corner the correction steps from one side's to the other's while the tool waits. The second run takes the
-///   step for a cut of its own, in its own direction: within 1 mm of a corner nothing is asserted.
-/// - A correction for shaping belongs to the instants it was made for. Where it is all in the waits and ends of straight lines it survives
-///   as points (asserted, without force); on an arc it does not at the ends (0.03 mm, from 0.1 mm), which is why the header says so.
+/// - The second run takes the bent path for the path desired, so its cutting force follows the bent
+///   path's tangent. This costs the deflection squared over the path's radius (1.2 mm on 15 mm:
+///   0.028 mm); hence the lighter cut on the rounded rectangle.
+/// - In a sharp corner the correction steps from one side's to the other's while the tool waits.
+///   The second run takes the step for a cut of its own, in its own direction: within 1 mm of a
+///   corner nothing is asserted.
+/// - A correction for shaping belongs to the instants it was made for. Where all of it lies in the
+///   dwells and at the ends of straight lines, it survives as points (asserted, without force). On
+///   an arc it does not survive at the ends (0.03 mm, from 0.1 mm), which is why the header says
+///   so.
 #[test]
 fn an_export_simulated_again_meets_the_tolerance() {
     let allowed = 1.1e-5;

@@ -1,4 +1,5 @@
-//! The Puma 560, whose Jacobian and gravity torques are published: kinematics and weight of an arm that nobody here has entered before.
+//! The Puma 560, whose Jacobian and gravity torques are published: kinematics and weight of an arm
+//! that the library does not contain.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use armill::math::Pose;
@@ -19,8 +20,9 @@ fn numbers<const N: usize>(value: &Value) -> [f64; N] {
     numbers.try_into().unwrap()
 }
 
-/// The case's standard Denavit-Hartenberg table as a modified one: twist and length of a row belong to the row after it, so that a
-/// frame of the standard table stands off ours by its own length and twist.
+/// The case's standard Denavit-Hartenberg table as a modified one: a row's twist and length belong
+/// to the row after it, so a frame of the standard table is offset from ours by its own length and
+/// twist.
 fn arm(inputs: &Value) -> (Robot, [Pose; 6]) {
     let (d, a): ([f64; 6], [f64; 6]) = (numbers(&inputs["d_m"]), numbers(&inputs["a_m"]));
     let alpha: [f64; 6] = numbers::<6>(&inputs["alpha_deg"]).map(f64::to_radians);
@@ -63,7 +65,7 @@ fn pose_and_jacobian_are_the_published_ones() {
     }
 }
 
-/// What holds the arm up is what weight takes down; springs so stiff that nothing moves show the torque.
+/// The holding torque balances the weight; springs so stiff that nothing moves show it.
 #[test]
 fn the_weight_of_the_links_is_the_published_torque() {
     let case = case("puma560_gravload_qn");

@@ -1,4 +1,5 @@
-//! A program taken away and run again: read back by the reader of its language, it brings out the path first desired.
+//! An exported program, read back by the reader of its language and simulated, reproduces the path
+//! first desired.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
@@ -16,12 +17,12 @@ use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::sync::Arc;
 
-/// A report's program, read back and run.
+/// A report's program, read back and simulated.
 fn back(report: &Report, format: &str) -> Result<Replay, Error> {
     read_back(report, &Programs::default(), format, &ExportOptions::default())
 }
 
-/// Jobs that promise their tolerance: name and changes of the default job.
+/// Jobs that keep their tolerance as a program: name and changes to the default job.
 fn jobs() -> Vec<(&'static str, Vec<(&'static str, Value)>)> {
     let [(_, arc), (_, rounded), (_, sharp)] = small_jobs();
     let with = |job: &[(&'static str, Value)], more: &[(&'static str, Value)]| [job, more].concat();
@@ -51,8 +52,8 @@ fn jobs() -> Vec<(&'static str, Vec<(&'static str, Value)>)> {
     ]
 }
 
-/// Jobs whose joint commands keep the tolerance, and no program that was found: forces that grow from nothing to bend the arm by
-/// millimetres while the tool gains speed.
+/// Jobs whose joint commands keep the tolerance but for which no program was found that does:
+/// forces that grow from nothing to bend the arm by millimetres while the tool accelerates.
 fn out_of_reach() -> Vec<(&'static str, Vec<(&'static str, Value)>)> {
     let [(_, arc), ..] = small_jobs();
     let following = ("cutting.feed_per_tooth_mm", json!("from_feed"));
@@ -84,7 +85,8 @@ fn a_program_read_back_and_run_keeps_the_promise() {
     assert_eq!((refused.code(), refused.field()), ("invalid", Some("format")));
 }
 
-/// The report promises no more for a program than comes out of it, and where a tool stops in the middle of a move the force does, too: it does not.
+/// The report states no better accuracy for a program than its simulation gives. It adds no stop in
+/// the middle of a move, where the force would stop too.
 #[test]
 fn what_no_program_keeps_is_not_promised() {
     for (name, changes) in out_of_reach() {
@@ -100,12 +102,13 @@ fn what_no_program_keeps_is_not_promised() {
         let read = gcode::program(&text, &gcode::Options::default(), |_| {}).unwrap();
         let own = Trajectory::new(&Path::of_program(&read).unwrap(), &report.setup().limits);
         assert_eq!(own.stops.len(), report.plan.trajectory.stops.len(), "{name}: {:?}", own.stops);
-        // Ten times less than the deflection itself, which is what an error of the whole correction would be.
+        // A tenth of the deflection itself, which would be the error of the whole correction.
         assert!(read_back < 0.1 * report.summary().before_mm.deflection.max, "{name}: {read_back}");
     }
 }
 
-/// What no program of this motion can keep, its own header says: forces that follow a fast feed from rest, corners under a slow shaper.
+/// Where no program of this motion can keep the tolerance, its header says so: forces that follow a
+/// fast feed from rest, corners under a slow shaper.
 #[test]
 fn the_header_says_what_comes_out_of_the_program() {
     let [(_, arc), _, (_, sharp)] = small_jobs();
@@ -135,8 +138,8 @@ fn stated(text: &str) -> String {
     figure.split(' ').next().unwrap().to_owned()
 }
 
-/// A robot program waits and moves at rapid speed where a list of points does not, so it has an error
-/// of its own; the figure beside the file is the one in its header.
+/// A robot program waits and moves at rapid speed where a list of points does not, so it has an
+/// error of its own; the figure beside the file is the one in its header.
 #[test]
 fn a_robot_program_is_judged_by_its_own_timing() {
     let text = "G21 G90 M3 S4000\nG0 X560 Y-60 Z110\nG1 Z100 F3000\nG1 Y60\nG4 P0.5\nG1 X620\nG0 Z110\nM30";
@@ -159,7 +162,7 @@ fn a_robot_program_is_judged_by_its_own_timing() {
     assert_eq!((refused.code(), refused.field()), ("invalid", Some("format")));
 }
 
-/// A file that needs no pass tells the report's own correction; one that does is no worse for it.
+/// A file that needs no pass reports the correction of the run; one that does is no worse for it.
 #[test]
 fn a_rehearsal_only_improves() {
     let [(_, arc), (_, rounded), _] = small_jobs();
@@ -190,14 +193,15 @@ fn a_program_that_is_wrong_is_seen_to_be() {
         }
         replay::run(&report, &written.commanded_path, &program).unwrap().statistics().max
     };
-    // A program 0.1 mm too high cuts 0.1 mm too high, give or take what is left of the error.
+    // A program 0.1 mm too high cuts 0.1 mm too high, within the remaining error.
     assert!((outcome(1e-4) - 0.1).abs() < 0.02, "{}", outcome(1e-4));
     assert!(outcome(0.0) < 0.02);
 }
 
-/// The plain way, without telling the second run what the first desired: the program is the path, nothing is compensated, and
-/// force follows the program's own direction. That costs the deflection times the angle between the two directions: 0.4 um on the default
-/// circle, 24 um on corners of 15 mm radius, all of it in a sharp corner, so these are left out.
+/// The plain way, without giving the second run the path first desired: the program is the path,
+/// nothing is compensated, and the force follows the program's own direction. That costs the
+/// deflection times the angle between the two directions: 0.4 um on the default circle, 24 um on
+/// corners of 15 mm radius. In a sharp corner it costs all of it, so these are left out.
 #[test]
 fn a_program_opened_as_a_job_of_its_own_keeps_it_too_where_the_path_is_wide() {
     const WIDE: [&str; 6] = [

@@ -1,5 +1,5 @@
-//! Programs to take away, read back by the crate's own readers: they are the compensated path within the thinning tolerance, no more and no
-//! less, with its paces and spindle speeds.
+//! Exported programs, read back by the crate's own readers: they are the compensated path within
+//! the thinning tolerance, no more and no less, with its feeds and spindle speeds.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
@@ -16,14 +16,15 @@ use common::program::{example, examples, read_back, small_jobs};
 use common::run;
 use nalgebra::Vector3;
 
-/// Rounding of what is written: five decimals of a millimetre, six of an inch, nine of an axis.
+/// Rounding of the output: five decimals of a millimetre, six of an inch, nine of an axis.
 const ROUNDING: f64 = 4e-8;
 
 /// A tip [m] and the tool's axis there.
 type Pose = (Vector3<f64>, Vector3<f64>);
 
-/// Distance [m] of each of the points from the path, and where on the path it is nearest [m]. The nearest point is sought only around the
-/// last one, and the way must be followed to its end: backwards does not count.
+/// Distance [m] of each of the points from the path, and the nearest place on it [m]. The nearest
+/// point is sought only around the last one, and the path must be followed to its end: moving
+/// backwards does not count.
 fn follow<'a>(name: &str, points: impl Iterator<Item = &'a Vector3<f64>>, path: &Path) -> Vec<(f64, f64)> {
     const WINDOW: f64 = 3e-3;
     let mut s = 0.0;
@@ -37,7 +38,7 @@ fn follow<'a>(name: &str, points: impl Iterator<Item = &'a Vector3<f64>>, path: 
     nearest
 }
 
-/// Commanded poses in the workpiece frame, as many lists as the path has moves.
+/// Commanded poses in the workpiece frame, one list per move of the path.
 fn samples(report: &Report, commanded_path: &CommandedPath) -> Vec<Vec<Pose>> {
     let back = report.setup().workpiece.inverse();
     let axes = (0..report.samples()).map(|k| back.direction(commanded_path.axis.at(k)));
@@ -73,7 +74,7 @@ fn is_the_compensated_path(name: &str, report: &Report, id: &str, thinning: f64)
         for (read, step) in own.iter().zip(&commanded.steps) {
             said(&format!("{name}, read in line {}", read.line), read, commanded, step, id);
         }
-        // What was commanded is on what was read, tip and axis.
+        // Every commanded point lies on the path read back, tip and axis.
         let Some(path) = path_of(own) else { continue };
         let on = follow(&name, poses.iter().map(|(tip, _)| tip), &path);
         for ((distance, s), (_, axis)) in on.iter().zip(&poses) {
@@ -84,8 +85,9 @@ fn is_the_compensated_path(name: &str, report: &Report, id: &str, thinning: f64)
                 export.deviation
             );
         }
-        // What was read is on what was commanded: no move goes elsewhere. Between two samples, 0.1 mm apart, an arc may
-        // bulge from their chord; the sharpest that undo a slow shaper have radii of 0.3 mm.
+        // Every point read back lies on the commanded path: no move goes elsewhere. Between two
+        // samples, 0.1 mm apart, an arc may bulge from their chord; the sharpest that undo a slow
+        // shaper have radii of 0.3 mm.
         let ends = [path.point(0.0), path.point(path.length())];
         let tips = poses.iter().map(|(tip, _)| *tip);
         let points: Vec<_> = [ends[0]].into_iter().chain(tips).chain([ends[1]]).collect();
@@ -100,7 +102,7 @@ fn is_the_compensated_path(name: &str, report: &Report, id: &str, thinning: f64)
     }
 }
 
-/// A move says what it should: where it ends, how fast, whether it cuts, at which speed of the spindle.
+/// A move states what it should: its end, its feed, whether it cuts, and its spindle speed.
 fn said(name: &str, read: &Move, commanded: &CommandedMove, step: &Step, id: &str) {
     let end = read.segment.point(read.segment.length());
     assert!((end - step.to.position).norm() < ROUNDING, "{name}: {end}");

@@ -1,4 +1,4 @@
-//! The script entry (`examples/run.rs`) as a person at a shell meets it.
+//! The script entry (`examples/run.rs`) as a user at a shell meets it.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
@@ -8,7 +8,8 @@ use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
-/// The example by cargo: `cargo test --test script` alone would not bring it up to date.
+/// Runs the example through cargo, because `cargo test --test script` alone would not bring it up
+/// to date.
 fn script() -> Command {
     let mut command = Command::new(env!("CARGO"));
     command

@@ -1,4 +1,4 @@
-//! Spin about the tool axis: what turns, what must not, and what a free spin brings.
+//! Spin about the tool axis: what turns, what must not, and what a free spin gains.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
@@ -9,7 +9,8 @@ use armill::robot::forward;
 use common::{column, job_text, refused, run};
 use serde_json::{Value, json};
 
-/// A program of three lines, the spindle at 40 deg on the flange, so that the spin moves all joints.
+/// A program of three lines, the spindle at 40 deg on the flange, so that the spin moves all
+/// joints.
 fn text(spin: Value, changes: &[(&str, Value)]) -> String {
     let mut all = vec![
         ("path", json!({"kind":"csv","text":"350,-400,120\n600,0,120\n350,400,150\n100,500,150"})),
@@ -68,7 +69,8 @@ fn a_free_spin_does_what_it_is_chosen_for() {
     let fixed = angled(json!({}), &[]);
     let calm = angled(free("smooth-joints", -90.0, 90.0), &[]);
     let exact = angled(free("least-error", -90.0, 90.0), &[]);
-    // Square turn of the joints along the path, and the largest error: the goals themselves, over all samples.
+    // Squared joint travel along the path, and the largest error: the objectives themselves, over
+    // all samples.
     let turning = |report: &Report| {
         let steps = report.q.windows(2).zip(report.plan.trajectory.timing.arc_length.windows(2));
         steps
@@ -79,7 +81,7 @@ fn a_free_spin_does_what_it_is_chosen_for() {
     assert!(turning(&calm) < 0.97 * turning(&fixed), "{} of {}", turning(&calm), turning(&fixed));
     assert!(erring(&exact) < 0.97 * erring(&fixed), "{} of {}", erring(&exact), erring(&fixed));
     for angle in [-90, -60, -30, 30, 60, 90] {
-        // Any one angle is worse; 1 % for what lies between the stations.
+        // Any single angle is worse; 1 % allows for the angles between the stations.
         let Ok(job) = armill::Job::from_json(&text(json!({"angle_deg":angle}), &[])) else { panic!() };
         let Ok(held) = armill::run(&job, &mut armill::Progress::none()) else { continue };
         assert!(
@@ -93,7 +95,7 @@ fn a_free_spin_does_what_it_is_chosen_for() {
     for report in [&calm, &exact] {
         let spin = column(report, "spin_deg");
         assert!(spin.iter().all(|spin| spin.abs() <= 90.0 + 1e-9), "the range holds");
-        // The path is the same; only the arm is held otherwise. Compensation still works.
+        // The path is the same; only the arm's posture differs. Compensation still works.
         assert_eq!(column(report, "desired_x_mm"), column(&fixed, "desired_x_mm"));
         let summary = report.summary();
         assert!(summary.converged, "{}", summary.verdict);
@@ -107,7 +109,7 @@ fn a_free_spin_does_what_it_is_chosen_for() {
         assert_eq!(gain.free.error_mm, summary.before_mm.both.max);
         let used = spin.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)));
         assert_eq!(gain.used_deg, [used.0, used.1]);
-        // The joints' way and the fastest one by the columns.
+        // The joints' travel and the fastest joint, from the columns.
         let steps: Vec<f64> = (1..=6)
             .flat_map(|i| {
                 let q = column(report, &format!("q{i}_deg"));
@@ -124,8 +126,12 @@ fn a_free_spin_does_what_it_is_chosen_for() {
 
 #[test]
 fn a_free_spin_keeps_the_joints_in_their_range_where_it_can() {
-    // With the part's X kept, joint 6 turns against joint 1 all around; with a free spin it need not.
-    let narrow = json!({"preset":"staubli-rx90","joint_limits_deg":[[-170,170],[-137.5,137.5],[-142.5,142.5],[-270,270],[-105,120],[-20,20]]});
+    // With the part's X kept, joint 6 turns against joint 1 all around; with a free spin it need
+    // not.
+    let narrow = json!({
+        "preset":"staubli-rx90",
+        "joint_limits_deg":[[-170,170],[-137.5,137.5],[-142.5,142.5],[-270,270],[-105,120],[-20,20]]
+    });
     let path = json!({"kind":"arc","center_mm":[0,0,100],"radius_mm":550,"normal":[0,0,1],"start_deg":-60,"sweep_deg":120});
     let warns = |spin: Value| {
         let report = run(&[

@@ -1,4 +1,5 @@
-//! The thesis's figures, each with its tolerance and why (design notes: what in the thesis is right, and what is not).
+//! The thesis's figures, each with its tolerance and why (design notes: what in the thesis is
+//! right, and what is not).
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -141,8 +142,9 @@ fn table_3_3_second_row_is_the_other_shoulder() {
     let robot = rx90(D6).unwrap();
     let q = Joints::from([70.0, 20.0, 60.0, 0.0, 50.0, 100.0]).map(f64::to_radians);
     let solutions = inverse::inverse(&robot, &forward::forward(&robot, &q), &Joints::zeros()).unwrap();
-    // Printed: theta1 = -110, theta2 = -20, theta3 = -60, theta4 = 0 and theta6 = -100 (under the heading theta5) for the wrist
-    // that goes with theta4 = 0; theta6 is 100 - 180 = -80 there, -100 is a slip of sign.
+    // Printed: theta1 = -110, theta2 = -20, theta3 = -60, theta4 = 0 and theta6 = -100 (under the
+    // heading theta5) for the wrist that goes with theta4 = 0; theta6 is 100 - 180 = -80 there,
+    // -100 is a slip of sign.
     let row = [-110.0, -20.0, -60.0, 0.0];
     let found = solutions
         .iter()
@@ -153,14 +155,16 @@ fn table_3_3_second_row_is_the_other_shoulder() {
 #[test]
 fn eq_4_7_mean_force() {
     let force = default_report().mean_force();
-    // Exact values to three decimals by the design; the thesis's digits carry its discretisation, 1e-4 relative.
+    // Exact values to three decimals from the design; the thesis's digits carry its discretisation,
+    // 1e-4 relative.
     for (ours, exact, printed) in
         [(force.x, 302.958, 302.9372), (force.y, 1071.887, 1071.9), (force.z, 509.296, 509.3078)]
     {
         close(ours, exact, 5e-4, "mean force");
         close(ours, printed, 1e-4 * printed, "mean force as printed");
     }
-    // Closed form by hand for half immersion down milling: N a c / (2 pi) (k_tc/2 - k_rc pi/4), (k_tc pi/4 + k_rc/2), k_ac.
+    // Closed form by hand for half immersion down milling: N a c / (2 pi) (k_tc/2 - k_rc pi/4),
+    // (k_tc pi/4 + k_rc/2), k_ac.
     let scale = 4.0 * 10.0 * 0.1 / std::f64::consts::TAU;
     let quarter = std::f64::consts::FRAC_PI_4;
     close(force.x, scale * (1800.0 / 2.0 - 540.0 * quarter), 1e-9, "Fx by hand");
@@ -194,8 +198,8 @@ fn table_5_1_forward() {
 
 #[test]
 fn table_5_3_is_table_5_1_plus_table_5_2() {
-    // Eq. 5.4 on the printed numbers: errors (Table 5.2) and corrected points (Table 5.3), in mm. The tables print
-    // four decimals.
+    // Eq. 5.4 on the printed numbers: errors (Table 5.2) and corrected points (Table 5.3), in mm.
+    // The tables print four decimals.
     let errors = [
         [0.4427, 1.8274, -0.1241],
         [0.4283, 1.8323, -0.1265],
@@ -229,7 +233,8 @@ fn table_5_3_is_table_5_1_plus_table_5_2() {
 fn section_5_2_default_job_before_compensation() {
     let summary = default_report().summary();
     let before = summary.before_mm;
-    // Recomputed values of the design; 0.5 % for forces, 3 % for shaping (they were found with another interpolation).
+    // Recomputed values of the design; 0.5 % for forces, 3 % for shaping (they were computed with
+    // another interpolation).
     close(before.deflection.mean, 1.060, 0.005 * 1.060, "mean by forces");
     close(before.deflection.max, 1.327, 0.005 * 1.327, "max by forces");
     close(before.shaping.mean, 0.102, 0.03 * 0.102, "mean by shaping");
@@ -258,7 +263,8 @@ fn section_5_4_default_job_after_compensation() {
 
 #[test]
 fn the_after_figures_come_from_the_whole_model() {
-    // Sent through once more by hand: the commanded joints, shaped, bent by C F, against the circle's own equation.
+    // Simulated once more by hand: the commanded joints, shaped, bent by C F, against the circle's
+    // own equation.
     let report = default_report();
     let robot = &report.plan.robot;
     let shaped = report.plan.shaper().apply(&report.compensation.q, 0.001);

@@ -1,4 +1,5 @@
-//! The wasm boundary in a real browser: same bits as natively, and the contract that the page relies on.
+//! The wasm boundary in a real browser: the same bits as natively, and the contract that the page
+//! relies on.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![cfg(target_arch = "wasm32")]
 
@@ -25,7 +26,7 @@ fn text(object: &JsValue, path: &str) -> String {
     get(object, path).as_string().unwrap_or_else(|| panic!("{path} is no text"))
 }
 
-/// What `run` throws for a job.
+/// The error that `run` throws for a job.
 fn thrown(json: &str) -> JsValue {
     wasm::run(json, None).map(|_| ()).unwrap_err()
 }
@@ -157,10 +158,14 @@ fn options_are_refused_with_their_key() {
 
 #[wasm_bindgen_test]
 fn progress_is_told_and_files_come_out() {
-    let told = js_sys::eval("(() => { const told = []; const tell = (f, s) => told.push([f, s]); tell.told = told; return tell; })()").unwrap();
-    let run = wasm::run(&wasm::default_job(), Some(told.clone().unchecked_into())).unwrap();
-    assert!(number(&told, "told.length") >= 5.0);
-    assert_eq!(text(&told, "told.0.1"), "joint commands");
+    let heard = js_sys::eval(
+        "(() => { const heard = []; const report = (f, s) => heard.push([f, s]); report.heard = heard; \
+         return report; })()",
+    )
+    .unwrap();
+    let run = wasm::run(&wasm::default_job(), Some(heard.clone().unchecked_into())).unwrap();
+    assert!(number(&heard, "heard.length") >= 5.0);
+    assert_eq!(text(&heard, "heard.0.1"), "joint commands");
     let csv = run.export("compensated-csv", None).unwrap();
     assert!(csv.starts_with("time_s,compensated_x_mm"));
     assert!(run.export("columns-csv", None).unwrap().lines().count() > 19_000);

@@ -1,5 +1,6 @@
-//! The times in Chromium, in the core that the site ships and in one with the benchmark's own stages. `cargo xtask bench` starts the
-//! server and the driver and says where they are; the result is a JSON file.
+//! Times in Chromium, in the core that the site ships and in one with the benchmark's own stages.
+//! `cargo xtask bench` starts the server and the driver and passes their addresses; the result is a
+//! JSON file.
 #![allow(clippy::print_stdout, reason = "a command-line tool speaks on its standard output")]
 
 use std::error::Error;
@@ -16,13 +17,13 @@ use tokio::runtime::Runtime;
 
 type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 
-/// How the browser is started; the page tests read the same file.
+/// Browser capabilities, shared with the page tests.
 const CAPABILITIES: &str = include_str!("../../.cargo/webdriver.json");
 
-/// Longest that one question may take; a million samples of every stage take minutes on a slow machine.
+/// Time limit for one request; a million samples of every stage take minutes on a slow machine.
 const PATIENCE: Duration = Duration::from_secs(1200);
 
-/// How often the page is opened again, and the pause between.
+/// How often the page is reloaded, and the pause in between.
 const WARM_VISITS: usize = 15;
 const PAUSE: Duration = Duration::from_secs(1);
 
@@ -69,7 +70,7 @@ async fn all(client: &Client, sizes: &[usize]) -> Outcome<Value> {
     Ok(result)
 }
 
-/// From opening the page to its first result [ms]: the first time with nothing cached, then again and again.
+/// From opening the page to its first result [ms]: first with an empty cache, then repeatedly.
 async fn first_results(client: &Client, site: &str) -> Outcome<Vec<Value>> {
     let script = "const [done] = arguments; \
                   const look = () => { \
@@ -81,14 +82,15 @@ async fn first_results(client: &Client, site: &str) -> Outcome<Vec<Value>> {
     for visit in 0..=WARM_VISITS {
         client.goto(&format!("{site}index.html?visit={visit}")).await?;
         times.push(client.execute_async(script, Vec::new()).await?);
-        // The compiled code goes into the browser's cache after that.
+        // From here on the compiled code is in the browser's cache.
         tokio::time::sleep(PAUSE).await;
     }
     Ok(times)
 }
 
-/// What a person sees who drags a number of the default job to and fro for three seconds: how often a second the number changes, a result is
-/// shown, a chart is drawn and the page is painted, and the longest time between two paintings [ms].
+/// What a user sees while dragging a number of the default job to and fro for three seconds: how
+/// many inputs, results, chart drawings and page paintings there are per second, and the longest
+/// time between two paintings [ms].
 async fn dragged(client: &Client) -> Outcome<Value> {
     client.set_window_size(1280, 800).await?;
     client.goto(&env::var("ARMILL_SITE_URL")?).await?;
@@ -96,7 +98,7 @@ async fn dragged(client: &Client) -> Outcome<Value> {
     while client.execute(drawn, Vec::new()).await? != json!(true) {
         tokio::time::sleep(Duration::from_millis(100)).await;
     }
-    // The scene and what else waits for an idle page.
+    // The scene and other work deferred until the page is idle.
     tokio::time::sleep(Duration::from_secs(2)).await;
     let place = client
         .execute(
@@ -131,11 +133,12 @@ async fn dragged(client: &Client) -> Outcome<Value> {
     client.execute("count.start = performance.now()", Vec::new()).await?;
     client.perform_actions(hand.then(PointerAction::Up { button: MOUSE_BUTTON_LEFT })).await?;
     let rates = "const s = (performance.now() - count.start) / 1000; const a = (n) => n / s; \
-                 return { inputs: a(count.inputs), results: a(count.results), charts: a(count.charts), frames: a(count.frames), longest_ms: count.longest }";
+                 return { inputs: a(count.inputs), results: a(count.results), charts: a(count.charts), \
+                 frames: a(count.frames), longest_ms: count.longest }";
     Ok(client.execute(rates, Vec::new()).await?)
 }
 
-/// Asks a Worker of its own, so that each starts with fresh memory.
+/// Runs each question in a new Worker, so that it starts with fresh memory.
 async fn ask(client: &Client, question: &[Value]) -> Outcome<Value> {
     let script = "const [question, done] = arguments; \
                   const worker = new Worker('worker.js', { type: 'module' }); \

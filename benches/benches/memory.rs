@@ -1,4 +1,5 @@
-//! The most memory a whole job ever holds, in a process of its own for each size in the arguments; `size: bytes` a line.
+//! Peak memory of a whole job, in a separate process for each size in the arguments. Prints a line
+//! `size: bytes` for each.
 #![allow(clippy::print_stdout, reason = "a command-line tool speaks on its standard output")]
 
 use std::error::Error;
@@ -22,10 +23,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The largest resident set of this process so far, as Linux counts it [bytes].
+/// Largest resident set of this process so far, as Linux counts it [bytes].
 fn peak() -> Result<u64, Box<dyn Error>> {
     let status =
-        fs::read_to_string("/proc/self/status").map_err(|_| "only Linux tells the peak of a process")?;
+        fs::read_to_string("/proc/self/status").map_err(|_| "only Linux reports the peak of a process")?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).ok_or("no VmHWM")?;
     Ok(line.trim().trim_end_matches(" kB").parse::<u64>()? * 1024)
 }

@@ -1,4 +1,5 @@
-//! The native times: stages and whole jobs of the sizes in `ARMILL_BENCH_SAMPLES`, and kinematics beside other authors'.
+//! Native times: stages and whole jobs of the sizes in `ARMILL_BENCH_SAMPLES`, and kinematics
+//! compared with other authors'.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "what cannot be prepared cannot be timed")]
 
 use std::env;
@@ -25,7 +26,7 @@ fn main() {
     criterion.final_summary();
 }
 
-/// The sizes asked for.
+/// The sizes requested.
 fn sizes() -> Vec<usize> {
     let text = env::var("ARMILL_BENCH_SAMPLES").unwrap_or_else(|_| "20000".to_owned());
     text.split(',').map(|size| size.parse().expect("ARMILL_BENCH_SAMPLES is a list of numbers")).collect()
@@ -34,7 +35,7 @@ fn sizes() -> Vec<usize> {
 fn jobs(criterion: &mut Criterion, samples: usize) {
     let stages = Stages::new(samples).expect("the default job runs");
     let mut group = criterion.benchmark_group(format!("samples {samples}"));
-    // Few rounds where one takes long.
+    // Few rounds for slow jobs.
     group.sampling_mode(SamplingMode::Flat).sample_size(if samples > 50_000 { 10 } else { 30 });
     group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(1));
     for (name, work) in STAGES {
@@ -86,7 +87,7 @@ fn kinematics(criterion: &mut Criterion) {
             }
         });
     });
-    // It iterates from where the arm stands: here one degree beside in each joint, to a micrometre.
+    // An iterative solver: it starts one degree away in each joint and converges to a micrometre.
     let solver = JacobianIkSolver::new(1e-6, 1e-6, 0.5, 100);
     let targets: Vec<Isometry3<f64>> = joints
         .iter()
@@ -99,7 +100,7 @@ fn kinematics(criterion: &mut Criterion) {
         bencher.iter(|| {
             for (q, target) in joints.iter().zip(&targets) {
                 move_to(&q.map(|q| q + 0.0175));
-                // It does not always arrive near a singularity; the time counts all the same.
+                // It does not always converge near a singularity; the time counts all the same.
                 let _ = black_box(solver.solve(&chain, target));
             }
         });
@@ -115,7 +116,8 @@ fn kinematics(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// The default robot as a chain of `k`: each joint turns about z after the fixed part of its modified Denavit-Hartenberg row.
+/// The default robot as a chain of `k`: each joint turns about z after the fixed part of its
+/// modified Denavit-Hartenberg row.
 fn chain(poses: &Poses) -> SerialChain<f64> {
     let nodes: Vec<_> = poses
         .robot

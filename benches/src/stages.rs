@@ -1,4 +1,4 @@
-//! The stages of the default job, each timed alone on what the earlier ones have made.
+//! The stages of the default job, each timed alone on the output of the earlier ones.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -14,14 +14,14 @@ use armill::{Error, Job, Progress, Report};
 
 use crate::Work;
 
-/// The default job as JSON text, sampled so finely that it has about this many samples. Path, physics and passes stay the same, so that
-/// only their number tells the sizes apart.
+/// The default job as JSON text, sampled so finely that it has roughly this many samples. Path,
+/// physics and passes stay the same, so that sizes differ in nothing else.
 pub fn job(samples: usize) -> String {
     // The default job takes 19.7 s.
     format!("{{\"version\":1,\"motion\":{{\"sample_time_s\":{}}}}}", 20.0 / samples as f64)
 }
 
-/// A job, and what each of its stages starts from.
+/// A job, and the input of each of its stages.
 pub struct Stages {
     text: String,
     plan: Plan,
@@ -31,7 +31,8 @@ pub struct Stages {
     report: Report,
 }
 
-/// The stages in the order of the work. Deviation contains shaper, force and contour error, as the job does; the passes contain all of them.
+/// The stages in order of execution. Deviation contains shaper, force and contour error, as in the
+/// job; the passes contain all of them.
 pub const STAGES: [Work<Stages>; 9] = [
     ("reading the job", |s| drop(black_box(read(&s.text)))),
     ("path: sampling", |s| drop(black_box(Trajectory::new(&s.plan.path, &s.plan.setup.limits)))),
@@ -66,10 +67,10 @@ pub const STAGES: [Work<Stages>; 9] = [
     ("report: summary", |s| drop(black_box((s.report.hash(), s.report.summary())))),
 ];
 
-/// A whole job: from its text to the figures that a person reads first.
+/// A whole job: from its text to the main figures.
 ///
 /// # Errors
-/// What is wrong with the job.
+/// If the job is invalid.
 pub fn whole(text: &str) -> Result<Report, Error> {
     let report = armill::run_json(text, &mut Progress::none())?;
     drop(black_box(report.summary()));
@@ -77,7 +78,7 @@ pub fn whole(text: &str) -> Result<Report, Error> {
 }
 
 impl Stages {
-    /// Makes ready what the stages of the default job with about this many samples start from.
+    /// Prepares the inputs of the stages of the default job with roughly this many samples.
     ///
     /// # Errors
     /// If the job does not run.
@@ -90,7 +91,7 @@ impl Stages {
         Ok(Self { text, plan, joints, timing, before, report })
     }
 
-    /// Where the tool is, and the force on it.
+    /// The tool's poses, and the force on it.
     fn reference(&self) -> Reference<'_> {
         Reference::by(&self.plan, self.timing.clone(), Sources::ALL)
     }

@@ -1,4 +1,4 @@
-//! The same for a page: `page/worker.js` times it with the browser's clock.
+//! The benchmark's entry points for the page: `page/worker.js` times them with the browser's clock.
 
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -12,7 +12,7 @@ pub struct StageBench(Stages);
 
 #[wasm_bindgen]
 impl StageBench {
-    /// The default job with about this many samples.
+    /// The default job with roughly this many samples.
     #[wasm_bindgen(constructor)]
     pub fn new(samples: usize) -> Result<StageBench, JsError> {
         Ok(Self(Stages::new(samples)?))
@@ -23,7 +23,7 @@ impl StageBench {
         STAGES.iter().map(|(name, _)| (*name).to_owned()).collect()
     }
 
-    /// Works one stage.
+    /// Runs one stage.
     pub fn work(&self, stage: usize) {
         if let Some((_, work)) = STAGES.get(stage) {
             work(&self.0);
@@ -31,7 +31,7 @@ impl StageBench {
     }
 }
 
-/// Kinematics.
+/// Kinematics over many poses.
 #[wasm_bindgen]
 pub struct PoseBench(Poses);
 
@@ -43,12 +43,12 @@ impl PoseBench {
         Ok(Self(Poses::new()?))
     }
 
-    /// Names of what is done at every pose.
+    /// Names of the operations timed at every pose.
     pub fn names() -> Vec<String> {
         poses::WORK.iter().map(|(name, _)| (*name).to_owned()).collect()
     }
 
-    /// Does it.
+    /// Runs one operation at every pose.
     pub fn work(&self, index: usize) {
         if let Some((_, work)) = poses::WORK.get(index) {
             work(&self.0);

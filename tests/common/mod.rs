@@ -1,4 +1,4 @@
-//! What several test files need: jobs made from a patch, random arms, random joint values.
+//! Shared by several test files: jobs made from a patch, random arms, random joint values.
 #![allow(dead_code, reason = "each test file uses a part of this")]
 
 pub(crate) mod moves;
@@ -12,7 +12,8 @@ use nalgebra::Vector3;
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The default job with some values replaced: pairs of a JSON path (`motion.feed_mm_s`) and a value.
+/// The default job with some values replaced: pairs of a JSON path (`motion.feed_mm_s`) and a
+/// value.
 pub(crate) fn job_text(changes: &[(&str, Value)]) -> String {
     let mut job = serde_json::to_value(Job::default()).unwrap();
     for (path, value) in changes {
@@ -35,7 +36,7 @@ pub(crate) fn refused(changes: &[(&str, Value)]) -> armill::Error {
     armill::run_json(&job_text(changes), &mut Progress::none()).unwrap_err()
 }
 
-/// A reader has refused a text of the job at this line and column, in these words.
+/// Asserts that a reader rejected a text of the job at this line and column, with this message.
 pub(crate) fn refused_at<T: std::fmt::Debug>(
     outcome: Result<T, armill::Error>,
     text: &str,
@@ -73,7 +74,8 @@ pub(crate) fn any_vector(random: &mut fastrand::Rng, size: f64) -> Vector3<f64> 
     Vector3::from_fn(|_, _| between(random, -size, size))
 }
 
-/// An arm of the RX-90's family with random lengths, offsets a1, a3 and b, base twist, zero angles and twist signs, and a random tool.
+/// An arm of the RX-90's family with random lengths, offsets a1, a3 and b, base twist, zero angles
+/// and twist signs, and a random tool.
 pub(crate) fn any_arm(random: &mut fastrand::Rng) -> Robot {
     let sign = |random: &mut fastrand::Rng| if random.bool() { 1.0 } else { -1.0 };
     let half_turn = |random: &mut fastrand::Rng| if random.bool() { 0.0 } else { PI };
@@ -96,16 +98,17 @@ pub(crate) fn any_arm(random: &mut fastrand::Rng) -> Robot {
     Robot::new("random", links, None, compliance).unwrap().with_tool(tool)
 }
 
-/// The RX-90 as it comes with Armill.
+/// The RX-90 as shipped with Armill.
 pub(crate) fn rx90() -> Robot {
     armill::report::thesis::rx90(0.085).unwrap()
 }
 
-/// A job whose fingerprint is pinned: name, changes of the default job, fingerprint.
+/// A job whose fingerprint is pinned: name, changes to the default job, fingerprint.
 pub(crate) type Pinned = (&'static str, Vec<(&'static str, Value)>, &'static str);
 
-/// Jobs that must give the same bits natively and in the browser. The fingerprints are our own: they pin the two sides to each
-/// other and show when a number changes; they say nothing about its being right.
+/// Jobs that must give the same bits natively and in the browser. The fingerprints are our own:
+/// they pin the two sides to each other and show when a number changes. They do not show that it is
+/// right.
 pub(crate) fn pinned() -> [Pinned; 5] {
     use serde_json::json;
     [
@@ -151,7 +154,10 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("path", json!({"kind":"line","from_mm":[600,-20,100],"to_mm":[620,20,120]})),
                 (
                     "tool",
-                    json!({"diameter_mm":12,"flutes":3,"helix_deg":40,"corner_radius_mm":"ball","rake_deg":6,"bending":"cantilever","stickout_mm":60}),
+                    json!({
+                        "diameter_mm":12,"flutes":3,"helix_deg":40,"corner_radius_mm":"ball","rake_deg":6,
+                        "bending":"cantilever","stickout_mm":60
+                    }),
                 ),
                 ("material", json!({"preset":"s37"})),
                 ("cutting.engagement", json!("conventional")),

@@ -1,9 +1,9 @@
-//! Programs in words, and what every program must keep.
+//! Programs as text, and the invariants of every program.
 use armill::path::Segment;
 use armill::path::program::{MovePace, Program};
 use nalgebra::Vector3;
 
-/// The moves in words: mm, deg, mm/s and rpm, rounded to six decimals.
+/// The moves as text: mm, deg, mm/s and rpm, rounded to six decimals.
 pub(crate) fn described(program: &Program) -> String {
     let number = |value: f64| {
         let rounded = (value * 1e6).round() / 1e6;
@@ -39,7 +39,8 @@ pub(crate) fn described(program: &Program) -> String {
     described.collect::<Vec<_>>().join("; ")
 }
 
-/// Moves follow each other without a gap, in position and in axis; nothing is NaN or without length.
+/// Asserts that moves join without a gap in position and axis, and that nothing is NaN or of zero
+/// length.
 pub(crate) fn assert_sound(program: &Program, text: &str) {
     assert!(!program.moves.is_empty(), "{text:?}");
     for one in &program.moves {

@@ -1,10 +1,10 @@
-//! The same arms by another author: rs-opw-kinematics.
+//! The same arms in another author's library, rs-opw-kinematics.
 
 use armill::robot::library::Preset;
 use rs_opw_kinematics::kinematics_impl::OPWKinematics;
 use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
 
-/// A robot of the library, joint 3 counted from the upper arm.
+/// A robot of the library, joint 3 relative to the upper arm.
 pub(crate) fn peer(preset: &Preset) -> OPWKinematics {
     let [a1, a2, b, c1, c2, c3, c4] = preset.opw.lengths_mm.map(|length| length * 1e-3);
     OPWKinematics::new(Parameters {

@@ -1,4 +1,4 @@
-//! What the tests of exports share: jobs, programs, and the readers for what is written.
+//! Shared by the export tests: jobs, programs, and readers for the output.
 
 use armill::Report;
 use armill::export::{Export, ExportOptions};
@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
-/// Jobs of a size that many tests can run: name and changes of the default job.
+/// Jobs small enough for many tests: name and changes to the default job.
 pub(crate) fn small_jobs() -> [(&'static str, Vec<(&'static str, Value)>); 3] {
     let frame = json!({"xyz_mm":[550,40,150],"rpy_deg":[5,-10,30]});
     [
@@ -47,7 +47,7 @@ pub(crate) fn written(report: &Report, id: &str) -> Export {
     export(report, id, &ExportOptions::default()).unwrap()
 }
 
-/// Tips in the workpiece frame [m] that a file sends the tool to.
+/// Tips in the workpiece frame [m] that a file commands.
 pub(crate) fn commanded(report: &Report, export: &Export) -> Vec<Vector3<f64>> {
     let back = report.setup().workpiece.inverse();
     export.commanded_path.positions(report).iter().map(|p| back.point(p)).collect()
@@ -68,7 +68,7 @@ pub(crate) fn largest_distance(points: &[Vector3<f64>], chain: &[Vector3<f64>]) 
     points.iter().map(|p| distance(p, chain)).fold(0.0, f64::max)
 }
 
-/// What the crate's own reader makes of an export.
+/// The program that the crate's own reader makes of an export.
 pub(crate) fn read_back(report: &Report, id: &str, options: &ExportOptions) -> (Export, Program) {
     let export = export(report, id, options).unwrap();
     let program = match id {
@@ -87,7 +87,8 @@ pub(crate) fn read_back(report: &Report, id: &str, options: &ExportOptions) -> (
     (export, program)
 }
 
-/// Points along the moves of a program [m]: the start, then ends, and between the ends of arcs so many that chords are within 0.1 um.
+/// Points along the moves of a program [m]: the start, then the ends. Arcs get enough points
+/// between their ends to keep the chords within 0.1 um.
 pub(crate) fn chain(program: &Program) -> Vec<Vector3<f64>> {
     let along = |segment: &Segment| {
         let sampled_moves = match segment {
@@ -103,7 +104,7 @@ pub(crate) fn chain(program: &Program) -> Vec<Vector3<f64>> {
     start.into_iter().chain(program.moves.iter().flat_map(|step| along(&step.segment))).collect()
 }
 
-/// File and kind of the example programs of the page.
+/// File and kind of the page's example programs.
 pub(crate) fn examples() -> Vec<(String, String)> {
     let text = std::fs::read_to_string(folder().join("index.json")).unwrap();
     let index: Vec<Value> = serde_json::from_str(&text).unwrap();
@@ -111,7 +112,7 @@ pub(crate) fn examples() -> Vec<(String, String)> {
     index.iter().map(|entry| (of(entry, "file"), of(entry, "kind"))).collect()
 }
 
-/// An example in the default job, with a cut and a mode as a milling robot has them.
+/// An example in the default job, with a cut and a mode typical of a milling robot.
 pub(crate) fn example(file: &str, kind: &str) -> Vec<(&'static str, Value)> {
     let text = std::fs::read_to_string(folder().join(file)).unwrap();
     vec![
@@ -121,7 +122,7 @@ pub(crate) fn example(file: &str, kind: &str) -> Vec<(&'static str, Value)> {
     ]
 }
 
-/// Where the example programs are.
+/// The folder of the example programs.
 pub(crate) fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("web/examples")
 }

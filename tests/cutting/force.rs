@@ -1,4 +1,4 @@
-//! Mean and instantaneous force: golden cases, laws, and thin slices as the second way.
+//! Mean and instantaneous force: golden cases, laws, and thin slices as an independent computation.
 
 use crate::common::{column, run};
 use crate::{CHIP, DEG, average, brute, coefficients, golden, half};
@@ -49,7 +49,7 @@ fn golden_forces_and_torques() {
             let golden = peaks[key].as_f64().unwrap();
             assert!((ours - golden).abs() < 0.005 * largest, "{key}: {ours} against {golden}");
         }
-        // The largest force lies in the plane of the feed and a part of the axial one above it.
+        // The largest force lies in the plane of the feed, with some axial force on top.
         let (peak, above) = (cut.peak_force(c), peaks["Fz_max"].as_f64().unwrap());
         assert!((0.995 * largest..1.005 * f64::hypot(largest, above)).contains(&peak), "{peak} N");
         seen += 1;
@@ -96,14 +96,16 @@ fn every_shape_of_tool_equals_thin_slices() {
                 mean += brute(&cut, phi, CHIP, 600) / f64::from(steps);
             }
             let ours = cut.mean_force().at(CHIP);
-            // 600 slices whose lowest ones have the edge 1 / sin(kappa) long: 1.5 % of the edge force at the very tip of a ball.
+            // 600 slices, the lowest with an edge 1 / sin(kappa) long: 1.5 % of the edge force at
+            // the very tip of a ball.
             assert!((ours - mean).norm() < 0.015 * mean.norm(), "mean {ours} against {mean} of {cut:?}");
             let straight = Cut { helix: 0.0, ..cut };
             for (cut, phi) in
                 [cut, straight].into_iter().flat_map(|cut| [0.4, 1.7, 2.9, 4.4].map(|phi| (cut, phi)))
             {
                 let (ours, slices) = (cut.force(phi, CHIP), brute(&cut, phi, CHIP, 20_000));
-                // Whole slices of ours enter and leave the part at once where it is a plane; a cylinder's angles are in closed form.
+                // Our slices enter and leave a plane part as a whole; a cylinder's angles are in
+                // closed form.
                 let share = if corner > 0.0 { 0.01 } else { 1e-4 };
                 let close = share * (mean.norm() + slices.norm());
                 assert!((ours - slices).norm() < close, "{ours} against {slices} at {phi} of {cut:?}");
@@ -170,7 +172,8 @@ fn the_force_is_linear_in_the_chip_and_edges_add() {
 
 #[test]
 fn slots_and_sides_are_mirrors() {
-    // Climb and conventional at the same depth are mirror images: the chip's share across and along the feed swaps its sign with the side.
+    // Climb and conventional milling at the same depth are mirror images: the components across and
+    // along the feed swap sign with the side.
     let (climb, conventional) = (
         Cut { engagement: Engagement::Climb(0.004), ..half() },
         Cut { engagement: Engagement::Conventional(0.004), ..half() },
@@ -185,7 +188,8 @@ fn slots_and_sides_are_mirrors() {
     assert!((r.x - s.x).abs() < 1e-9 && (r.y + s.y).abs() < 1e-9 && (r.z - s.z).abs() < 1e-9);
     assert!((a.cutting.z - b.cutting.z).abs() < 1e-6);
     assert!((climb.torque(CHIP) - conventional.torque(CHIP)).abs() < 1e-9);
-    // Both halves of the tool together are a slot; half the tool's width from either side is the whole slot.
+    // The two halves of the tool add up to a slot; half the tool's width from either side is the
+    // whole slot.
     let halves = [Engagement::Climb(0.006), Engagement::Conventional(0.006)]
         .map(|engagement| Cut { engagement, ..half() }.mean_force().at(CHIP));
     let slot = Cut { engagement: Engagement::Slot, ..half() }.mean_force().at(CHIP);
@@ -214,14 +218,15 @@ fn force_falls_while_the_arm_accelerates() {
         }
     }
     assert!(rising > 400, "{rising} samples of acceleration");
-    // At rest only the edges rub.
+    // At rest only the edge force remains.
     let edge = report.setup().mean_force.edge.norm();
     assert!((force[0] - edge).abs() < 1e-9 && edge < 0.2 * full);
 }
 
 #[test]
 fn means_keep_their_tolerance_where_a_corner_only_just_reaches_the_part() {
-    // The same against the definition where the engagement starts half way up a ball, and where a bull nose is cut deeper than its corner.
+    // Against the definition where the engagement starts half way up a ball, and where a bull nose
+    // cuts deeper than its corner.
     for (corner, radial, axial) in
         [(0.006, 0.0004, 0.006), (0.006, 0.00002, 0.006), (0.006, 0.002, 0.004), (0.002, 0.0005, 0.005)]
     {

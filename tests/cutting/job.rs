@@ -1,4 +1,4 @@
-//! The cut as a job gives it, and what is wrong with one.
+//! The cut as a job states it, and its errors.
 
 use crate::common::{refused, run};
 use serde_json::{Value, json};

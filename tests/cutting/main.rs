@@ -1,4 +1,5 @@
-//! Cutting: golden cases, the laws of the force model, and brute-force sums as the second way.
+//! Cutting: golden cases, the laws of the force model, and brute-force sums as an independent
+//! computation.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -52,7 +53,8 @@ fn half() -> Cut {
 /// Feed per tooth of the golden cases [m].
 const CHIP: f64 = 1e-4;
 
-/// Mean over a revolution, and the force at `phi`, of thin slices of the edge, chip by chip: the definitions, without any closed form.
+/// Mean over a revolution, and the force at `phi`, from thin slices of the edge, chip by chip: the
+/// definitions, without any closed form.
 fn brute(cut: &Cut, phi: f64, c: f64, slices: usize) -> Vector3<f64> {
     let (outer, corner) = (cut.diameter / 2.0, cut.corner_radius);
     let mut total = Vector3::zeros();

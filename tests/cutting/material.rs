@@ -39,7 +39,8 @@ fn golden_conversion_of_kienzle_constants() {
         seen += 1;
     }
     assert_eq!(seen, 10);
-    // Both lines meet the curve at h0; the tangent has its slope there (central difference), for any constants.
+    // Both lines meet the curve at h0; the tangent has its slope there (central difference), for
+    // any constants.
     for (kc11, mc, h0) in [(1500.0, 0.22, 0.02), (2110.0, 0.22, 0.1), (31.25, 0.5, 0.3)] {
         let force = |h: f64| kc11 * f64::powf(h, 1.0 - mc);
         let line = Kienzle { radial: 0.4, axial: -0.1, ..Kienzle::of_table(kc11, mc) }.linear(h0 / 1e3, 0.0);
@@ -88,7 +89,8 @@ fn golden_oblique_cutting() {
         seen += 1;
     }
     assert_eq!(seen, 2);
-    // Without helix and rake: Merchant's circle, F_c / b = tau h cos(beta - rake) / (sin(phi) cos(phi + beta - rake)).
+    // Without helix and rake: Merchant's circle, F_c / b = tau h cos(beta - rake) / (sin(phi)
+    // cos(phi + beta - rake)).
     let (phi, beta): (f64, f64) = (0.5, 0.4);
     let k = oblique::oblique(1e8, phi, beta, 0.0, 0.0);
     assert!((k.ktc - 1e8 * beta.cos() / (phi.sin() * (phi + beta).cos())).abs() < 1e-6 * k.ktc);
@@ -127,7 +129,7 @@ fn conversion_follows_the_mean_chip_of_the_cut() {
         run(&changes).summary().cut
     };
     let cut = steel(&[]);
-    // 0.1 mm a tooth over a quarter turn: 0.2 / pi.
+    // 0.1 mm per tooth over a quarter turn: 0.2 / pi.
     let h0 = 0.2 / PI;
     assert!((cut.made_at_chip_mm.unwrap() - h0).abs() < 1e-12);
     assert!((cut.ktc_n_mm2 - 1500.0 * 0.78 * h0.powf(-0.22)).abs() < 1e-6);
@@ -144,7 +146,8 @@ fn conversion_follows_the_mean_chip_of_the_cut() {
 
 #[test]
 fn orthogonal_data_follow_chip_speed_and_rake_as_their_table_says() {
-    // Shear stress [N/mm^2] and friction angle [deg]; shear angle [deg] by its own line, or 0 and the chip's ratio; edges [N/mm].
+    // Shear stress [N/mm^2] and friction angle [deg]; shear angle [deg] by its own line, or 0 and
+    // the chip's ratio; edges [N/mm].
     let (stress, friction) = ([500.0, 2.0], [20.0, -30.0, 0.04, 0.3]);
     let (shear, ratio, edge) = ([25.0, 40.0, 0.02, 0.5], [0.7, 0.004, 0.2, 0.003], [20.0, 30.0]);
     for by_line in [true, false] {
@@ -162,7 +165,8 @@ fn orthogonal_data_follow_chip_speed_and_rake_as_their_table_says() {
             let angle = if by_line {
                 line(shear) * DEG
             } else {
-                // Merchant's construction: the chip's ratio of thicknesses and the rake give the shear angle.
+                // Merchant's construction: the chip's thickness ratio and the rake give the shear
+                // angle.
                 let r = (ratio[0] + ratio[1] * rake) * f64::powf(h, ratio[2] + ratio[3] * rake);
                 (r * (rake * DEG).cos() / (1.0 - r * (rake * DEG).sin())).atan()
             };

@@ -1,4 +1,4 @@
-//! Teeth off the axis.
+//! Radial runout of the teeth.
 
 use crate::common::between;
 use crate::{CHIP, average, half};
@@ -11,8 +11,9 @@ fn runout_shifts_force_from_tooth_to_tooth() {
     let true_running = half();
     let off = Cut { runout: 5e-6, ..true_running };
     let mean = true_running.mean_force().at(CHIP);
-    // While every tooth cuts all along, the differences of radius add up to nothing: but near the exit, where chips are thinner
-    // than the differences, a tooth may pass without cutting, and its edge force is missing. Without edges nothing is.
+    // While every tooth cuts throughout, the radius differences sum to zero. Near the exit, where
+    // chips are thinner than the differences, a tooth may pass without cutting, so its edge force
+    // is missing. Without edge forces nothing is missing.
     let k = true_running.coefficients;
     let free = Cut { coefficients: Coefficients { kte: 0.0, kre: 0.0, kae: 0.0, ..k }, ..off };
     let expected = free.mean_force().at(CHIP);
@@ -24,21 +25,23 @@ fn runout_shifts_force_from_tooth_to_tooth() {
     let pitch = FRAC_PI_2;
     let period = |cut: &Cut| (cut.force(2.0, CHIP) - cut.force(2.0 + pitch, CHIP)).norm();
     assert!(period(&true_running) < 1e-9 && period(&off) > 1.0, "teeth are no longer alike");
-    // So far off that one of two teeth never cuts: the other takes two chips at once, and all the power.
+    // With so much runout that one of two teeth never cuts, the other takes both chips and all the
+    // power.
     let two = Cut { flutes: 2, helix: 0.0, runout: 2e-4, engagement: Engagement::Slot, ..free };
     let one = Cut { flutes: 1, runout: 0.0, ..two };
     assert!((two.force(1.0, CHIP) - one.force(1.0, 2.0 * CHIP)).norm() < 1e-9);
     assert!(two.force(1.0 + PI, CHIP).norm() < 1e-9);
-    // No runout is the limit of little runout.
+    // Zero runout is the limit of small runout.
     let little = Cut { runout: 1e-12, ..true_running };
     let apart = (little.force(2.0, CHIP) - true_running.force(2.0, CHIP)).norm();
     assert!(apart < 0.03 * mean.norm(), "{apart}: 48 slices of the height");
 }
 
-/// The force at `phi` by the wall itself: in every direction it stands where the last tooth left it, and the feed brings it nearer between teeth.
+/// The force at `phi` from the wall itself: in every direction the wall stands where the last tooth
+/// left it, and the feed brings it nearer between teeth.
 fn by_the_wall(cut: &Cut, (entry, exit): (f64, f64), phi: f64, c: f64) -> Vector3<f64> {
     let mut total = Vector3::zeros();
-    // As many slices as Armill takes for an instant.
+    // As many slices as Armill uses for one instant.
     let dz = cut.axial_depth / 48.0;
     let pitch = TAU / f64::from(cut.flutes);
     for slice in 0..48 {
@@ -48,7 +51,7 @@ fn by_the_wall(cut: &Cut, (entry, exit): (f64, f64), phi: f64, c: f64) -> Vector
             if angle < entry || angle > exit {
                 continue;
             }
-            // Distances from the axis, less the radius. Clockwise, the tooth of the next number passes before.
+            // Distances from the axis, less the radius. Clockwise, the next tooth passes first.
             let off = |tooth: u32| cut.runout * (pitch * f64::from(tooth) - lag).cos();
             let (mut wall, mut chip) = (-1.0, 0.0);
             for passing in (tooth..=tooth + 4 * cut.flutes).rev() {
@@ -84,7 +87,7 @@ fn teeth_with_runout_cut_what_those_before_them_left() {
         };
         let (phi, c) = (between(&mut random, 0.0, TAU), between(&mut random, 5e-6, 1.5e-4));
         let (ours, wall) = (cut.force(phi, c), by_the_wall(&cut, (entry, exit), phi, c));
-        // Sums of some hundred products, of forces up to 1 kN.
+        // Rounding of sums of some hundred products, of forces up to 1 kN.
         assert!((ours - wall).norm() < 1e-9, "{cut:?} at {phi}, {c}: {ours} and {wall}");
     }
 }

@@ -13,7 +13,8 @@ fn energy_goes_through_the_spindle() {
             let cut = Cut { corner_radius: corner, axial_depth: 0.004, engagement, ..half() };
             let k = cut.coefficients;
             let free = Cut { coefficients: Coefficients { kte: 0.0, kre: 0.0, kae: 0.0, ..k }, ..cut };
-            // Power over removal rate is k_tc exactly if there are no edge forces: P = torque 2 pi n, rate = section N c n.
+            // Without edge forces, power over removal rate is exactly k_tc: P = torque 2 pi n, rate
+            // = section N c n.
             let specific = free.torque(CHIP) * TAU / (free.section() * 4.0 * CHIP);
             // Exact on a cylinder, 1e-4 on a corner.
             assert!((specific - k.ktc).abs() < 1e-4 * k.ktc, "{specific} against {}", k.ktc);
@@ -23,7 +24,7 @@ fn energy_goes_through_the_spindle() {
     // A cylinder's section is radial times axial depth.
     assert!((Cut { engagement: Engagement::Climb(0.005), ..half() }.section() - 0.005 * 0.002).abs() < 1e-15);
     assert!((Cut { engagement: Engagement::Slot, ..half() }.section() - 0.012 * 0.002).abs() < 1e-15);
-    // A ball that is half in: half a disc.
+    // A ball at half immersion: half a disc.
     let ball = Cut { corner_radius: 0.006, axial_depth: 0.006, engagement: Engagement::Slot, ..half() };
     let disc = FRAC_PI_2 * 0.006 * 0.006;
     assert!((ball.section() - disc).abs() < 1e-4 * disc);
@@ -35,7 +36,8 @@ fn energy_goes_through_the_spindle() {
 fn power_torque_and_removal_rate_belong_together() {
     let report = run(&[("cutting.spindle_power_kw", json!(1.5))]);
     let cut = report.summary().cut;
-    // Without edge forces the specific energy is k_tc: 1800 N/mm^2 on 5 mm x 10 mm x 0.1 mm x 4 x 4000 / min = 80 cm^3/min is 2.4 kW.
+    // Without edge forces the specific energy is k_tc: 1800 N/mm^2 on 5 mm x 10 mm x 0.1 mm x 4 x
+    // 4000 / min = 80 cm^3/min is 2.4 kW.
     assert!((cut.removal_cm3_min - 80.0).abs() < 1e-9);
     assert!((cut.power_kw - 2.4).abs() < 1e-9);
     assert!((cut.torque_nm - 2400.0 / (TAU * 4000.0 / 60.0)).abs() < 1e-9);

@@ -1,4 +1,4 @@
-//! The wall that stays.
+//! The remaining wall.
 
 use crate::common::{column, run};
 use crate::{DEG, brute};
@@ -16,12 +16,15 @@ fn the_wall_is_left_by_the_instant_that_makes_it() {
     assert_eq!(wall.side, -1.0);
     let mean = report.mean_force();
     assert!((wall.mean_force_n + mean.y).abs() < 1e-9);
-    // Static, with the pose hardly changing: the deviation by the mean force is the deflection's part across the feed (here x of the base).
+    // Static, at a nearly constant pose: the deviation by the mean force is the deflection across
+    // the feed (here x of the base).
     let across = column(&report, "deflection_x_mm");
     let average = across.iter().sum::<f64>() / across.len() as f64;
-    // Feed along +y, so y of {T} is -x of the base, and into the part on the right is +x; the resting sample at the end counts for both.
+    // Feed along +y, so y of {T} is -x of the base, and into the part on the right is +x; the
+    // resting sample at the end counts for both.
     assert!((wall.by_mean_force_mm - average).abs() < 1e-9 * average.abs().max(1.0), "{wall:?} {average}");
-    // Force when the edge passes 180 deg at the height z: another tooth is at 90 deg plus the lag; brute force over thin slices.
+    // Force when the edge passes 180 deg at the height z: another tooth is at 90 deg plus the lag;
+    // brute force over thin slices.
     let cut = report.setup().cut;
     let lag = 2.0 * cut.helix.tan() / cut.diameter;
     let heights = 24;
@@ -32,7 +35,7 @@ fn the_wall_is_left_by_the_instant_that_makes_it() {
     }
     let ours = wall.instant_force_n;
     assert!((ours - sum).abs() < 1e-3 * sum.abs(), "{ours} against {sum}");
-    // Above a corner the wall is looked at from the corner up.
+    // With a corner, the wall is evaluated from the corner up.
     let bull = Cut { corner_radius: 0.002, ..cut };
     for (k, instant) in (0..heights).zip(&bull.walls()[0].instants) {
         let z = 0.002 + 0.008 * (f64::from(k) + 0.5) / f64::from(heights);
@@ -42,17 +45,19 @@ fn the_wall_is_left_by_the_instant_that_makes_it() {
             "{k}: {instant:?} against {slices}"
         );
     }
-    // With straight flutes the wall is made when the tooth that makes it no longer cuts and its next one is just entering.
+    // Straight flutes form the wall when the tooth no longer cuts and the next one is just
+    // entering.
     let cut = Cut { helix: 0.0, ..cut };
     let one = Cut { flutes: 2, ..cut };
     assert!(one.walls()[0].instants.iter().all(|force| force.at(1e-4).norm() < 1e-6), "nothing cuts then");
-    // A part of a turn that ends on no side leaves no wall; a slot leaves two.
+    // An engagement that reaches neither side leaves no wall; a slot leaves two.
     let count = |entry: f64, exit: f64| {
         let engagement = Engagement::Angles { entry: entry * DEG, exit: exit * DEG };
         Cut { engagement, ..cut }.walls().len()
     };
     assert_eq!([count(30.0, 150.0), count(0.0, 150.0), count(0.0, 180.0)], [0, 1, 2]);
-    // A ball cut as deep as its radius has no cylinder in the part: its wall is looked at from the tip up, as that of a cut a little less deep.
+    // A ball cut as deep as its radius has no cylinder in the part: its wall is evaluated from the
+    // tip up, as for a slightly shallower cut.
     let ball = |depth: f64| {
         let engagement = Engagement::Slot;
         Cut { corner_radius: 0.005, axial_depth: depth, engagement, helix: 30.0 * DEG, ..cut }.walls()

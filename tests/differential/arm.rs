@@ -1,4 +1,5 @@
-//! The arm in the plainest way: a product of 4x4 matrices, everything else by finite differences of it.
+//! The arm in the plainest form: a product of 4x4 matrices, and finite differences of it for
+//! everything else.
 
 use armill::robot::library::Preset;
 use nalgebra::{Matrix4, Matrix6, Vector3, Vector6};
@@ -6,7 +7,7 @@ use rs_opw_kinematics::kinematic_traits::Kinematics;
 use rs_opw_kinematics::kinematics_impl::OPWKinematics;
 use std::f64::consts::TAU;
 
-/// Joint values [rad], joint 3 counted from the upper arm.
+/// Joint values [rad], joint 3 relative to the upper arm.
 pub(crate) type Joints = [f64; 6];
 
 pub(crate) fn shift(x: f64, y: f64, z: f64) -> Matrix4<f64> {
@@ -28,31 +29,33 @@ pub(crate) fn about_z(angle: f64) -> Matrix4<f64> {
     Matrix4::new(c, -s, 0.0, 0.0, s, c, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 }
 
-/// Position [mm] and roll, pitch, yaw [deg] about the fixed axes, as a job gives a frame.
+/// Position [mm] and roll, pitch, yaw [deg] about the fixed axes, as in a job.
 pub(crate) fn frame(xyz_mm: [f64; 3], rpy_deg: [f64; 3]) -> Matrix4<f64> {
     let [x, y, z] = xyz_mm.map(|v| v * 1e-3);
     let [roll, pitch, yaw] = rpy_deg.map(f64::to_radians);
     shift(x, y, z) * about_z(yaw) * about_y(pitch) * about_x(roll)
 }
 
-/// A column of a matrix without its last row: 0 to 2 are directions, 3 is the place.
+/// A column of a matrix without its last row: 0 to 2 are directions, 3 is the origin.
 pub(crate) fn column(m: &Matrix4<f64>, i: usize) -> Vector3<f64> {
     Vector3::new(m[(0, i)], m[(1, i)], m[(2, i)])
 }
 
-/// A point seen from outside a frame.
+/// A point of a frame, in the coordinates outside it.
 pub(crate) fn placed(m: &Matrix4<f64>, p: &Vector3<f64>) -> Vector3<f64> {
     column(m, 0) * p.x + column(m, 1) * p.y + column(m, 2) * p.z + column(m, 3)
 }
 
-/// An arm with a spherical wrist, straight up with all its own angles at zero (Brandstoetter, Angerer, Hofbaur 2014, Fig. 2).
+/// An arm with a spherical wrist, straight up with all its own angles at zero (Brandstoetter,
+/// Angerer, Hofbaur 2014, Fig. 2).
 pub(crate) struct Arm {
     /// a1, a2, b, c1, c2, c3, c4 [m].
     lengths: [f64; 7],
     sign: [f64; 6],
     /// [rad]
     offset: [f64; 6],
-    /// How far joint 3 turns from the upper arm for each turn of joint 2 while it is told to stand still.
+    /// How far joint 3 turns from the upper arm per turn of joint 2 while joint 3 is commanded
+    /// constant.
     follows: f64,
     /// [rad/(N m)]
     pub(crate) compliance: [f64; 6],
@@ -62,7 +65,7 @@ pub(crate) struct Arm {
     start: OPWKinematics,
 }
 
-/// Why a pose is refused.
+/// Why a pose is rejected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Refusal {
     Reach,
@@ -76,7 +79,8 @@ impl Arm {
         tool: Matrix4<f64>,
         start: OPWKinematics,
     ) -> Self {
-        // Counted from the base, joint 3 is the forearm's inclination: the sum of the arm's own angles 2 and 3 stays while it stands still.
+        // Relative to the base, joint 3 is the forearm's inclination: the sum of the arm's own
+        // angles 2 and 3 stays constant while joint 3 does.
         let sign = preset.opw.joint_sign;
         let pendant = preset.elbow == armill::robot::Elbow::Pendant;
         Self {
@@ -92,7 +96,7 @@ impl Arm {
     }
 
     /// Joint values as the robot shows them.
-    pub(crate) fn told(&self, q: &Joints) -> Joints {
+    pub(crate) fn displayed(&self, q: &Joints) -> Joints {
         let mut q = *q;
         q[2] -= self.follows * q[1];
         q
@@ -108,7 +112,7 @@ impl Arm {
         shoulder * wrist * hand * self.tool
     }
 
-    /// How the TCP changes with each joint: central differences.
+    /// Motion of the TCP per joint: central differences.
     fn change(&self, q: &Joints, i: usize) -> Matrix4<f64> {
         let h = 1e-5;
         let (mut more, mut less) = (*q, *q);
@@ -117,7 +121,8 @@ impl Arm {
         (self.forward(&more) - self.forward(&less)) / (2.0 * h)
     }
 
-    /// Where the springs let the tip and the approach direction go under a force on the tip (eqs. 3.41, 3.42, 3.47).
+    /// Deflection of the tip and of the approach direction under a force on the tip (eqs. 3.41,
+    /// 3.42, 3.47).
     pub(crate) fn give(&self, q: &Joints, force: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
         let (mut moved, mut leaned) = (Vector3::zeros(), Vector3::zeros());
         for i in 0..6 {
@@ -129,7 +134,8 @@ impl Arm {
         (moved, leaned)
     }
 
-    /// Whether an arm that faces the wrist centre (or turns its back to it) is long and short enough for the pose [m].
+    /// Margin of reach [m] at the pose for an arm that faces the wrist centre (or turns its back to
+    /// it).
     fn margin(&self, tcp: &Matrix4<f64>, front: bool) -> f64 {
         let [a1, a2, b, c1, c2, c3, c4] = self.lengths;
         let wrist = column(&(tcp * self.off_tool * shift(0.0, 0.0, -c4)), 3);
@@ -146,7 +152,7 @@ impl Arm {
         self.margin(tcp, true).max(self.margin(tcp, false))
     }
 
-    /// Joint values at the start, by another author's closed form, on the branch asked for.
+    /// Joint values at the start, by another author's closed form, on the requested branch.
     pub(crate) fn first(
         &self,
         tcp: &Matrix4<f64>,
@@ -173,7 +179,7 @@ impl Arm {
         self.next(tcp, q.ok_or(Refusal::Branch)?)
     }
 
-    /// Joint values for the TCP near others: Newton's method on the forward model.
+    /// Joint values for a TCP pose, from nearby values: Newton's method on the forward model.
     pub(crate) fn next(&self, tcp: &Matrix4<f64>, last: &Joints) -> Result<Joints, Refusal> {
         if self.reach(tcp) < 0.0 {
             return Err(Refusal::Reach);
@@ -192,14 +198,15 @@ impl Arm {
                 twist(&change, &now)
             });
             let step = Matrix6::from_columns(&columns).lu().solve(&missing).ok_or(Refusal::Branch)?;
-            // Far steps would leave the branch.
+            // Large steps would leave the branch.
             q += step * f64::min(1.0, 0.2 / step.amax());
         }
         let stays = least < 1e-11 && (q - Vector6::from(*last)).amax() < 1.5;
         if stays { Ok(q.into()) } else { Err(Refusal::Branch) }
     }
 
-    /// Distance of the pose from its singularities, none of them a length: sines of elbow and wrist, and the wrist centre's way from axis 1 over the reach.
+    /// Distance of the pose from its singularities, each dimensionless: sines of elbow and wrist,
+    /// and the wrist centre's distance from axis 1 over the reach.
     pub(crate) fn regular(&self, q: &Joints) -> f64 {
         let [a1, a2, _, _, c2, c3, _] = self.lengths;
         let t: [f64; 6] = std::array::from_fn(|i| self.sign[i] * q[i] - self.offset[i]);
@@ -210,12 +217,12 @@ impl Arm {
     }
 }
 
-/// The way and the turn (as sines) from one pose to another.
+/// Translation and rotation (as sines) from one pose to another.
 fn difference(to: &Matrix4<f64>, from: &Matrix4<f64>) -> Vector6<f64> {
     twist(&(to - from), from)
 }
 
-/// A small change of a pose as a way and a turn: half the sum of the axes' cross products.
+/// A small change of a pose as translation and rotation: half the sum of the axes' cross products.
 fn twist(change: &Matrix4<f64>, pose: &Matrix4<f64>) -> Vector6<f64> {
     let turn = (0..3).map(|i| column(pose, i).cross(&column(change, i))).sum::<Vector3<f64>>() / 2.0;
     let way = column(change, 3);

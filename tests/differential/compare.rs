@@ -1,4 +1,5 @@
-//! What a report says beside what the plain model says: every column of every job, with bounds for the quantiles of their differences.
+//! The report against the plain model: every column of every job, with bounds for the quantiles of
+//! their differences.
 
 use crate::arm::{Refusal, column};
 use crate::model::{Answer, Outcome, Question};
@@ -11,11 +12,12 @@ pub(crate) struct Bound {
     /// First words of the columns' keys.
     pub(crate) keys: &'static [&'static str],
     pub(crate) unit: &'static str,
-    /// Whether differences are taken as shares of the largest value of the column in the job.
+    /// Whether differences are relative to the largest value of the column in the job.
     share: bool,
-    /// q75, q99 and the largest, over the jobs, of a job's largest difference: tools without a corner radius.
+    /// q75, q99 and maximum, over the jobs, of a job's largest difference: tools without a corner
+    /// radius.
     pub(crate) flat: [f64; 3],
-    /// The same with a corner radius, ball noses among them.
+    /// These quantiles for tools with a corner radius, ball noses among them.
     pub(crate) round: [f64; 3],
     pub(crate) because: &'static str,
 }
@@ -41,7 +43,8 @@ const fn any_tool(
 
 const FORCE: &[&str] = &["force_x_n", "force_y_n", "force_z_n", "mean_force_n"];
 
-/// Every column has its row; the figures of the summary stand with the columns they are made of.
+/// Every column has its row; the summary's figures share the rows of the columns they are computed
+/// from.
 pub(crate) const BOUNDS: &[Bound] = &[
     any_tool(&["time_s"], "s", [1e-14, 1e-13, 1e-12], "rounding"),
     any_tool(
@@ -70,7 +73,8 @@ pub(crate) const BOUNDS: &[Bound] = &[
             FORCE,
             "of the largest",
             [[1e-7, 1e-6, 1e-4], [2e-5, 3e-4, 2e-2]],
-            "midpoint rule in 3000 steps of the angle, (pi / 3000)^2 / 24 of the second derivative, more where directions cancel; corners: 300 by 300 steps against 256 slices",
+            "midpoint rule in 3000 steps of the angle, (pi / 3000)^2 / 24 of the second derivative, \
+             more where directions cancel; corners: 300 by 300 steps against 256 slices",
         )
     },
     Bound {
@@ -123,7 +127,7 @@ pub(crate) const BOUNDS: &[Bound] = &[
     ),
 ];
 
-/// The row of [`BOUNDS`] for a key: the one with the longest word that it starts with.
+/// The row of [`BOUNDS`] for a key: the one with the longest matching prefix.
 pub(crate) fn row(key: &str) -> usize {
     let fit =
         |bound: &Bound| bound.keys.iter().filter(|k| key.starts_with(*k)).map(|k| k.len()).max().unwrap_or(0);
@@ -168,8 +172,8 @@ fn columns(question: &Question, answer: &Answer) -> BTreeMap<String, Vec<f64>> {
     for (name, q) in [("q", &answer.q), ("shaped_q", &answer.before.q), ("compensated_q", &answer.command_q)]
     {
         for i in 0..6 {
-            let told = q.iter().map(|q| question.arm.told(q)[i].to_degrees());
-            one(&format!("{name}{}_deg", i + 1), told.collect());
+            let seen = q.iter().map(|q| question.arm.displayed(q)[i].to_degrees());
+            one(&format!("{name}{}_deg", i + 1), seen.collect());
         }
     }
     let mm = |outcome: &Outcome| outcome.error.iter().map(|e| e * 1e3).collect::<Vec<f64>>();
@@ -192,24 +196,26 @@ fn columns(question: &Question, answer: &Answer) -> BTreeMap<String, Vec<f64>> {
     all
 }
 
-/// The largest difference of each column, in the unit of its bound; or what is told differently in words.
+/// The largest difference of each column, in the unit of its bound; or the first disagreement in
+/// words.
 pub(crate) fn differences(
     report: &Report,
     question: &Question,
     answer: &Answer,
 ) -> Result<Vec<(usize, f64)>, String> {
     let summary = report.summary();
-    let told = (summary.passes, report.compensation.stopped.is_some(), report.samples());
+    let seen = (summary.passes, report.compensation.stopped.is_some(), report.samples());
     let plain = (answer.passes, answer.stopped == Some(Refusal::Reach), answer.desired.len());
-    // Where a correction ends the branch, the plain arm stops; Armill's jumps to another, sees that this is no improvement, and drops the pass.
+    // Where a correction reaches the end of the branch, the plain arm stops. Armill's jumps to
+    // another branch, sees no improvement, and drops the pass.
     let dropped = usize::from(answer.stopped == Some(Refusal::Branch));
-    if told != plain || summary.history_max_mm.len() != answer.history.len() + dropped {
-        return Err(format!("passes, stopped and samples are {told:?}, plain {plain:?}"));
+    if seen != plain || summary.history_max_mm.len() != answer.history.len() + dropped {
+        return Err(format!("passes, stopped and samples are {seen:?}, plain {plain:?}"));
     }
     let warned = |code: &str| report.warnings.iter().any(|warning| warning.code == code);
     match question.beyond(answer) {
-        None if !warned("joint-limits-unknown") => return Err("unknown joint limits are not told".into()),
-        // Nearer than this, either is right.
+        None if !warned("joint-limits-unknown") => return Err("no warning of unknown joint limits".into()),
+        // Nearer than this, either answer is right.
         Some(beyond) if beyond.abs() > 1e-6 && warned("joint-limit") != (beyond > 0.0) => {
             return Err(format!("a joint is {beyond} rad beyond its range"));
         }
@@ -224,10 +230,10 @@ pub(crate) fn differences(
         let largest = theirs.iter().fold(1e-9, |most: f64, v| most.max(v.abs()));
         let scale = if BOUNDS[row].share { largest } else { 1.0 };
         let apart = ours.iter().zip(&theirs).map(|(a, b)| (a - b).abs());
-        // A NaN is no number that is small enough.
+        // A NaN is not a small number.
         all.push((row, apart.fold(0.0, |most: f64, d| if d <= most { most } else { d }) / scale));
     };
-    // Lines of a program are whole numbers, and at the border of two moves either is right.
+    // Program lines are whole numbers, and at the border of two moves either is right.
     for column in report.columns().iter().filter(|column| column.key != "program_line") {
         compare(&column.key, &column.values);
     }
@@ -239,6 +245,6 @@ pub(crate) fn differences(
     let history =
         summary.history_mean_mm.iter().zip(&summary.history_max_mm).flat_map(|(mean, max)| [*mean, *max]);
     compare("history", &history.take(2 * answer.history.len()).collect::<Vec<_>>());
-    assert!(plain.is_empty(), "not told: {:?}", plain.keys());
+    assert!(plain.is_empty(), "not reported: {:?}", plain.keys());
     Ok(all)
 }

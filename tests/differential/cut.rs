@@ -1,14 +1,15 @@
-//! The cut by sums over small steps of height and angle (eqs. 4.1 to 4.7), and the tool as a beam of small slices.
+//! The cut by sums over small steps of height and angle (eqs. 4.1 to 4.7), and the tool as a beam
+//! of small slices.
 
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Where the part stands.
+/// Position of the part.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Part {
     /// Between two immersion angles [rad].
     Angles(f64, f64),
-    /// Right of the feed, so deep in the tool's way [m].
+    /// Right of the feed, overlapping the tool's path by this much [m].
     Right(f64),
     /// Left of the feed.
     Left(f64),
@@ -16,12 +17,13 @@ pub(crate) enum Part {
     Both,
 }
 
-/// Cutting coefficients as a job gives them.
+/// Cutting coefficients as stated by a job.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Stock {
-    /// Tangential, radial and axial [N/m^2]; the same of the edge [N/m].
+    /// Tangential, radial and axial [N/m^2]; the edge coefficients [N/m].
     Linear([f64; 3], [f64; 3]),
-    /// k_c1.1 [N/mm^2], m_c, radial and axial share, whether the line is the secant, the chip it is made at [m], if that is given.
+    /// k_c1.1 [N/mm^2], m_c, radial and axial share, whether the line is the secant, and the chip
+    /// thickness it is fitted at [m], if stated.
     Kienzle { kc11: f64, mc: f64, radial: f64, axial: f64, secant: bool, chip: Option<f64> },
 }
 
@@ -46,7 +48,7 @@ pub(crate) struct Cut {
     pub(crate) feed: f64,
 }
 
-/// Force for 1 m of feed per tooth, and without any, in the cutting frame.
+/// Force per 1 m of feed per tooth, and at zero feed, in the cutting frame.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Force {
     pub(crate) cutting: Vector3<f64>,
@@ -59,15 +61,16 @@ impl Cut {
         self.chip.unwrap_or(speed / (self.flutes * spindle.unwrap_or(self.spindle)))
     }
 
-    /// Calls `each` for every bit of one edge and every angle at which it is in the part: immersion angle, angle of the edge's normal to the axis, height,
-    /// length of the edge, step of the angle.
+    /// Calls `each` for every element of one edge and every angle at which it is in the part:
+    /// immersion angle, angle of the edge's normal to the axis, height, length of the edge, step of
+    /// the angle.
     fn sweep(&self, mut each: impl FnMut(f64, f64, f64, f64, f64)) {
         let outer = self.diameter / 2.0;
         let mut bits = Vec::new();
         if self.corner > 0.0 {
             let radius = |kappa: f64| outer - self.corner + self.corner * kappa.sin();
             let top = (1.0 - self.depth / self.corner).clamp(0.0, 1.0).acos();
-            // Below this the corner does not come to the part's plane.
+            // Below this the corner does not reach the part's plane.
             let plane = match self.part {
                 Part::Left(depth) | Part::Right(depth) => outer - depth,
                 _ => f64::NEG_INFINITY,
@@ -76,7 +79,7 @@ impl Cut {
                 if radius((a + b) / 2.0) > plane { (a, (a + b) / 2.0) } else { ((a + b) / 2.0, b) }
             });
             let low = if radius(0.0) >= plane { 0.0 } else { low.1 };
-            // Steps that grow evenly from there: the angle of engagement starts like a square root.
+            // Steps that grow linearly from there: the engagement angle starts like a square root.
             let count = 300;
             for k in 0..count {
                 let (a, b) = (f64::from(k) / f64::from(count), f64::from(k + 1) / f64::from(count));
@@ -91,7 +94,8 @@ impl Cut {
         }
         let steps = if self.corner > 0.0 { 300 } else { 3000 };
         for (radius, kappa, height, edge) in bits {
-            // A tooth at the angle phi is at the height radius cos(phi) above the plane through the axis along the feed.
+            // A tooth at the angle phi is at the height radius cos(phi) above the plane through the
+            // axis along the feed.
             let (from, to) = match self.part {
                 Part::Angles(from, to) => (from, to),
                 Part::Both => (0.0, PI),
@@ -111,7 +115,7 @@ impl Cut {
         }
     }
 
-    /// Mean thickness of the chip [m] at the feed per tooth `c`.
+    /// Mean chip thickness [m] at the feed per tooth `c`.
     fn mean_chip(&self, c: f64) -> f64 {
         let (mut sum, mut way) = (0.0, 0.0);
         self.sweep(|phi, kappa, _, edge, step| {
@@ -121,11 +125,11 @@ impl Cut {
         sum / way
     }
 
-    /// Whether coefficients are to be made for the mean of chips below a micrometre, where no table reaches.
+    /// Whether coefficients are fitted at a mean chip below a micrometre, where no table reaches.
     pub(crate) fn too_thin(&self) -> bool {
         let made = matches!(self.stock, Stock::Kienzle { chip: None, .. });
         let mean = || self.mean_chip(self.per_tooth(self.feed, None));
-        // Without any contact it is no number.
+        // Without contact the mean is not a number.
         made && (mean().is_nan() || mean() < 1e-6)
     }
 
@@ -135,7 +139,8 @@ impl Cut {
             Stock::Linear(cutting, edge) => (cutting, edge),
             Stock::Kienzle { kc11, mc, radial, axial, secant, chip } => {
                 let at = chip.unwrap_or_else(|| self.mean_chip(self.per_tooth(self.feed, None)));
-                // Force for each metre of edge [N/m] over the chip [m], and its slope by central differences.
+                // Force per metre of edge [N/m] over the chip [m], and its slope by central
+                // differences.
                 let force = |h: f64| kc11 * 1e3 * (h * 1e3).powf(1.0 - mc) * (1.0 - self.rake / 100.0);
                 let slope = (force(at * 1.00001) - force(at * 0.99999)) / (at * 2e-5);
                 let (k, e) = if secant { (force(at) / at, 0.0) } else { (slope, force(at) - slope * at) };
@@ -144,7 +149,7 @@ impl Cut {
         }
     }
 
-    /// Mean over a revolution of the force of all teeth.
+    /// Mean force of all teeth over a revolution.
     pub(crate) fn mean_force(&self) -> Force {
         let ([ktc, krc, kac], [kte, kre, kae]) = self.coefficients();
         let mut force = Force { cutting: Vector3::zeros(), edge: Vector3::zeros() };
@@ -173,7 +178,8 @@ pub(crate) struct Beam {
 }
 
 impl Beam {
-    /// Way [m/N] and turn [rad/N] of the tip: the moment's curvature, summed up from the holder on.
+    /// Displacement [m/N] and rotation [rad/N] of the tip: the moment's curvature, summed from the
+    /// holder on.
     pub(crate) fn tip(&self) -> (f64, f64) {
         let [length, fluted, tool, shank] = self.lengths;
         let border = fluted.min(length);

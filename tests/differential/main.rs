@@ -1,7 +1,13 @@
-//! The whole pipeline against a plain one, written here from the thesis's equations without a line of Armill's stages, on random jobs.
+//! The whole pipeline against a plain one, written here from the thesis's equations without using
+//! Armill's stages, on random jobs.
 //!
-//! Any number of them: `ARMILL_DIFFERENTIAL_JOBS=50000 cargo test --test differential -- --nocapture` (tens of jobs a second and core);
-//! one that failed: `ARMILL_DIFFERENTIAL_JOBS=1 ARMILL_DIFFERENTIAL_FIRST=its number`.
+//! To run any number of them, at tens of jobs per second and core:
+//!
+//! ```sh
+//! ARMILL_DIFFERENTIAL_JOBS=50000 cargo test --test differential -- --nocapture
+//! ```
+//!
+//! To repeat one that failed: `ARMILL_DIFFERENTIAL_JOBS=1 ARMILL_DIFFERENTIAL_FIRST=its number`.
 #![cfg(not(target_arch = "wasm32"))]
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
 #![allow(clippy::disallowed_types, reason = "quaternions for another library, compared within tolerances")]
@@ -27,11 +33,11 @@ use random::Case;
 use std::collections::BTreeMap;
 use std::thread;
 
-/// What came of one job.
+/// The outcome of one job.
 enum Verdict {
     /// Row of [`BOUNDS`] and difference, for every column; whether the tool has a corner radius.
     Compared(Vec<(usize, f64)>, bool),
-    /// Both refuse it, or leave it open, for this reason.
+    /// Both reject it, or leave it open, for this reason.
     Agreed(&'static str),
     Disagreed(String),
 }

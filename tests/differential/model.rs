@@ -1,4 +1,4 @@
-//! The whole pipeline again, one plain loop after the other.
+//! The whole pipeline a second time, as one plain loop after another.
 
 use crate::arm::{Arm, Joints, Refusal, column, frame};
 use crate::cut::{Beam, Cut, Force};
@@ -6,7 +6,7 @@ use crate::way::{Instant, Tempo, Way};
 use nalgebra::{Matrix4, Vector3};
 use std::f64::consts::PI;
 
-/// A job in SI, with nothing left to be looked up.
+/// A job in SI, with every preset resolved.
 pub(crate) struct Question {
     pub(crate) arm: Arm,
     pub(crate) way: Way,
@@ -37,7 +37,7 @@ pub(crate) struct Sources {
 
 pub(crate) const ALL: Sources = Sources { deflection: true, shaping: true };
 
-/// What becomes of joint commands, one a sample.
+/// The result of joint commands, one per sample.
 #[derive(Clone, Default)]
 pub(crate) struct Outcome {
     pub(crate) q: Vec<Joints>,
@@ -64,7 +64,7 @@ impl Outcome {
     }
 }
 
-/// Everything that a report says.
+/// Everything that a report states.
 pub(crate) struct Answer {
     pub(crate) force: Force,
     pub(crate) desired: Vec<Instant>,
@@ -80,12 +80,13 @@ pub(crate) struct Answer {
     pub(crate) passes: usize,
     /// Why a correction could not be commanded, if one could not.
     pub(crate) stopped: Option<Refusal>,
-    /// How near the commands come to a singularity and, as a share of the arm, to the end of its reach.
+    /// How near the commands come to a singularity and, relative to the arm, to the end of its
+    /// reach.
     pub(crate) regular: f64,
 }
 
 impl Answer {
-    /// Whether a pass is so near to where the passes end that rounding decides.
+    /// Whether a pass is so close to the stopping criterion that rounding decides.
     pub(crate) fn close_call(&self, question: &Question) -> bool {
         let near = |a: f64, b: f64| (a - b).abs() < 1e-4 * b;
         let ends = self
@@ -96,14 +97,15 @@ impl Answer {
     }
 }
 
-/// A refused sample.
+/// A rejected sample.
 #[derive(Debug)]
 pub(crate) struct Refused {
     pub(crate) sample: usize,
     pub(crate) why: Refusal,
 }
 
-/// Impulses of a shaper: N. Singer, W. Seering 1990; EI's fit for 5 %: W. Singhose, W. Seering, N. Singer 1994.
+/// Impulses of a shaper: N. Singer, W. Seering 1990; EI's fit for 5 %: W. Singhose, W. Seering, N.
+/// Singer 1994.
 pub(crate) fn impulses(kind: &str, w: f64, z: f64) -> Vec<(f64, f64)> {
     let root = (1.0 - z * z).sqrt();
     let (k, half) = ((-z * PI / root).exp(), PI / (w * root));
@@ -135,7 +137,8 @@ pub(crate) fn impulses(kind: &str, w: f64, z: f64) -> Vec<(f64, f64)> {
 }
 
 impl Question {
-    /// A sampled command, delayed and mixed (eq. 4.14): straight between samples, at rest before the first.
+    /// A sampled command, delayed and mixed (eq. 4.14): linear between samples, at rest before the
+    /// first.
     fn shaped<T>(&self, command: &[T]) -> Vec<T>
     where
         T: Copy + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
@@ -159,10 +162,11 @@ impl Question {
         self.shaped(&vectors).into_iter().map(Joints::from).collect()
     }
 
-    /// The TCP's pose at a place: its z axis points into the part, its x axis along the workpiece's X across that, turned by the spin.
+    /// The TCP's pose at a place: its z axis points into the part, its x axis is the workpiece's X
+    /// projected across z, turned by the spin.
     fn tcp(&self, p: &Vector3<f64>) -> Matrix4<f64> {
         let axis = column(&self.place, 2);
-        // The tool is upright in the workpiece, so the workpiece's X is across it.
+        // The tool is upright in the workpiece, so the workpiece's X is perpendicular to it.
         let (x, y) = (column(&self.place, 0), column(&self.place, 1));
         let x = x * self.spin.cos() + y * self.spin.sin();
         let y = (-axis).cross(&x);
@@ -187,7 +191,7 @@ impl Question {
         Ok(all)
     }
 
-    /// Mean force at every sample, turned with the feed (eq. 4.11).
+    /// Mean force at every sample, rotated with the feed (eq. 4.11).
     fn forces(&self, pace: &[Instant], force: &Force) -> Vec<Vector3<f64>> {
         let axis = column(&self.place, 2);
         let across = |heading: &Vector3<f64>| {
@@ -204,7 +208,7 @@ impl Question {
         pace.iter().map(turned).collect()
     }
 
-    /// Joint commands through shaper, arm and cut.
+    /// Sends joint commands through shaper, arm and cut.
     fn outcome(&self, desired: &[Instant], q: &[Joints], force: &Force, acting: Sources) -> Outcome {
         let pace = if acting.shaping { self.shaped_pace(desired) } else { desired.to_vec() };
         let q = if acting.shaping { self.shaped_joints(q) } else { q.to_vec() };
@@ -222,7 +226,8 @@ impl Question {
                 (moved, leaned) = (way, -lean);
                 if let Some((way, turn)) = tip {
                     let across = force - axis * force.dot(&axis);
-                    // The clamped bar's tip goes with the force; the axis, from tip to spindle, leans back by the slope.
+                    // The clamped bar's tip moves with the force; the axis, from tip to spindle,
+                    // tilts back by the slope.
                     moved += across * way;
                     leaned -= across * turn;
                 }
@@ -239,7 +244,7 @@ impl Question {
         outcome
     }
 
-    /// Share of the time that the shaped tool cuts.
+    /// Fraction of the time during which the shaped tool cuts.
     pub(crate) fn shaped_cuts(&self, desired: &[Instant]) -> Vec<f64> {
         self.shaped_pace(desired).iter().map(|at| at.cuts).collect()
     }
@@ -254,7 +259,7 @@ impl Question {
             .collect()
     }
 
-    /// The whole answer, or the sample that is out of reach.
+    /// The whole result, or the sample that is out of reach.
     pub(crate) fn answer(&self) -> Result<Answer, Refused> {
         let force = self.cut.mean_force();
         let (desired, moving) = self.way.travel(&self.tempo);
@@ -275,7 +280,8 @@ impl Question {
         let mut command_q = q.clone();
         let mut history = vec![best.figures()];
         let (mut passes, mut stopped) = (0, None);
-        // Where the tool is when the shaper acts: what is missing there is added to the commands (eq. 5.4).
+        // The tool's position when the shaper acts; the error there is added to the commands (eq.
+        // 5.4).
         let pace = if acting.shaping { self.shaped_pace(&desired) } else { desired.clone() };
         for pass in 1..=if nothing { 0 } else { self.max_passes } {
             let [_, max] = history[passes];
@@ -322,7 +328,8 @@ impl Question {
         })
     }
 
-    /// The command whose shaped form is nearly this: ten steps of Landweber's iteration, each with the shaper run backwards; at rest from `moving` on.
+    /// The command whose shaped form is nearly this: ten steps of Landweber's iteration, each with
+    /// the shaper run backwards; at rest from `moving` on.
     fn unshaped(&self, wanted: &[Vector3<f64>], moving: usize) -> Vec<Vector3<f64>> {
         let mut command = vec![Vector3::zeros(); wanted.len()];
         for _ in 0..10 {
@@ -341,12 +348,13 @@ impl Question {
         command
     }
 
-    /// Whether a joint, by the desired or the compensated command, leaves its range; how near it comes to the range's end [rad].
+    /// Whether a joint, by the desired or the compensated command, leaves its range; how near it
+    /// comes to the range's end [rad].
     pub(crate) fn beyond(&self, answer: &Answer) -> Option<f64> {
         let limits = self.limits?;
         let mut worst = f64::NEG_INFINITY;
         for q in answer.q.iter().chain(&answer.command_q) {
-            for (q, [low, high]) in self.arm.told(q).iter().zip(limits) {
+            for (q, [low, high]) in self.arm.displayed(q).iter().zip(limits) {
                 worst = worst.max(low - q).max(q - high);
             }
         }
@@ -354,7 +362,7 @@ impl Question {
     }
 }
 
-/// The frame of a job, base included: the workpiece seen from the base.
+/// The frame of a job including its base: the workpiece in the base frame.
 pub(crate) fn place(base: ([f64; 3], [f64; 3]), workpiece: ([f64; 3], [f64; 3])) -> Matrix4<f64> {
     frame(base.0, base.1).try_inverse().unwrap() * frame(workpiece.0, workpiece.1)
 }

@@ -1,4 +1,5 @@
-//! Random jobs over the legal ranges, each as the JSON that Armill reads and as numbers in SI for the plain model.
+//! Random jobs over the valid ranges, each as the JSON that Armill reads and as numbers in SI for
+//! the plain model.
 
 use crate::arm::{Arm, about_z, frame, placed, shift};
 use crate::common::peer::peer;
@@ -14,7 +15,7 @@ use std::f64::consts::TAU;
 pub(crate) struct Case {
     pub(crate) job: Value,
     pub(crate) question: Question,
-    /// Field that is not legal on purpose.
+    /// Field made invalid on purpose.
     pub(crate) illegal: Option<&'static str>,
 }
 
@@ -26,7 +27,7 @@ impl Dice {
         low + (high - low) * self.0.f64()
     }
 
-    /// Evenly in the logarithm.
+    /// Uniform in the logarithm.
     pub(crate) fn scale(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp()
     }
@@ -45,7 +46,7 @@ impl Dice {
     }
 }
 
-/// Tool, material and engagement: JSON of the three, and the same in SI.
+/// Tool, material and engagement: the JSON of each, and their values in SI.
 fn cut(dice: &mut Dice, feed: f64) -> (Value, Value, Value, Cut, Option<Beam>) {
     let diameter = dice.scale(2.0, 40.0);
     let flutes = dice.0.usize(1..7);
@@ -84,7 +85,10 @@ fn cut(dice: &mut Dice, feed: f64) -> (Value, Value, Value, Cut, Option<Beam>) {
         let (kc11, mc) = (dice.scale(400.0, 3000.0), dice.between(0.1, 0.4));
         let (radial, axial, secant) = (dice.between(0.1, 0.6), dice.between(0.0, 0.5), dice.0.bool());
         let chip = dice.0.bool().then(|| dice.scale(0.01, 0.3));
-        let mut material = json!({"kc11_n_mm2":kc11,"mc":mc,"radial_ratio":radial,"axial_ratio":axial,"line":if secant {"secant"} else {"tangent"}});
+        let mut material = json!({
+            "kc11_n_mm2":kc11,"mc":mc,"radial_ratio":radial,"axial_ratio":axial,
+            "line":if secant {"secant"} else {"tangent"}
+        });
         if let Some(chip) = chip {
             material["chip_thickness_mm"] = json!(chip);
         }
@@ -142,7 +146,7 @@ fn cut(dice: &mut Dice, feed: f64) -> (Value, Value, Value, Cut, Option<Beam>) {
 /// Position [mm], and roll, pitch, yaw [deg].
 type Frame = ([f64; 3], [f64; 3]);
 
-/// Tool, base and workpiece frames so that most paths are within the arm's reach.
+/// Tool, base and workpiece frames that keep most paths within the arm's reach.
 fn frames(dice: &mut Dice, preset: &Preset) -> [Frame; 3] {
     let [a1, a2, _, c1, c2, c3, _] = preset.opw.lengths_mm;
     let reach = c2 + a2.hypot(c3);
@@ -166,13 +170,13 @@ fn frames(dice: &mut Dice, preset: &Preset) -> [Frame; 3] {
     if dice.0.bool() {
         return [tool, ([0.0; 3], [0.0; 3]), (at, [roll, pitch, yaw])];
     }
-    // Base and workpiece together elsewhere in the cell, turned about its vertical.
+    // Base and workpiece moved together in the cell, turned about its vertical.
     let (base, turn) = (dice.vector(2000.0), dice.between(-180.0, 180.0));
     let moved = placed(&(shift(base[0], base[1], base[2]) * about_z(turn.to_radians())), &Vector3::from(at));
     [tool, (base, [0.0, 0.0, turn]), (moved.into(), [roll, pitch, yaw + turn])]
 }
 
-/// A key, a value that is not legal for it, and the field that the error has to name.
+/// A key, an invalid value for it, and the field that the error has to name.
 const ILLEGAL: [(&str, f64, &str); 6] = [
     ("/tool/diameter_mm", 0.0, "tool.diameter_mm"),
     ("/motion/acceleration_mm_s2", -1.0, "motion.acceleration_mm_s2"),
@@ -231,7 +235,11 @@ pub(crate) fn case(seed: u64, robots: &[Preset]) -> Case {
         "base_frame": frame_of(base),
         "workpiece_frame": frame_of(workpiece),
         "spin": {"angle_deg": spin},
-        "start_branch": {"shoulder":word(branch[0],"front","back"),"elbow":word(branch[1],"positive","negative"),"wrist":word(branch[2],"near","flipped")},
+        "start_branch": {
+            "shoulder":word(branch[0],"front","back"),
+            "elbow":word(branch[1],"positive","negative"),
+            "wrist":word(branch[2],"near","flipped")
+        },
         "path": track.json,
         "motion": {"feed_mm_s":feed * 1e3,"rapid_mm_s":rapid * 1e3,"acceleration_mm_s2":acceleration * 1e3,"sample_time_s":dt,
             "corner_angle_deg":corner_angle,"corner_dwell":dwell.map_or(json!("settle"), |t| json!(t))},

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
 
-/// The path of a job: its JSON, its pieces in the workpiece frame, whether it comes near itself.
+/// The path of a job: its JSON, its pieces in the workpiece frame, whether it passes near itself.
 pub(crate) struct Track {
     pub(crate) json: Value,
     pub(crate) pieces: Vec<Piece>,
@@ -85,7 +85,7 @@ fn rectangle([cx, cy, cz]: [f64; 3], width: f64, height: f64, r: f64) -> Vec<Cur
     curves
 }
 
-/// A small program in G-code: lines, arcs and helices, rapids, feeds, spindle speeds, waits.
+/// A small G-code program: lines, arcs and helices, rapids, feeds, spindle speeds, waits.
 pub(crate) fn program(dice: &mut Dice, job_feed: f64, rapid: f64) -> Track {
     let mut at = dice.vector(30.0);
     let mut text = format!("G21 G90 G17 G94\nM3\nG0 X{} Y{} Z{}\n", at[0], at[1], at[2]);

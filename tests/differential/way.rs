@@ -1,17 +1,19 @@
-//! The desired path as plain curves, its closest point by trying many, and its timing by integrating the speed.
+//! The desired path as plain curves, its closest point by sampling, and its timing by integrating
+//! the speed.
 
 use nalgebra::{Matrix4, Vector3};
 
 use crate::arm::{column, placed};
 
-/// A line or an arc (helix) as functions of the way along it.
+/// A line or an arc (helix), parametrised by arc length.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Curve {
     Line {
         from: Vector3<f64>,
         to: Vector3<f64>,
     },
-    /// Centre, direction to the start, direction of the start's motion, radius [m], sweep [rad], rise along the third direction [m].
+    /// Centre, direction to the start, direction of motion at the start, radius [m], sweep [rad],
+    /// rise along the third direction [m].
     Arc {
         center: Vector3<f64>,
         e1: Vector3<f64>,
@@ -67,25 +69,25 @@ impl Curve {
     }
 }
 
-/// A curve with its pace.
+/// A curve with its speed limits.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
     pub(crate) curve: Curve,
     /// Highest speed [m/s].
     pub(crate) limit: f64,
     pub(crate) cuts: bool,
-    /// Spindle speed that a program has said [1/s].
+    /// Spindle speed stated by the program [1/s].
     pub(crate) spindle: Option<f64>,
-    /// Wait that a program asks for behind it [s].
+    /// Dwell after it, if the program asks for one [s].
     pub(crate) wait: f64,
 }
 
-/// Pieces that follow each other, in the base frame.
+/// Consecutive pieces, in the base frame.
 #[derive(Debug, Clone)]
 pub(crate) struct Way {
     pub(crate) pieces: Vec<Piece>,
     starts: Vec<f64>,
-    /// Whether the path comes near itself, so that only the neighbourhood of a place is searched for the closest point.
+    /// Whether the path passes near itself, so that the closest point is sought only near a place.
     local: bool,
 }
 
@@ -105,7 +107,7 @@ fn nearest(p: &Vector3<f64>, curve: &Curve, from: f64, to: f64, least: f64) -> f
     let off = |s: f64| (p - curve.point(s)).norm();
     let tried: Vec<f64> = (0..=count).map(|k| off(from + step * f64::from(k))).collect();
     let mut best = tried.iter().copied().fold(f64::INFINITY, f64::min);
-    // No point is nearer than this: the distance changes no faster than the way.
+    // No point is nearer than this: the distance changes no faster than the arc length.
     if best - step / 2.0 > least {
         return best;
     }
@@ -125,7 +127,7 @@ fn nearest(p: &Vector3<f64>, curve: &Curve, from: f64, to: f64, least: f64) -> f
     best
 }
 
-/// How the way is travelled [m/s^2, s, rad, s, s].
+/// Limits of the motion along the path [m/s^2, s, rad, s, s].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Tempo {
     pub(crate) acceleration: f64,
@@ -170,11 +172,13 @@ impl Way {
         self.pieces[i].curve.point((s - self.starts[i]).clamp(0.0, self.pieces[i].curve.length()))
     }
 
-    /// Distance from `p` to the nearest point of the path: many points of every piece, then thirds of what lies about the best of them. `near` is
-    /// where the tool should be; `away` how far `p` is from there.
+    /// Distance from `p` to the nearest point of the path: many points of every piece, then thirds
+    /// of the interval around the best of them. `near` is the tool's intended place; `away` how far
+    /// `p` is from there.
     pub(crate) fn distance(&self, p: &Vector3<f64>, near: f64, away: f64) -> f64 {
         let length = self.length();
-        // A path that meets itself again, or that is left far behind, is searched near the tool's place only, as eq. 5.2 is meant.
+        // A path that meets itself again, or that is far away, is searched only near the tool's
+        // place, as eq. 5.2 is meant.
         let reach =
             if self.local || away > 0.02 * length { (3.0 * away + 1e-6).min(length / 2.0) } else { length };
         let closed = (self.point(0.0) - self.point(length)).norm() < 1e-9;
@@ -192,7 +196,8 @@ impl Way {
         least
     }
 
-    /// Highest speed at `s` between the stops at `from` and `to`: no piece's limit may be left out of braking distance.
+    /// Highest speed at `s` between the stops at `from` and `to`: every piece's limit within
+    /// braking distance is respected.
     fn speed(&self, s: f64, from: usize, to: usize, acceleration: f64) -> f64 {
         let ends = (s - self.starts[from]).min(self.starts[to] - s).max(0.0);
         let mut squared = 2.0 * acceleration * ends;
@@ -204,7 +209,8 @@ impl Way {
         squared.sqrt()
     }
 
-    /// Halves a stretch until the square of the speed is straight over it: then the acceleration is constant.
+    /// Halves an interval until the square of the speed is linear over it: then the acceleration is
+    /// constant.
     fn cells(
         &self,
         piece: usize,
@@ -238,7 +244,8 @@ impl Way {
         *clock += duration;
     }
 
-    /// The motion at even times, the exact end, and rest until the shaper has settled; the number of samples until the end.
+    /// The motion at uniform times, the exact end, and rest until the shaper has settled; the
+    /// number of samples until the end.
     pub(crate) fn travel(&self, tempo: &Tempo) -> (Vec<Instant>, usize) {
         let count = self.pieces.len();
         let end_tangent = |i: usize| self.pieces[i].curve.tangent(self.pieces[i].curve.length());

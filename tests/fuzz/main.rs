@@ -1,4 +1,4 @@
-//! No text breaks a reader, the job or an export: the texts that were found worth keeping, and some seconds of changes to them.
+//! No text breaks a reader, the job or an export: the corpus, and some seconds of mutations of it.
 //! `cargo xtask fuzz` searches for more, guided by coverage.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use target::{TARGETS, Target};
 use words::Words;
 
-/// No text takes longer, on a slow machine either; most take microseconds.
+/// Time limit for any text, on a slow machine too; most take microseconds.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 fn check(target: &Target, text: &str) {
@@ -44,7 +44,7 @@ fn changed_texts_hold_the_laws() {
     }
 }
 
-/// A file that was dropped by mistake, or a program of a million lines: time grows with the length and no faster.
+/// A file dropped by mistake, or a program of a million lines: time grows linearly with the length.
 #[test]
 fn long_texts_hold_the_laws() {
     let pieces = [

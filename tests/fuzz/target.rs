@@ -1,4 +1,5 @@
-//! What must hold for any text: nothing panics or hangs, no number is NaN, what is refused has a place and words, what is written is read.
+//! Laws for any text: nothing panics or hangs, no number is NaN, every rejection has a place and a
+//! message, and every output can be read.
 
 use armill::chart::{self, CATALOG};
 use armill::export::{Export, ExportOptions, FORMATS};
@@ -28,14 +29,14 @@ pub(crate) const TARGETS: [Target; 5] = [
 ];
 
 impl Target {
-    /// The folder of the texts kept for this target, seen from the package or from the engine.
+    /// The corpus folder of this target, from the package or from the engine.
     pub(crate) fn folder(&self) -> PathBuf {
         let here = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
         let beside = ["tests/fuzz/corpus", "../corpus"].map(|folder| here.join(folder));
         beside.into_iter().find(|folder| folder.is_dir()).expect("a corpus").join(self.name)
     }
 
-    /// These texts, in the order of their names.
+    /// The texts of the corpus, ordered by name.
     pub(crate) fn corpus(&self) -> Vec<String> {
         let entries = fs::read_dir(self.folder()).expect("a corpus for each target");
         let mut paths: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
@@ -93,7 +94,8 @@ fn check_job(text: &str) {
     }
 }
 
-/// Equal, numbers but for their last bits: exact reading of 17 digits (serde_json's `float_roundtrip`) would cost the page 40 kB.
+/// Equal up to the last bits of numbers: exact reading of 17 digits (serde_json's
+/// `float_roundtrip`) would cost the page 40 kB.
 fn is_same(a: &Value, b: &Value) -> bool {
     match (a, b) {
         (Value::Number(a), Value::Number(b)) => match (a.as_f64(), b.as_f64()) {
@@ -110,7 +112,7 @@ fn is_same(a: &Value, b: &Value) -> bool {
     }
 }
 
-/// A program as a job, sampled so coarsely that it is soon computed.
+/// A program as a job, sampled coarsely enough to compute quickly.
 fn check_export(text: &str) {
     for kind in ["gcode", "apt", "csv"] {
         let job = json!({
@@ -128,10 +130,10 @@ fn check_export(text: &str) {
     }
 }
 
-/// Most samples that are computed here.
+/// Largest number of samples computed here.
 const FEW: f64 = 400.0;
 
-/// Runs a job of few samples; its report, if it has one, holds numbers only.
+/// Runs a job of few samples; its report, if it has one, must hold finite numbers only.
 fn run(job: &Job) -> Option<Report> {
     let program = job.path.text.as_deref().unwrap_or_default();
     let setup = match armill::setup::Setup::of(job, &mut armill::Progress::none()) {
@@ -152,7 +154,7 @@ fn run(job: &Job) -> Option<Report> {
         .ok()
 }
 
-/// A reader gives the same twice, a sound program or an error that stands in the text.
+/// A reader gives the same result twice: a sound program, or an error located in the text.
 fn check_reader(text: &str, read: impl Fn(&mut dyn FnMut(usize)) -> Result<Program, Error>) {
     let (mut done, most) = (0, text.lines().count());
     let outcome = read(&mut |lines| {
@@ -169,7 +171,7 @@ fn check_reader(text: &str, read: impl Fn(&mut dyn FnMut(usize)) -> Result<Progr
     }
 }
 
-/// Moves follow each other without a gap, in position and in axis; every number is one.
+/// Moves join without a gap in position and axis; every number is finite.
 fn check_program(program: &Program) {
     let size = |segment: &Segment| match segment {
         Segment::Line { from, to } => 1.0 + from.norm() + to.norm(),
@@ -211,8 +213,8 @@ fn check_program(program: &Program) {
     for dwell in &program.dwells {
         assert!(dwell.time.is_finite() && dwell.time >= 0.0 && dwell.after <= program.moves.len());
     }
-    let told = program.remarks.iter().map(|remark| (&remark.message, remark.line));
-    for (words, line) in told.chain(program.ignored.iter().map(|ignored| (&ignored.word, ignored.line))) {
+    let remarks = program.remarks.iter().map(|remark| (&remark.message, remark.line));
+    for (words, line) in remarks.chain(program.ignored.iter().map(|ignored| (&ignored.word, ignored.line))) {
         assert!(
             (1..=program.lines.max(1)).contains(&line) && !words.trim().is_empty(),
             "line {line}: {words:?}"
@@ -228,7 +230,7 @@ fn place(error: &Error) -> (usize, usize) {
     error.place().unwrap_or_else(|| panic!("{error:?} has no place"))
 }
 
-/// An error has words, and a place in its text or the name of a field.
+/// An error has a message, and a place in its text or the name of a field.
 fn check_error(error: &Error, json: &str, program: &str) {
     let message = error.to_string();
     assert!(!message.trim().is_empty() && message.chars().count() < 1000, "{} characters", message.len());
@@ -252,7 +254,7 @@ fn check_numbers(report: &Report) {
         assert_eq!(column.values.len(), report.samples(), "{}", column.key);
         assert!(column.values.iter().all(|x| x.is_finite()), "{}", column.key);
     }
-    // serde_json writes a number that is not finite as null.
+    // serde_json writes a non-finite number as null.
     let summary = json!(report.summary()).to_string();
     assert!(!summary.contains("null") && !summary.contains("NaN"), "{summary}");
 }
@@ -278,7 +280,7 @@ fn check_exports(report: &Report) {
     }
 }
 
-/// What is written is read again, and runs past every commanded tip.
+/// Output is read back, and passes every commanded tip.
 fn check_written(report: &Report, id: &str, export: &Export) {
     let text = export.text.as_str();
     let read = match id {

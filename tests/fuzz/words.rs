@@ -1,23 +1,24 @@
-//! Changes of a text word by word, with the words and lines of the corpus: most of them still mean something, whatever the language.
+//! Mutates a text word by word, with the words and lines of the corpus, so that most results still
+//! mean something in any language.
 
 use fastrand::Rng;
 use std::collections::BTreeSet;
 
-/// Numbers at which arithmetic turns over.
+/// Numbers at which arithmetic overflows or changes sign.
 #[rustfmt::skip]
 const NUMBERS: [&str; 24] = [
     "0", "1", "-1", "2", "3", "0.5", "10", "90", "180", "360", "-90", "1000", "100000", "4294967296", "99999999999999999999",
     "0.001", "0.00001", "0.000000001", "-0.0", "1e-9", "1e9", "1e308", "-1e-308", "1e400",
 ];
 
-/// What texts are changed with.
+/// The material for mutations.
 pub(crate) struct Words {
     words: Vec<String>,
     lines: Vec<String>,
 }
 
 impl Words {
-    /// The words and lines of these texts.
+    /// Collects the words and lines of these texts.
     pub(crate) fn of(texts: &[String]) -> Self {
         let words: BTreeSet<&str> = texts.iter().flat_map(|text| split(text)).collect();
         let lines: BTreeSet<&str> = texts.iter().flat_map(|text| text.lines()).collect();
@@ -25,7 +26,7 @@ impl Words {
         Self { words: owned(words), lines: owned(lines) }
     }
 
-    /// The text with one to four changes.
+    /// Returns the text with one to four changes.
     pub(crate) fn mutated(&self, text: &str, random: &mut Rng) -> String {
         let mut text = text.to_owned();
         for _ in 0..random.u8(1..5) {
@@ -86,7 +87,7 @@ fn one_of<'a>(list: &'a [String], random: &mut Rng) -> &'a str {
     if list.is_empty() { "" } else { &list[random.usize(0..list.len())] }
 }
 
-/// A number in place of another: near it, or from the list.
+/// Replaces a number by another: near it, or from the list.
 fn number(old: &str, random: &mut Rng) -> String {
     match (old.parse::<f64>(), random.u8(0..6)) {
         (Ok(value), 0) => format!("{}", -value),

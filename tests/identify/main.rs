@@ -1,4 +1,4 @@
-//! Identification: measured data, recovered models, errors of the texts.
+//! Identification: measured data, recovered models, errors in the texts.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "signals made by other functions than the core's")]
 

@@ -1,4 +1,5 @@
-//! Non-negative least squares against its optimality conditions and against every set of free unknowns.
+//! Non-negative least squares against its optimality conditions and against every set of free
+//! unknowns.
 
 use armill::identify::nnls::solve;
 use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
@@ -33,7 +34,8 @@ fn the_optimality_conditions_hold() {
         let (a, b) = problem(&mut random, case);
         let (g, h) = normal(&a, &b);
         let solution = solve(&g, &h);
-        // Karush-Kuhn-Tucker: x >= 0, gradient A^T (A x - b) >= 0, and zero where x > 0; each column's gradient by its own length.
+        // Karush-Kuhn-Tucker: x >= 0, gradient A^T (A x - b) >= 0, and zero where x > 0; each
+        // column's gradient by its own length.
         let residual = &a * DVector::from_column_slice(solution.x.as_slice()) - &b;
         for i in 0..6 {
             let length = a.column(i).norm().max(1e-300);

@@ -1,4 +1,4 @@
-//! Step and impact responses: closed forms, noise, and what makes a result doubtful.
+//! Step and impact responses: closed forms, noise, and causes of a doubtful result.
 
 use crate::common::between;
 use armill::identify::Mode;
@@ -38,7 +38,7 @@ fn a_damped_sinusoid_gives_its_own_frequency_and_damping() {
         let found = plain(w, z, rate, span);
         assert!((found.frequency.value / w - 1.0).abs() < 1e-9, "{w} {z}: {found:?}");
         assert!((found.damping.value - z).abs() < 1e-9, "{w} {z}: {:?}", found.damping);
-        // The second way, the extrema alone, is near.
+        // The independent estimate, from the extrema alone, is close.
         assert!(
             (found.decrement.0 / w - 1.0).abs() < 0.05 && (found.decrement.1 - z).abs() < 0.2 * z + 0.005,
             "{:?}",
@@ -48,7 +48,8 @@ fn a_damped_sinusoid_gives_its_own_frequency_and_damping() {
     }
 }
 
-/// The frequency is the undamped one that the shaper takes: a ZVD of it leaves nothing of the very vibration that was measured.
+/// The frequency is the undamped one that the shaper takes: a ZVD shaper for it cancels the
+/// measured vibration completely.
 #[test]
 fn a_shaper_of_the_result_silences_the_vibration() {
     let (w, z) = (30.0, 0.25);

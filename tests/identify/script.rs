@@ -21,7 +21,7 @@ fn the_measured_example_is_identified() {
     let found =
         printed(&["web/examples/identify-fanuc-r2000ic.csv", "--robot", robot, "--joints", "coupled-j3"]);
     assert!((found["joint_compliance_rad_per_nm"][0].as_f64().unwrap() / 1.161581e-6 - 1.0).abs() < 1e-5);
-    // What the README says of it.
+    // As described in the README.
     let percent = |key: &str| (100.0 * found[key].as_f64().unwrap()).round();
     let readme = include_str!("../../README.md");
     let words = format!(

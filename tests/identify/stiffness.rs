@@ -1,4 +1,5 @@
-//! Joint compliances: the measured case of golden.json, synthetic data, intervals, and joints that cannot be seen.
+//! Joint compliances: the measured case of golden.json, synthetic data, intervals, and unobservable
+//! joints.
 
 use crate::common::{any_arm, any_joints, between, job_text};
 use armill::identify::measurement::{Measurements, read};
@@ -81,7 +82,8 @@ fn the_published_stiffnesses_err_as_the_golden_file_says() {
     assert!((mean - case["expected"]["mean_relative_error"].as_f64().unwrap()).abs() < 1e-4, "{mean}");
 }
 
-/// The fit by other means: singular values of the whole system for values and intervals, a refit for each row left out.
+/// The fit by other means: singular values of the whole system for values and intervals, a refit
+/// with each row left out.
 #[test]
 fn the_figures_agree_with_a_second_way() {
     let (robot, rows) = (fanuc(), measured().rows);
@@ -100,7 +102,7 @@ fn the_figures_agree_with_a_second_way() {
             (high - joint.compliance - half).abs() < 1e-5 * half
                 && ((low + half - joint.compliance).abs() < 1e-5 * half || low == 0.0)
         );
-        // The variance inflation is 1 / (1 - R^2) of the column on the others (no mean taken off).
+        // The variance inflation is 1 / (1 - R^2) of the column on the others (uncentred).
         let others = a.clone().remove_column(i);
         let column = a.column(i).into_owned();
         let on_others = others.clone().svd(true, true).solve(&column, 0.0).unwrap();
@@ -120,7 +122,8 @@ fn the_figures_agree_with_a_second_way() {
     }
 }
 
-/// Rows that obey d = J C J^T W exactly, through the Cartesian compliance: not by the equations of the fit.
+/// Rows that obey d = J C J^T W exactly, through the Cartesian compliance rather than the equations
+/// of the fit.
 fn synthetic(robot: &Robot, count: usize, random: &mut fastrand::Rng) -> Vec<Measurement> {
     (0..count)
         .map(|k| {
@@ -196,7 +199,7 @@ fn verdicts(fit: &Fit) -> [Verdict; 6] {
 fn joints_that_the_loads_do_not_turn_are_named() {
     let mut random = fastrand::Rng::with_seed(3);
     let robot = armill::setup::robot(&Job::default()).unwrap();
-    // Tip on axis 6 and no moment: joint 6 is never turned.
+    // Tip on axis 6 and no moment: joint 6 is never loaded.
     let mut rows = synthetic(&robot, 30, &mut random);
     for row in &mut rows {
         let force = Vector6::from_fn(|i, _| if i < 3 { row.wrench[i] } else { 0.0 });
@@ -209,7 +212,8 @@ fn joints_that_the_loads_do_not_turn_are_named() {
     assert!(all.condition.is_infinite());
     assert_eq!(verdicts(&all)[..5], [Verdict::Known; 5]);
 
-    // One posture, one direction: one sum is all that shows, and nothing is claimed of any joint.
+    // One posture, one direction: only one sum is observable, and no claim is made about any single
+    // joint.
     let one: Vec<_> = (1..=8)
         .map(|k| {
             let mut row = rows[0].clone();

@@ -5,24 +5,26 @@ use std::path::Path;
 use crate::browser::{DESKTOP, Key, PHONE, Page, Result, setting, visit};
 use crate::{current, stale, standalone, unfold};
 
-/// What axe-core calls serious or critical on the page as it stands: rule, place and reason, a line each.
+/// axe-core's serious and critical findings on the current page: rule, place and reason, one per
+/// line.
 async fn faults(page: &Page) -> Result<Vec<String>> {
     if page.js("return window.axe === undefined").await? == true {
         let source = Path::new(&setting("ARMILL_NPM_TOOLS")?).join("axe-core/axe.min.js");
         page.js(&std::fs::read_to_string(source)?).await?;
     }
-    // What fades in or out is judged when it has done so.
+    // Elements that fade are checked after they have finished.
     page.js("return Promise.all(document.getAnimations().map(each => each.finished.catch(() => {})))")
         .await?;
     let found = page
         .js("return axe.run(document, { resultTypes: ['violations'] }).then(({ violations }) => violations
                .filter(({ impact }) => impact === 'serious' || impact === 'critical')
-               .flatMap(({ id, nodes }) => nodes.map(({ target, failureSummary }) => `${id}: ${target.flat().join(' ')}: ${failureSummary.replaceAll('\\n', ' ')}`)))")
+               .flatMap(({ id, nodes }) => nodes.map(({ target, failureSummary }) => \
+                   `${id}: ${target.flat().join(' ')}: ${failureSummary.replaceAll('\\n', ' ')}`)))")
         .await?;
     Ok(serde_json::from_value(found)?)
 }
 
-/// Looks at the page in light and in dark, and notes what is found under the state's name.
+/// Checks the page in light and in dark, and notes the findings under the state's name.
 async fn look(page: &Page, state: &str, notes: &mut Vec<String>) -> Result {
     for (dark, colours) in [(false, "light"), (true, "dark")] {
         page.prefer_dark(dark).await?;
@@ -31,7 +33,7 @@ async fn look(page: &Page, state: &str, notes: &mut Vec<String>) -> Result {
     page.prefer_dark(false).await
 }
 
-/// Nothing has been noted.
+/// Asserts that there are no findings.
 fn none(notes: &[String]) -> Result {
     if notes.is_empty() { Ok(()) } else { Err(notes.join("\n").into()) }
 }

@@ -1,4 +1,4 @@
-//! What the arm carries, what its joints give, and how it may spin the tool, entered on the page.
+//! The arm's load, its joint springs and its free tool spin, entered on the page.
 
 use crate::browser::{DESKTOP, Result, visit};
 use crate::chart::{Chart, column};
@@ -18,7 +18,7 @@ fn weight_and_worn_joints_are_entered_as_rows() -> Result {
         let springs = ("robot.joint_springs_nm_arcmin", json!([[2, 1, 0.5], [2, 300, 1.5]]));
         shows(page, &run(&[loads, springs])).await?;
 
-        // Torques that fall are told beside the rows, and the last result stays.
+        // Falling torques are reported beside the rows, and the last result stays.
         let verdict = text(page, "verdict").await?;
         page.type_into("#robot-joint_springs_nm_arcmin", "2, 300, 0.5\n2, 1, 1.5").await?;
         page.wait_for(

@@ -1,4 +1,4 @@
-//! A page in a real browser, driven as a person would: real clicks, real keys.
+//! A page in a real browser, driven as a user would: real clicks, real keys.
 
 use std::cell::RefCell;
 use std::error::Error;
@@ -18,28 +18,29 @@ use tokio::time::sleep;
 
 pub use fantoccini::key::Key;
 
-/// What a test ends with.
+/// The result of a test.
 pub type Result<T = ()> = std::result::Result<T, Box<dyn Error>>;
 
-/// Width and height of the visible part of a page [CSS px].
+/// Width and height of a page's viewport [CSS px].
 pub type Size = (u32, u32);
 
-/// A laptop's.
+/// A laptop's viewport.
 pub const DESKTOP: Size = (1280, 800);
-/// A phone's, held upright.
+/// A phone's viewport, held upright.
 pub const PHONE: Size = (390, 844);
 
-/// How the browser is started; wasm-bindgen's test runner reads the same file.
+/// Browser capabilities, shared with wasm-bindgen's test runner.
 const CAPABILITIES: &str = include_str!("../../.cargo/webdriver.json");
 
-/// How long a download may take.
+/// Time limit for a download.
 const DOWNLOAD: Duration = Duration::from_secs(60);
 
-/// Opens a page of the site, or any page by its whole address, runs a test on it and closes it again. A test that fails leaves a picture
-/// `failed-<test>.png` among the screenshots, and what the console said in its output.
+/// Opens a page of the site, or any page by its whole address, runs a test on it and closes it
+/// again. A test that fails leaves a screenshot `failed-<test>.png` and the console's messages in
+/// its output.
 ///
 /// # Errors
-/// Those of the test, and those of [`Page::close`].
+/// The test's errors, and those of [`Page::close`].
 pub fn visit(path: &str, size: Size, test: impl AsyncFnOnce(&Page) -> Result) -> Result {
     let runtime = Runtime::new()?;
     let page = runtime.block_on(Page::open(path, size))?;
@@ -63,9 +64,9 @@ pub struct Page {
     /// Scheme, host and port of the site, with a slash at the end; for a file its folder.
     origin: String,
     downloads: PathBuf,
-    /// What it has shown so far: the driver hands out every line once only.
+    /// Console lines so far: the driver returns every line only once.
     console: RefCell<Vec<String>>,
-    /// Parts of error messages that the test brings about on purpose.
+    /// Parts of error messages that the test provokes on purpose.
     expected: RefCell<Vec<String>>,
 }
 
@@ -73,7 +74,8 @@ impl Page {
     /// Starts a browser and opens a page of the site.
     ///
     /// # Errors
-    /// If `cargo xtask test` has not started the site and the driver, or the browser does not start.
+    /// If `cargo xtask test` has not started the site and the driver, or the browser does not
+    /// start.
     pub async fn open(path: &str, size: Size) -> Result<Page> {
         let site = setting("ARMILL_SITE_URL")?;
         let (origin, path) = match path.split_once("://") {
@@ -123,10 +125,11 @@ impl Page {
         Ok(self.client.refresh().await?)
     }
 
-    /// Opens another tab of the same browser, at a page of the site, and tells how to come back to the tab before.
+    /// Opens another tab of the same browser, at a page of the site, and returns a handle of the
+    /// previous tab.
     ///
     /// # Errors
-    /// If the browser opens none.
+    /// If the browser does not open one.
     pub async fn new_tab(&self, path: &str, size: Size) -> Result<WindowHandle> {
         let before = self.client.window().await?;
         let tab = self.client.new_window(true).await?;
@@ -144,13 +147,13 @@ impl Page {
         Ok(self.client.switch_to_window(tab).await?)
     }
 
-    /// A window cannot be as narrow as a phone, a device can.
+    /// Emulates a device: a window cannot be as narrow as a phone.
     async fn resize(&self, (width, height): Size) -> Result {
         let device = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
         self.devtools("Emulation.setDeviceMetricsOverride", device).await.map(|_| ())
     }
 
-    /// Shows the page as for somebody who prefers dark colours (or does not).
+    /// Emulates a preference for dark colours, or for light ones.
     ///
     /// # Errors
     /// If the browser refuses.
@@ -163,12 +166,12 @@ impl Page {
     /// The visible text of the first element that the CSS selector finds.
     ///
     /// # Errors
-    /// If there is none.
+    /// If there is no such element.
     pub async fn text(&self, css: &str) -> Result<String> {
         Ok(self.element(css).await?.text().await?)
     }
 
-    /// What a form field holds now.
+    /// The current value of a form field.
     ///
     /// # Errors
     /// If there is no such field.
@@ -179,12 +182,12 @@ impl Page {
     /// Clicks an element.
     ///
     /// # Errors
-    /// If there is none, or another one covers it.
+    /// If there is no such element, or another one covers it.
     pub async fn click(&self, css: &str) -> Result {
         self.element(css).await?.click().await.map_err(|error| within(css, error))
     }
 
-    /// Replaces what a form field holds, key by key.
+    /// Replaces the value of a form field, key by key.
     ///
     /// # Errors
     /// If there is no such field, or it cannot be typed into.
@@ -202,7 +205,8 @@ impl Page {
         self.element(css).await?.select_by_value(value).await.map_err(|error| within(css, error))
     }
 
-    /// Presses keys, one after the other, wherever the focus is: text, [`Key`]s, or both by `format!`.
+    /// Presses keys one after the other, wherever the focus is: text, [`Key`]s, or both by
+    /// `format!`.
     ///
     /// # Errors
     /// If nothing has the focus.
@@ -210,7 +214,8 @@ impl Page {
         Ok(self.client.active_element().await?.send_keys(&keys.to_string()).await?)
     }
 
-    /// Runs the body of a JavaScript function in the page and tells what it returned; promises are awaited.
+    /// Runs the body of a JavaScript function in the page and returns its result; promises are
+    /// awaited.
     ///
     /// # Errors
     /// If it throws.
@@ -218,7 +223,8 @@ impl Page {
         self.client.execute(body, Vec::new()).await.map_err(|error| within(body, error))
     }
 
-    /// Calls a JavaScript function with a module of the page, as `web/js/` has it, and tells what it returned.
+    /// Calls a JavaScript function with a module of the page, as `web/js/` has it, and returns its
+    /// result.
     ///
     /// # Errors
     /// If it throws, or the page has no such module.
@@ -245,7 +251,7 @@ impl Page {
         }
     }
 
-    /// Takes a picture of what is visible and tells where it is: in `target/screenshots`.
+    /// Takes a screenshot of the viewport and returns its path in `target/screenshots`.
     ///
     /// # Errors
     /// If it cannot be taken or stored.
@@ -257,22 +263,23 @@ impl Page {
         Ok(path)
     }
 
-    /// Waits for a download to be complete and tells its content.
+    /// Waits for a download to complete and returns its text.
     ///
     /// # Errors
-    /// If no file of this name arrives in time, or it is no text.
+    /// If no file of this name arrives in time, or it is not text.
     pub async fn downloaded(&self, file: &str) -> Result<String> {
         Ok(String::from_utf8(self.downloaded_bytes(file).await?)?)
     }
 
-    /// Waits for a download to be complete and tells its bytes.
+    /// Waits for a download to complete and returns its bytes.
     ///
     /// # Errors
     /// If no file of this name arrives in time.
     pub async fn downloaded_bytes(&self, file: &str) -> Result<Vec<u8>> {
         let path = self.downloads.join(file);
         let start = Instant::now();
-        // The browser writes under another name; the file's own may stand there empty until it is complete.
+        // The browser writes under another name; a file with the final name may exist, empty, until
+        // the download is complete.
         while fs::metadata(&path).map_or(0, |file| file.len()) == 0 {
             if start.elapsed() > DOWNLOAD {
                 let present: Vec<_> =
@@ -297,7 +304,8 @@ impl Page {
         Ok(self.console.borrow().clone())
     }
 
-    /// Errors on the console and requests with this text in them are meant to happen: [`Page::close`] lets them pass.
+    /// Declares errors on the console and requests with this text as expected: [`Page::close`]
+    /// ignores them.
     pub fn expect_error(&self, part: &str) {
         self.expected.borrow_mut().push(part.to_owned());
     }
@@ -316,8 +324,8 @@ impl Page {
         }
     }
 
-    /// Errors on the console, and requests that went elsewhere. (A worker's requests are not in the log;
-    /// the site's policy makes those that leave it errors on the console.)
+    /// Errors on the console, and requests to other sites. (A worker's requests are not in the log;
+    /// the site's policy turns those that leave it into errors on the console.)
     async fn faults(&self) -> Result<Vec<String>> {
         let mut faults = self.console().await?;
         faults.retain(|line| line.starts_with("SEVERE"));
@@ -332,7 +340,7 @@ impl Page {
         Ok(faults)
     }
 
-    /// Whether an address is the site's, or inside the page itself.
+    /// Whether an address belongs to the site, or is inside the page itself.
     fn is_own(&self, url: &str) -> bool {
         url.starts_with(&self.origin)
             || ["data:", "blob:", "about:"].iter().any(|scheme| url.starts_with(scheme))
@@ -342,7 +350,7 @@ impl Page {
         self.client.find(Locator::Css(css)).await.map_err(|error| within(css, error))
     }
 
-    /// What a log of the driver has gathered since it was read last.
+    /// The entries of a driver's log since it was last read.
     async fn log(&self, kind: &str) -> Result<Vec<Value>> {
         let entries =
             self.client.issue_cmd(Post { endpoint: "se/log", body: json!({ "type": kind }) }).await?;
@@ -359,10 +367,10 @@ impl Page {
     }
 }
 
-/// A command that only ChromeDriver knows.
+/// A command specific to ChromeDriver.
 #[derive(Debug)]
 struct Post {
-    /// Under the session's address.
+    /// Path below the session's address.
     endpoint: &'static str,
     body: Value,
 }
@@ -381,7 +389,7 @@ impl WebDriverCompatibleCommand for Post {
     }
 }
 
-/// The address that an event of the network asks for, if it is about a request.
+/// The address in a network event, if it is about a request.
 fn requested(event: &Value) -> Option<&str> {
     match event["method"].as_str()? {
         "Network.requestWillBeSent" => event["params"]["request"]["url"].as_str(),
@@ -390,21 +398,21 @@ fn requested(event: &Value) -> Option<&str> {
     }
 }
 
-/// A folder of our own in `target`.
+/// A folder of these tests in `target`.
 fn scratch() -> &'static Path {
     Path::new(env!("CARGO_TARGET_TMPDIR"))
 }
 
-/// What `cargo xtask test` says in the environment.
+/// A variable that `cargo xtask test` sets in the environment.
 ///
 /// # Errors
-/// If it says nothing.
+/// If it is not set.
 pub fn setting(name: &str) -> Result<String> {
     env::var(name)
         .map_err(|_| format!("{name} is not set: these tests are started by `cargo xtask test`").into())
 }
 
-/// An error that tells where it came from.
+/// An error with its source location.
 fn within(place: &str, error: impl Display) -> Box<dyn Error> {
     format!("{place}: {error}").into()
 }

@@ -1,4 +1,4 @@
-//! A chart on the page, as the tests of charts handle it.
+//! A chart on the page, as used by the chart tests.
 
 use crate::browser::{Page, Result};
 use armill::Report;
@@ -8,7 +8,8 @@ use serde_json::{Value, json};
 pub(crate) const CONTROL: u32 = 2;
 
 /// The numbers at the ticks below the plot of `chart`.
-pub(crate) const TICKS: &str = "[...chart.querySelectorAll('svg.plot .axis text[text-anchor=middle]')].map(t => Number(t.textContent.replace('\u{2212}', '-'))).filter(Number.isFinite)";
+pub(crate) const TICKS: &str = "[...chart.querySelectorAll('svg.plot .axis text[text-anchor=middle]')].map(t => \
+     Number(t.textContent.replace('\u{2212}', '-'))).filter(Number.isFinite)";
 
 /// A chart on the page.
 pub(crate) struct Chart<'a> {
@@ -17,12 +18,13 @@ pub(crate) struct Chart<'a> {
 }
 
 impl<'a> Chart<'a> {
-    /// The chart of a view, drawn and in sight.
+    /// The chart of a view, drawn and scrolled into sight.
     pub(crate) async fn open(page: &'a Page, view: &str, name: &str) -> Result<Self> {
         page.js(&format!("document.getElementById('tab-{view}').click()")).await?;
         let chart = Self { page, css: format!("#chart-{name}") };
         let drawn = format!(
-            "[...document.querySelectorAll('#panel-{view} .chart-figure')].every(f => f.querySelector('svg.plot')) && document.querySelector('{}')",
+            "[...document.querySelectorAll('#panel-{view} .chart-figure')].every(f => \
+             f.querySelector('svg.plot')) && document.querySelector('{}')",
             chart.css
         );
         page.wait_for(&drawn, 30.0).await?;
@@ -48,12 +50,14 @@ impl<'a> Chart<'a> {
         self.page.wait_for(&there, 10.0).await
     }
 
-    /// A place on the page [px] by fractions of the plot, from left and from top.
+    /// A position on the page [px] by fractions of the plot, from left and from top.
     pub(crate) async fn at(&self, across: f64, down: f64) -> Result<(f64, f64)> {
         let plot = "chart.querySelector('svg.plot clipPath rect').getBBox()";
         let place = self
             .js(&format!(
-                "const p = {plot}, d = chart.querySelector('.drawing').getBoundingClientRect(); return [d.left + p.x + 4 + {across} * (p.width - 8), d.top + p.y + 4 + {down} * (p.height - 8)]"
+                "const p = {plot}, d = chart.querySelector('.drawing').getBoundingClientRect(); \
+                 return [d.left + p.x + 4 + {across} * (p.width - 8), d.top + p.y + 4 + {down} * \
+                 (p.height - 8)]"
             ))
             .await?;
         Ok(serde_json::from_value(place)?)

@@ -1,4 +1,5 @@
-//! The charts in a real browser: filtered, read as tables and taken away; values against native runs, bit for bit.
+//! The charts in a real browser: filtered, read as tables and exported; values against native runs,
+//! bit for bit.
 
 use crate::browser::{DESKTOP, Key, Result, visit};
 use crate::chart::{Chart, column};
@@ -18,11 +19,17 @@ fn series_are_hidden_and_isolated() -> Result {
         page.click("#chart-before-after .legend [data-key=before]").await?;
         chart.wait_for("!chart.querySelector('svg.plot [data-key=before]')").await?;
         assert_eq!(pressed().await?, json!(["false", "true"]));
-        // The axis follows what is left: 0.0008 mm instead of 1.25 mm.
-        chart.wait_for("[...chart.querySelectorAll('.axis text[text-anchor=end]')].every(t => /^0$|10\u{207b}/u.test(t.textContent))").await?;
+        // The axis follows the remaining curves: 0.0008 mm instead of 1.25 mm.
+        chart
+            .wait_for(
+                "[...chart.querySelectorAll('.axis text[text-anchor=end]')].every(t => \
+                 /^0$|10\u{207b}/u.test(t.textContent))",
+            )
+            .await?;
         chart.hover(0.5).await?;
         assert_eq!(chart.values().await?.len(), 2, "time and the series that is left");
-        // By keyboard: the legend is one stop, arrows move in it, Shift shows one alone, and all again.
+        // By keyboard: the legend is one tab stop, arrows move within it, Shift shows one curve
+        // alone, and then all again.
         page.js("document.querySelector('#chart-before-after .legend [data-key=after]').focus()").await?;
         page.press(char::from(Key::Left)).await?;
         let shift_enter =
@@ -181,7 +188,12 @@ fn a_table_stands_for_the_chart() -> Result {
                 assert!(values.contains(&found), "{found} is missing");
             }
             chart.tool("Table").await?;
-            chart.wait_for("chart.querySelector('.drawing').checkVisibility() && !chart.querySelector('.chart-table').checkVisibility()").await?;
+            chart
+                .wait_for(
+                    "chart.querySelector('.drawing').checkVisibility() && \
+                     !chart.querySelector('.chart-table').checkVisibility()",
+                )
+                .await?;
         }
         Ok(())
     })

@@ -1,4 +1,5 @@
-//! The cursor of the charts: one sample in all of them and in the program, read and moved as a person does.
+//! The cursor of the charts: one sample in all of them and in the program, read and moved as a user
+//! does.
 
 use crate::browser::{DESKTOP, Key, Result, visit};
 use crate::chart::{Chart, column};
@@ -36,7 +37,7 @@ fn the_cursor_reads_samples_and_is_one_for_all_charts() -> Result {
                 )
                 .await?;
         }
-        // Away from the chart the cursor goes; a click makes it stay.
+        // Leaving the chart hides the cursor; a click pins it.
         chart.mouse("mouseMoved", (5.0, 5.0), json!({})).await?;
         chart.wait_for("!chart.querySelector('.readout b') && !chart.querySelector('.mark.on')").await?;
         let place = chart.at(0.5, 0.5).await?;
@@ -85,10 +86,12 @@ fn keys_move_the_cursor() -> Result {
             .await?;
         let step = chart.values().await?[0] - before;
         assert!((step - 0.001).abs() < 1e-9, "{step}");
-        let told = chart.js("return chart.querySelector('.drawing').ariaValueText").await?;
+        let spoken = chart.js("return chart.querySelector('.drawing').ariaValueText").await?;
         assert!(
-            told.as_str().is_some_and(|told| told.starts_with("Time 0.0") && told.contains("Shaping alone ")),
-            "{told}"
+            spoken
+                .as_str()
+                .is_some_and(|spoken| spoken.starts_with("Time 0.0") && spoken.contains("Shaping alone ")),
+            "{spoken}"
         );
         page.press(char::from(Key::Escape)).await?;
         chart.wait_for("!chart.querySelector('.readout b')").await
@@ -105,12 +108,15 @@ fn cursor_and_program_line_lead_to_each_other() -> Result {
         page.type_into("#path-text", "G21 G90\nG0 X600 Y-60 Z100\nG1 Y20 F1200\nG1 X640 Y60\nM30").await?;
         current(page).await?;
         let chart = Chart::open(page, "overview", "before-after").await?;
-        // The caret in a line moves the cursor to where the line starts to run.
-        page.js("const text = document.getElementById('path-text'); text.focus(); const at = text.value.indexOf('G1 X640'); text.setSelectionRange(at, at); text.dispatchEvent(new MouseEvent('click', { bubbles: true }))").await?;
+        // The caret in a line moves the cursor to the start of the line's run.
+        page.js("const text = document.getElementById('path-text'); text.focus(); \
+             const at = text.value.indexOf('G1 X640'); text.setSelectionRange(at, at); \
+             text.dispatchEvent(new MouseEvent('click', { bubbles: true }))")
+            .await?;
         chart
             .wait_for("chart.querySelector('.readout button')?.textContent === 'line 4 of the program'")
             .await?;
-        // The way back: the line under the cursor is selected where it was typed.
+        // In reverse: the line under the cursor is selected in the text field.
         chart.show().await?;
         chart.hover(0.3).await?;
         chart
@@ -118,7 +124,8 @@ fn cursor_and_program_line_lead_to_each_other() -> Result {
             .await?;
         chart.js("chart.querySelector('.drawing').focus()").await?;
         page.press(char::from(Key::Enter)).await?;
-        let selected = "const t = document.getElementById('path-text'); return document.activeElement === t && t.value.slice(t.selectionStart, t.selectionEnd)";
+        let selected = "const t = document.getElementById('path-text'); return document.activeElement === t && \
+             t.value.slice(t.selectionStart, t.selectionEnd)";
         assert_eq!(page.js(selected).await?, "G1 Y20 F1200");
         Ok(())
     })

@@ -1,4 +1,5 @@
-//! The cut on the page: materials with their source, both ways of engagement, the drawing, spindle figures, the wall.
+//! The cut on the page: materials with their source, both ways of engagement, the drawing, spindle
+//! figures, the wall.
 
 use crate::browser::{DESKTOP, Page, Result, visit};
 use crate::common::run;
@@ -8,7 +9,8 @@ use serde_json::json;
 /// A figure of the panel in full precision.
 async fn figure(page: &Page, name: &str) -> Result<f64> {
     let find = format!(
-        "return [...document.querySelectorAll('#cut-figures div')].find(row => row.textContent.startsWith('{name}')).querySelector('dd').dataset.value"
+        "return [...document.querySelectorAll('#cut-figures div')].find(row => \
+         row.textContent.startsWith('{name}')).querySelector('dd').dataset.value"
     );
     Ok(page.js(&find).await?.as_str().ok_or("no figure")?.parse()?)
 }
@@ -32,10 +34,12 @@ fn a_catalogue_material_is_converted_and_says_how_far_to_trust_it() -> Result {
         assert_eq!(figure(page, "Made at chip").await?, cut.made_at_chip_mm.unwrap());
         assert_eq!(figure(page, "Spindle power").await?, cut.power_kw);
         assert_eq!(figure(page, "Removal rate").await?, cut.removal_cm3_min);
-        // The shares that no catalogue gives can be overruled, and taken back.
-        page.js("const input = document.getElementById('material-radial_ratio'); input.value = '0.4'; input.dispatchEvent(new Event('input', { bubbles: true }))").await?;
+        // The shares that no catalogue gives can be overridden, and restored.
+        page.js("const input = document.getElementById('material-radial_ratio'); input.value = '0.4'; \
+             input.dispatchEvent(new Event('input', { bubbles: true }))")
+            .await?;
         shows(page, &run(&[("material", json!({"preset": "p2", "radial_ratio": 0.4}))])).await?;
-        // One's own constants start from the catalogue's.
+        // User-defined constants start from the catalogue's.
         page.choose("#material-preset", "kienzle").await?;
         let own = json!({"kc11_n_mm2":1500,"mc":0.22,"radial_ratio":0.4,"axial_ratio":0.3,"line":"tangent","chip_thickness_mm":"mean"});
         shows(page, &run(&[("material", own)])).await?;
@@ -62,7 +66,7 @@ fn the_engagement_is_drawn_for_both_ways_of_giving_it() -> Result {
             "{before}"
         );
         unfold(page, "cutting").await?;
-        // The choice brings its own inputs, with the values that the form shows.
+        // The choice brings its own inputs, with the values shown in the form.
         page.choose("#cutting-engagement", "climb").await?;
         let climb = [("cutting.engagement", json!("climb")), ("cutting.radial_depth_mm", json!(5))];
         shows(page, &run(&climb)).await?;
@@ -108,7 +112,10 @@ fn the_wall_has_both_deviations_and_a_bending_tool_its_part() -> Result {
         shows(page, &long).await?;
         page.click("#tab-forces").await?;
         assert_eq!(figure(page, "Bends at the tip").await?, long.summary().cut.tool_bending_um_n.unwrap());
-        let cells = page.js("return [...document.querySelectorAll('#wall-table tbody tr')].map(row => [...row.cells].slice(1, 3).map(cell => cell.dataset.value ?? null))").await?;
+        let cells = page
+            .js("return [...document.querySelectorAll('#wall-table tbody tr')].map(row => \
+             [...row.cells].slice(1, 3).map(cell => cell.dataset.value ?? null))")
+            .await?;
         let wall = &long.walls()[0];
         let number =
             |row: usize, cell: usize| cells[row][cell].as_str().and_then(|text| text.parse::<f64>().ok());
@@ -122,7 +129,7 @@ fn the_wall_has_both_deviations_and_a_bending_tool_its_part() -> Result {
             2,
             "row and swatch"
         );
-        // A ball nose by its word.
+        // A ball nose by its keyword.
         page.click("#tool-corner_radius_mm-ball").await?;
         let changed = [
             ("tool.bending", json!("cantilever")),

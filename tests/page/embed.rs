@@ -1,4 +1,4 @@
-//! The calculator as a guest: embed.html by itself, and the element in a page of rustdoc and of mdBook.
+//! The embedded calculator: embed.html alone, and the element in a page of rustdoc and of mdBook.
 
 use armill::Report;
 use serde_json::{Value, json};
@@ -7,7 +7,7 @@ use crate::browser::{DESKTOP, Page, Result, setting, visit};
 use crate::common::run;
 use crate::current;
 
-/// The page embed.html shows this report.
+/// Waits until embed.html shows this report.
 async fn answers(page: &Page, report: &Report) -> Result {
     let fingerprint = report.fingerprint();
     let shown = format!("document.getElementById('fingerprint').textContent === '{fingerprint}'");
@@ -22,7 +22,7 @@ async fn answers(page: &Page, report: &Report) -> Result {
     Ok(())
 }
 
-/// What a list of elements shows, by an attribute of each.
+/// The elements of a list that are visible, by an attribute of each.
 async fn listed(page: &Page, css: &str, property: &str) -> Result<Value> {
     page.js(&format!("return [...document.querySelectorAll('{css}')].map(each => each.{property})")).await
 }
@@ -59,13 +59,13 @@ fn a_frame_shows_what_its_address_asks_for() -> Result {
         page.type_into("#motion-feed_mm_s", "50").await?;
         answers(page, &run(&changes)).await?;
 
-        // The way to the whole page takes the inputs along.
+        // The link to the whole page takes the inputs along.
         page.wait_for("document.getElementById('open').hash.startsWith('#job=1.')", 10.0).await?;
         let link = page.js("return document.getElementById('open').hash").await?;
         let link = link.as_str().unwrap_or_default();
         page.goto(&format!("index.html{link}")).await?;
         crate::shows(page, &run(&changes)).await?;
-        // And the other way round.
+        // And in the other direction.
         page.goto(&format!("embed.html{link}&inputs=none&charts=none")).await?;
         answers(page, &run(&changes)).await?;
         assert_eq!(listed(page, "#form .field, figure", "id").await?, json!([]));
@@ -108,12 +108,12 @@ fn what_cannot_be_shown_is_said() -> Result {
             ("job={\"version\":1,\"motion\":{\"feed\":1}}", "feed"),
             ("job={", "JSON"),
         ];
-        for (asked, told) in wrong {
+        for (asked, reason) in wrong {
             page.goto("embed.html").await?;
             page.goto(&format!("embed.html#{asked}")).await?;
             let said = format!(
                 "document.querySelector('#alert').textContent.includes({})",
-                serde_json::to_string(told)?
+                serde_json::to_string(reason)?
             );
             page.wait_for(&said, 20.0).await.map_err(|error| format!("{asked}: {error}"))?;
             let state = page.js("return document.querySelector('#results').dataset.state").await?;
@@ -128,17 +128,18 @@ fn inside(css: &str) -> String {
     format!("document.querySelector('{css}').shadowRoot.querySelector('iframe').contentDocument")
 }
 
-/// The frame of that element shows this report.
+/// Waits until the frame of that element shows this report.
 async fn frame_answers(page: &Page, css: &str, report: &Report) -> Result {
     page.js(&format!("document.querySelector('{css}').scrollIntoView()")).await?;
     let (inside, fingerprint) = (inside(css), report.fingerprint());
     let shown = format!(
-        "{inside}.getElementById('fingerprint').textContent === '{fingerprint}' && {inside}.getElementById('results').dataset.state === 'current'"
+        "{inside}.getElementById('fingerprint').textContent === '{fingerprint}' && \
+         {inside}.getElementById('results').dataset.state === 'current'"
     );
     page.wait_for(&shown, 40.0).await
 }
 
-/// The frame of that element is as high as what it holds.
+/// Waits until the frame of that element is as high as its content.
 async fn fits(page: &Page, css: &str) -> Result {
     let inside = inside(css);
     let fits = format!(
@@ -157,9 +158,13 @@ fn a_page_of_rustdoc_holds_the_calculator() -> Result {
         page.wait_for(&format!("{inside}.querySelector('svg .series')"), 20.0).await?;
         fits(page, css).await?;
         // It computes there.
-        page.js(&format!("const feed = {inside}.getElementById('motion-feed_mm_s'); feed.value = '60'; feed.dispatchEvent(new Event('input', {{ bubbles: true }}))")).await?;
+        page.js(&format!(
+            "const feed = {inside}.getElementById('motion-feed_mm_s'); feed.value = '60'; \
+             feed.dispatchEvent(new Event('input', {{ bubbles: true }}))"
+        ))
+        .await?;
         frame_answers(page, css, &run(&[("motion.feed_mm_s", json!(60))])).await?;
-        // The height follows the content, down too.
+        // The height follows the content, also when it shrinks.
         let height = format!("{inside}.defaultView.frameElement.getBoundingClientRect().height");
         let high = page.js(&format!("return {height}")).await?.as_f64().unwrap();
         page.js(&format!("document.querySelector('{css}').setAttribute('inputs', 'none')")).await?;
@@ -167,7 +172,7 @@ fn a_page_of_rustdoc_holds_the_calculator() -> Result {
         frame_answers(page, css, &run(&[])).await?;
         fits(page, css).await?;
 
-        // Only our own frame's messages count, and only if they make sense.
+        // Only messages from our own frame count, and only valid ones.
         let before = page.js(&format!("return {height}")).await?;
         for (source, origin, data) in [
             ("window", "location.origin", "{ type: 'armill-height', height: 777 }"),
@@ -179,17 +184,27 @@ fn a_page_of_rustdoc_holds_the_calculator() -> Result {
             ("frame", "location.origin", "null"),
         ] {
             let send = format!(
-                "const frame = {inside}.defaultView; dispatchEvent(new MessageEvent('message', {{ source: {source}, origin: {origin}, data: {data} }}))"
+                "const frame = {inside}.defaultView; dispatchEvent(new MessageEvent('message', \
+                 {{ source: {source}, origin: {origin}, data: {data} }}))"
             );
             page.js(&send).await?;
             assert_eq!(page.js(&format!("return {height}")).await?, before, "{source} {origin} {data}");
         }
-        page.js(&format!("const frame = {inside}.defaultView; dispatchEvent(new MessageEvent('message', {{ source: frame, origin: location.origin, data: {{ type: 'armill-height', height: 776.5 }} }}))")).await?;
+        page.js(&format!(
+            "const frame = {inside}.defaultView; dispatchEvent(new MessageEvent('message', \
+             {{ source: frame, origin: location.origin, data: {{ type: 'armill-height', \
+             height: 776.5 }} }}))"
+        ))
+        .await?;
         assert_eq!(page.js(&format!("return {height}")).await?, 777.0, "a sound message counts");
 
-        // Other attributes, another job, and no step in the reader's history.
+        // Other attributes, another job, and no new entry in the reader's history.
         let steps = page.js("return history.length").await?;
-        page.js(&format!("document.querySelector('{css}').setAttribute('job', JSON.stringify({{ version: 1, motion: {{ feed_mm_s: 40 }} }}))")).await?;
+        page.js(&format!(
+            "document.querySelector('{css}').setAttribute('job', JSON.stringify({{ version: 1, \
+             motion: {{ feed_mm_s: 40 }} }}))"
+        ))
+        .await?;
         frame_answers(page, css, &run(&[("motion.feed_mm_s", json!(40))])).await?;
         assert_eq!(page.js("return history.length").await?, steps);
         page.expect_error("404");

@@ -1,5 +1,6 @@
-//! Hostile use: files that are too long or no files at all, numbers that are none, markup in names, no network, no memory, Workers that die.
-//! Each ends in a clear message or a result, and nothing that was typed or dropped is lost.
+//! Hostile use: files that are too long or no files at all, invalid numbers, markup in names, no
+//! network, no memory, Workers that die. Each ends in a clear message or a result, and nothing that
+//! was typed or dropped is lost.
 
 use crate::browser::{DESKTOP, Page, Result, visit};
 use crate::common::run;
@@ -17,13 +18,13 @@ async fn drop_file(page: &Page, name: &str, content: &str) -> Result {
     .map(|_| ())
 }
 
-/// Waits until the page says this, in its alert or beside a field.
+/// Waits until the page shows this message, in its alert or beside a field.
 async fn says(page: &Page, part: &str) -> Result {
     page.wait_for(&format!("document.querySelector('#alert').textContent.includes({})", json!(part)), 60.0)
         .await
 }
 
-/// The default job's result is still shown, and the next edit is computed as ever.
+/// The default job's result is still shown, and the next edit is computed as usual.
 async fn goes_on(page: &Page) -> Result {
     assert_eq!(number(page, "before-max").await?, run(&[]).summary().before_mm.both.max);
     page.click("#reset").await?;
@@ -77,7 +78,8 @@ fn a_million_points_are_answered_and_survive_a_reload() -> Result {
         .await?;
         let ended = "['current', 'stale'].includes(document.querySelector('#results').dataset.state)";
         page.wait_for(ended, 300.0).await?;
-        // It is kept where the page's small storage would be full; the other inputs with it.
+        // The text is kept where the page's small storage would be full, and the other inputs with
+        // it.
         let named = "JSON.parse(sessionStorage.getItem('armill-inputs')).state.job.path.text.shelf > 0";
         page.wait_for(named, 30.0).await?;
         assert_eq!(text(page, "notice").await?, "");
@@ -116,7 +118,7 @@ fn a_polyline_too_long_for_a_field_is_the_same_path_as_rows() -> Result {
 fn numbers_that_are_none_and_sizes_beyond_any_robot_are_answered_beside_the_field() -> Result {
     visit("/", DESKTOP, async |page| {
         current(page).await?;
-        for (typed, told) in [
+        for (typed, reason) in [
             ("1e6", "legal is 0.001 to 10000 mm"), // a kilometre
             ("0", "legal is 0.001 to 10000 mm"),
             ("NaN", "not a number"),
@@ -128,15 +130,19 @@ fn numbers_that_are_none_and_sizes_beyond_any_robot_are_answered_beside_the_fiel
         ] {
             page.type_into("#path-radius_mm", typed).await?;
             stale(page).await?;
-            says(page, told).await?;
-            assert!(text(page, "path-radius_mm-error").await?.contains(told), "{typed}");
+            says(page, reason).await?;
+            assert!(text(page, "path-radius_mm-error").await?.contains(reason), "{typed}");
             assert_eq!(page.value("#path-radius_mm").await?, typed, "what was typed stays");
             assert!(text(page, "alert").await?.len() < 200, "{typed}");
         }
         goes_on(page).await?;
-        // Nothing but zeros: told at the first field, all of them kept.
+        // Nothing but zeros: reported at the first field, all of them kept.
         let zeros = "[...document.querySelectorAll('#form input.value')].filter((input) => !input.closest('[hidden]') && !input.disabled)";
-        page.js(&format!("for (const input of {zeros}) {{ input.value = '0'; input.dispatchEvent(new Event('input', {{ bubbles: true }})) }}")).await?;
+        page.js(&format!(
+            "for (const input of {zeros}) {{ input.value = '0'; input.dispatchEvent(new Event('input', \
+             {{ bubbles: true }})) }}"
+        ))
+        .await?;
         stale(page).await?;
         says(page, "Radius is 0 mm; legal is").await?;
         page.wait_for("localStorage.getItem('armill-inputs')", 10.0).await?;
@@ -152,7 +158,8 @@ fn numbers_that_are_none_and_sizes_beyond_any_robot_are_answered_beside_the_fiel
     })
 }
 
-/// Runs if it is ever taken for markup; the policy would refuse it, so the test looks for the elements too.
+/// Runs if it is ever treated as markup; the policy would block it, so the test looks for the
+/// elements too.
 const MARKUP: &str = "<img src=x onerror=\"window.intruder=1\"><script>window.intruder=2</script>";
 
 #[test]
@@ -174,7 +181,11 @@ fn markup_in_names_and_comments_is_text() -> Result {
         harmless().await?;
         let first = "({ load }) => load().then(({ presets }) => presets.robots[0])";
         let joints = page.with_module("core", first).await?;
-        let job = json!({ "robot": { "name": MARKUP, "modified_dh": joints["modified_dh"], "joint_compliance_rad_per_nm": joints["joint_compliance_rad_per_nm"] } });
+        let job = json!({ "robot": {
+            "name": MARKUP,
+            "modified_dh": joints["modified_dh"],
+            "joint_compliance_rad_per_nm": joints["joint_compliance_rad_per_nm"],
+        } });
         drop_file(page, &format!("{MARKUP}.json"), &format!("[{}]", json!(job.to_string()))).await?;
         page.wait_for("document.querySelector('#path-kind').value === 'circle'", 20.0).await?;
         current(page).await?;
@@ -199,7 +210,7 @@ fn markup_in_names_and_comments_is_text() -> Result {
             says(page, MARKUP).await?;
             harmless().await?;
         }
-        // A link with the same.
+        // A link with the same markup.
         let link = page
             .with_module(
                 "link",
@@ -221,7 +232,11 @@ fn a_full_storage_is_told_and_nothing_else_suffers() -> Result {
     visit("/", DESKTOP, async |page| {
         current(page).await?;
         for store in ["localStorage", "sessionStorage"] {
-            page.js(&format!("for (let size = 1 << 22, k = 0; size > 0; size >>= 1) {{ try {{ for (;;) {store}.setItem(`other-${{k++}}`, 'x'.repeat(size)); }} catch {{}} }}")).await?;
+            page.js(&format!(
+                "for (let size = 1 << 22, k = 0; size > 0; size >>= 1) {{ try {{ \
+                 for (;;) {store}.setItem(`other-${{k++}}`, 'x'.repeat(size)); }} catch {{}} }}"
+            ))
+            .await?;
         }
         page.type_into("#motion-feed_mm_s", "80").await?;
         page.wait_for(
@@ -257,10 +272,11 @@ fn without_a_network_the_page_goes_on() -> Result {
     })
 }
 
-/// Before the page's own scripts: keeps its Workers where a test can reach them.
-const HOLD_WORKERS: &str = "window.workers = []; window.Worker = class extends Worker { constructor(...all) { super(...all); workers.push(this); } }";
+/// Runs before the page's own scripts: keeps its Workers where a test can reach them.
+const HOLD_WORKERS: &str = "window.workers = []; window.Worker = class extends Worker { constructor(...all) { super(...all); \
+     workers.push(this); } }";
 
-/// And has it wait a second where it would wait for thirty.
+/// Shortens the page's wait of thirty seconds to one.
 const HASTEN: &str = "; const later = window.setTimeout.bind(window); \
     window.setTimeout = (action, delay, ...rest) => later(action, delay === 30_000 ? 1000 : delay, ...rest)";
 
@@ -277,7 +293,8 @@ fn workers_killed_while_they_compute_are_replaced() -> Result {
             page.js("workers.forEach((worker) => worker.terminate()); return workers.length").await?.as_u64()
                 >= Some(2)
         );
-        // Nobody tells a page that its Worker was taken away: to it the run is a long one that says nothing, which can be given up.
+        // The browser does not report a killed Worker: the page sees a long run without progress,
+        // which can be cancelled.
         page.wait_for("document.querySelector('#status').textContent.startsWith('Nothing was heard')", 20.0)
             .await?;
         page.click("#cancel").await?;
@@ -289,10 +306,14 @@ fn workers_killed_while_they_compute_are_replaced() -> Result {
     })
 }
 
-/// Before the page's own scripts: `limit` pages of memory are all that a core gets, by a maximum written into its memory section.
+/// Runs before the page's own scripts: limits a core to `limit` pages of memory, by a maximum
+/// written into its memory section.
 const LITTLE_MEMORY: &str = "\
-    const number = (bytes, at) => { let [value, shift, byte] = [0, 0, 0]; do { byte = bytes[at++]; value |= (byte & 127) << shift; shift += 7; } while (byte & 128); return [value, at]; };
-    const coded = (value) => { const bytes = []; do { bytes.push((value & 127) | (value > 127 ? 128 : 0)); value >>= 7; } while (value); return bytes; };
+    const number = (bytes, at) => { let [value, shift, byte] = [0, 0, 0]; \
+      do { byte = bytes[at++]; value |= (byte & 127) << shift; shift += 7; } while (byte & 128); \
+      return [value, at]; };
+    const coded = (value) => { const bytes = []; \
+      do { bytes.push((value & 127) | (value > 127 ? 128 : 0)); value >>= 7; } while (value); return bytes; };
     WebAssembly.compileStreaming = async (answer) => {
       const bytes = new Uint8Array(await (await answer).arrayBuffer());
       for (let at = 8; at < bytes.length; ) {
@@ -300,7 +321,8 @@ const LITTLE_MEMORY: &str = "\
         if (bytes[at] === 5) {
           const [least] = number(bytes, start + 2);
           const section = [1, 1, ...coded(least), ...coded(least + LIMIT)];
-          return WebAssembly.compile(new Uint8Array([...bytes.slice(0, at), 5, ...coded(section.length), ...section, ...bytes.slice(start + size)]));
+          return WebAssembly.compile(new Uint8Array([...bytes.slice(0, at), 5, \
+            ...coded(section.length), ...section, ...bytes.slice(start + size)]));
         }
         at = start + size;
       }

@@ -1,4 +1,5 @@
-//! The view Identify in a real browser: measured loads and responses, typed, opened, wrong, taken into the job and taken back.
+//! The view Identify in a real browser: measured loads and responses, typed, opened, invalid, put
+//! into the job and undone.
 
 use crate::browser::{DESKTOP, PHONE, Page, Result, visit};
 use crate::current;
@@ -15,7 +16,8 @@ async fn open(page: &Page) -> Result {
     page.click("#tab-identify").await
 }
 
-/// Clicks what may be far down: brought into sight at once, as the page itself scrolls smoothly.
+/// Clicks an element that may be far down: scrolled into view at once, because the page itself
+/// scrolls smoothly.
 async fn click(page: &Page, css: &str) -> Result {
     page.js(&format!(
         "document.querySelector('{css}').scrollIntoView({{ block: 'center', behavior: 'instant' }})"
@@ -24,13 +26,13 @@ async fn click(page: &Page, css: &str) -> Result {
     page.click(css).await
 }
 
-/// The job that the page has now.
+/// The page's current job.
 async fn job(page: &Page) -> Result<Value> {
     click(page, "#download-job").await?;
     Ok(serde_json::from_str(&page.downloaded("armill-job.json").await?)?)
 }
 
-/// Puts a text into a textarea as a paste does: at once.
+/// Sets a textarea's text as a paste does: at once.
 async fn paste(page: &Page, css: &str, text: &str) -> Result {
     let text = serde_json::to_string(text)?;
     page.js(&format!(
@@ -55,7 +57,12 @@ fn the_measured_example_becomes_the_job_and_undo_takes_it_back() -> Result {
         let before = page.js("return document.getElementById('fingerprint').textContent").await?;
 
         click(page, "#use-compliance").await?;
-        page.wait_for("document.querySelector('#results').dataset.state === 'computing' || document.querySelector('#notice p')", 10.0).await?;
+        page.wait_for(
+            "document.querySelector('#results').dataset.state === 'computing' || \
+             document.querySelector('#notice p')",
+            10.0,
+        )
+        .await?;
         current(page).await?;
         let taken = job(page).await?;
         let compliance = &taken["robot"]["joint_compliance_rad_per_nm"];
@@ -93,11 +100,11 @@ fn a_response_becomes_the_shaper() -> Result {
         );
         assert!((shaper["damping"].as_f64().unwrap() / native.damping.value - 1.0).abs() < 1e-5, "{shaper}");
         assert_eq!(shaper["kind"], "zvd");
-        // The example is made of 18 rad/s and 0.1.
+        // The example was made with 18 rad/s and 0.1.
         assert!((native.frequency.value - 18.0).abs() <= native.frequency.half, "{native:?}");
         assert!((native.damping.value - 0.1).abs() <= native.damping.half, "{native:?}");
 
-        // A later beginning gives another window.
+        // A later start gives another window.
         page.type_into("#identify-from", "0.5\n").await?;
         page.wait_for("[...document.querySelectorAll('#identify .found')].some(p => p.textContent.includes('from 0.500 s'))", 10.0).await
     })
@@ -117,10 +124,14 @@ fn what_is_wrong_is_said_with_its_line_and_the_last_result_stays() -> Result {
         assert!(said.starts_with(&format!("Line {line}, column ")) && said.contains("a number"), "{said}");
         assert_eq!(page.js("return document.querySelector('#identify .result').hidden").await?, false);
         click(page, "#identify .wrong button").await?;
-        let chosen = page.js("const a = document.getElementById('identify-loads'); return a.value.slice(a.selectionStart, a.selectionEnd)").await?;
+        let chosen = page
+            .js("const a = document.getElementById('identify-loads'); \
+             return a.value.slice(a.selectionStart, a.selectionEnd)")
+            .await?;
         assert!(chosen.as_str().unwrap().contains("half"), "{chosen}");
 
-        // The job's own robot answers too, and says that these postures are not its own.
+        // The job's own robot gives a result too, with a remark that these postures are not its
+        // own.
         paste(page, "#identify-loads", LOADS).await?;
         page.wait_for("!document.querySelector('#identify .wrong p')", 10.0).await?;
         click(page, "#identify .whose button").await?;
@@ -138,7 +149,12 @@ fn it_fits_a_phone() -> Result {
         click(page, "#identify-loads-example").await?;
         page.wait_for("document.querySelector('#chart-stiffness svg.plot')", 30.0).await?;
         click(page, "#identify-response-example").await?;
-        page.wait_for("document.querySelector('#chart-response svg.plot') && document.querySelector('#chart-stiffness svg.plot')", 30.0).await?;
+        page.wait_for(
+            "document.querySelector('#chart-response svg.plot') && \
+             document.querySelector('#chart-stiffness svg.plot')",
+            30.0,
+        )
+        .await?;
         page.screenshot("identify-phone.png").await?;
         assert_eq!(
             page.js("return document.documentElement.scrollWidth - document.documentElement.clientWidth")

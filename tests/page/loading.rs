@@ -1,4 +1,4 @@
-//! What the page loads, and when: the core once, for one run of the job that it opens with.
+//! What the page loads, and when: the core once, for one run of the opening job.
 
 use armill::{Job, Report};
 use serde_json::{Value, json};
@@ -9,7 +9,8 @@ use crate::{shows, stale, text};
 
 const LINE: &str = "G21 G90 G1 X600 Y0 Z100 F1200\nX640";
 
-/// Before the page's own scripts: counts what every Worker is asked, by kind, and the modules that it is sent.
+/// Runs before the page's own scripts: counts the requests to every Worker, by kind, and the
+/// modules sent to it.
 const COUNT_QUESTIONS: &str = "\
     window.asked = {}; window.supplied = [];
     window.Worker = class extends Worker {
@@ -58,7 +59,8 @@ fn a_visit_fetches_the_core_once_and_computes_one_run() -> Result {
         assert_eq!(runs(page).await?, 1);
         assert_eq!(fetched(page).await?, core);
 
-        // Charts, a file, an identification and the thesis's figures come from the same core; none of them computes the job again.
+        // Charts, a file, an identification and the thesis's figures come from the same core; none
+        // of them computes the job again.
         page.click("#tab-joints").await?;
         page.wait_for("document.querySelector('#panel-joints svg .series')", 20.0).await?;
         page.click("#download-columns").await?;
@@ -83,7 +85,7 @@ fn a_visit_fetches_the_core_once_and_computes_one_run() -> Result {
         page.click("#undo").await?;
         shows(page, &program).await?;
         assert_eq!(fetched(page).await?, core);
-        // Every Worker got the module that was compiled once.
+        // Every Worker received the module that was compiled once.
         assert_eq!(page.js("return supplied.length >= 2 && new Set(supplied).size === 1").await?, true);
         Ok(())
     })
@@ -124,7 +126,7 @@ fn a_core_that_does_not_come_is_reported_and_can_be_tried_again() -> Result {
         stale(page).await?;
         let alert = text(page, "alert").await?;
         assert!(alert.starts_with("The core could not be loaded: "), "{alert}");
-        // Once more in vain, then with success.
+        // One more failure, then success.
         page.click("#alert button").await?;
         page.wait_for("document.querySelector('#alert button')", 20.0).await?;
         page.devtools("Network.setBlockedURLs", json!({ "urls": [] })).await?;
@@ -137,7 +139,8 @@ fn a_core_that_does_not_come_is_reported_and_can_be_tried_again() -> Result {
     })
 }
 
-/// Before the page's own scripts: while `astray` is true, a Worker's script is not where the page thinks.
+/// Runs before the page's own scripts: while `astray` is true, a Worker's script is at the wrong
+/// address.
 const LEAD_ASTRAY: &str = "\
     window.astray = false;
     window.Worker = class extends Worker {
@@ -153,7 +156,7 @@ fn a_worker_that_does_not_start_is_reported_and_the_last_result_stays() -> Resul
         page.expect_error("missing.js");
         page.expect_error("internal error");
         page.expect_error("asked for");
-        // The spare Worker computes the lost result again; the one to take its place does not come.
+        // The spare Worker computes the lost result again; its replacement does not start.
         page.js("astray = true").await?;
         page.with_module("core", "({ trap }) => trap()").await?;
         page.wait_for("document.querySelector('#alert').textContent.includes('started again')", 20.0).await?;

@@ -16,16 +16,19 @@ fn a_pinned_result_stands_beside_the_next() -> Result {
         let (a, b) = (run(&[]), run(&[("motion.feed_mm_s", json!(50))]));
         shows(page, &b).await?;
         let difference = async |id: &str| {
-            let told = page
+            let shown = page
                 .js(&format!("return document.getElementById('{id}').closest('.number').querySelector('.versus').dataset.value"))
                 .await?;
-            Ok::<f64, Box<dyn std::error::Error>>(told.as_str().ok_or("no difference")?.parse()?)
+            Ok::<f64, Box<dyn std::error::Error>>(shown.as_str().ok_or("no difference")?.parse()?)
         };
         let (before, after) = (a.summary(), b.summary());
         assert_eq!(difference("before-max").await?, after.before_mm.both.max - before.before_mm.both.max);
         assert_eq!(difference("after-max").await?, after.after_mm.max - before.after_mm.max);
         assert_eq!(difference("duration").await?, after.duration_s - before.duration_s);
-        let rows = page.js("return [...document.querySelectorAll('#compare tbody tr')].map(row => [...row.cells].map(cell => cell.textContent))").await?;
+        let rows = page
+            .js("return [...document.querySelectorAll('#compare tbody tr')].map(row => \
+             [...row.cells].map(cell => cell.textContent))")
+            .await?;
         assert_eq!(rows, json!([["Feed", "100 mm/s", "50 mm/s"]]));
         page.click("#back-to-a").await?;
         shows(page, &a).await?;
@@ -36,7 +39,7 @@ fn a_pinned_result_stands_beside_the_next() -> Result {
     })
 }
 
-/// The curves in the first chart, and what says where one runs.
+/// The curves in the first chart, and the attribute that holds a curve's course.
 const LINES: &str =
     "[...document.querySelectorAll('#chart-before-after svg.plot .series :is(path, polyline)')]";
 const OUTLINE: &str = "line.getAttribute('d') ?? line.getAttribute('points')";
@@ -63,9 +66,10 @@ fn a_pinned_result_is_drawn_with_the_next_and_stays_over_a_reload() -> Result {
             }
             shows(page, &b).await?;
             page.wait_for("document.querySelector('#chart-before-after .pinned .series')", 20.0).await?;
-            // Both on axes that hold both, as the native core draws them.
+            // Both on axes that fit both, as the native core draws them.
             let size = page
-                .js("const plot = document.querySelector('#chart-before-after svg.plot'); return [Number(plot.getAttribute('width')), Number(plot.getAttribute('height'))]")
+                .js("const plot = document.querySelector('#chart-before-after svg.plot'); \
+                     return [Number(plot.getAttribute('width')), Number(plot.getAttribute('height'))]")
                 .await?;
             let [width, height]: [f64; 2] = serde_json::from_value(size)?;
             let whole = ChartOptions::sized(width, height);
@@ -78,7 +82,7 @@ fn a_pinned_result_is_drawn_with_the_next_and_stays_over_a_reload() -> Result {
                 ..whole
             };
             let (of_a, of_b) = (draw(&a, &both)?.svg, draw(&b, &both)?.svg);
-            // Figures are shown before charts, which may still be those of a number half typed.
+            // Figures are shown before charts, which may still belong to a half-typed number.
             let drawn = format!(
                 "((a, b) => {LINES}.length >= 4 && {LINES}.every(line => (line.closest('.pinned') ? a : b).includes({OUTLINE})))({}, {})",
                 json!(of_a),

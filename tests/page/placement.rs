@@ -1,4 +1,4 @@
-//! The view "Placement": the map is the core's, a click moves the part, undo takes it back.
+//! The view "Placement": the map is the core's, a click moves the part, undo restores it.
 
 use crate::browser::{DESKTOP, Result, visit};
 use crate::current;
@@ -34,7 +34,9 @@ fn the_map_shows_what_the_core_says_of_each_place() -> Result {
             ranges.as_array().ok_or("no ranges")?.iter().filter_map(Value::as_f64).collect();
         // The table runs from the largest y down.
         let cells = page
-            .js("return [...document.querySelectorAll('#placement-table tbody tr')].reverse().flatMap(row => [...row.querySelectorAll('td')].map(cell => cell.textContent))")
+            .js("return [...document.querySelectorAll('#placement-table tbody \
+                 tr')].reverse().flatMap(row => [...row.querySelectorAll('td')].map(cell => \
+                 cell.textContent))")
             .await?;
         let survey = PlacementMap::new(&Job::default())?;
         let step = |from: f64, to: f64, n: usize| from + (to - from) * n as f64 / 10.0;
@@ -72,7 +74,8 @@ fn a_place_is_taken_by_click_or_key_and_given_back_by_undo() -> Result {
         page.wait_for(&format!("{place}.every(value => value === 0)"), 5.0).await?;
         let press = |key: &str| {
             format!(
-                "document.querySelector('#placement-map').dispatchEvent(new KeyboardEvent('keydown', {{ key: '{key}', bubbles: true, cancelable: true }}))"
+                "document.querySelector('#placement-map').dispatchEvent(new KeyboardEvent('keydown', \
+                 {{ key: '{key}', bubbles: true, cancelable: true }}))"
             )
         };
         page.js(&press("ArrowRight")).await?;
@@ -95,7 +98,7 @@ fn a_map_is_cancelled_and_computed_again() -> Result {
         };
         page.wait_for(&says("Cancelled"), 10.0).await?;
         page.wait_for(&format!("{cancel}.disabled"), 10.0).await?;
-        // Nothing goes on behind it, and another map starts with Workers of its own.
+        // Nothing keeps running in the background, and another map starts with Workers of its own.
         page.choose("#placement-steps", "11").await?;
         page.wait_for(&says("121 places in"), 60.0).await?;
         current(page).await

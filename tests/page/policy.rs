@@ -1,4 +1,4 @@
-//! The Content-Security-Policy of every HTML page: what it says, and that the browser holds it.
+//! The Content-Security-Policy of every HTML page: its text, and its enforcement by the browser.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ fn pages() -> Result<Vec<PathBuf>> {
     Ok(pages)
 }
 
-/// The values of an attribute, wherever it stands in the text.
+/// The values of an attribute, anywhere in the text.
 fn values<'a>(html: &'a str, attribute: &str) -> Vec<&'a str> {
     let start = format!(" {attribute}=\"");
     html.split(start.as_str()).skip(1).filter_map(|rest| rest.split('"').next()).collect()
@@ -54,7 +54,8 @@ fn every_page_says_what_may_run() -> Result {
         for needed in ["default-src", "script-src", "style-src", "base-uri", "form-action"] {
             assert!(directives.contains(&needed), "{name} has no {needed}");
         }
-        // Outside of scripts and styles, which the policy governs: nothing inline, nothing from elsewhere.
+        // Outside of scripts and styles, which the policy governs: nothing inline, nothing from
+        // elsewhere.
         let mut markup = String::new();
         for (k, part) in body.split("<script").enumerate() {
             markup.push_str(if k == 0 { part } else { part.split_once("</script>").unwrap().1 });
@@ -70,7 +71,7 @@ fn every_page_says_what_may_run() -> Result {
     Ok(())
 }
 
-/// What a page's policy refuses, tried from inside: each of these would work without one.
+/// Actions that a page's policy blocks, tried from inside: each of these would work without one.
 const ATTEMPTS: [(&str, &str); 6] = [
     (
         "script-src-elem",
@@ -80,7 +81,7 @@ const ATTEMPTS: [(&str, &str); 6] = [
         "script-src-attr",
         "document.body.setAttribute('onclick', 'window.intruder = true'); document.body.click()",
     ),
-    // A driver's own script may evaluate; a timer's is the page's.
+    // A driver's own script may evaluate; a timer's script belongs to the page.
     ("script-src", "setTimeout(() => (0, eval)('window.intruder = true'))"),
     (
         "style-src-elem",
@@ -92,10 +93,12 @@ const ATTEMPTS: [(&str, &str); 6] = [
 
 async fn holds(page: &Page) -> Result {
     page.expect_error("Content Security Policy");
-    // The log has the request although it is stopped before it leaves.
+    // The log lists the request although it is blocked before it leaves.
     page.expect_error("https://armill.invalid/x.png");
     page.wait_for("document.readyState === 'complete'", 20.0).await?;
-    page.js("window.refused = []; document.addEventListener('securitypolicyviolation', event => window.refused.push(event.effectiveDirective))").await?;
+    page.js("window.refused = []; document.addEventListener('securitypolicyviolation', \
+         event => window.refused.push(event.effectiveDirective))")
+        .await?;
     for (directive, attempt) in ATTEMPTS {
         page.js(attempt).await?;
         page.wait_for(&format!("window.refused.includes('{directive}')"), 5.0).await?;

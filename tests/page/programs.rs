@@ -1,4 +1,5 @@
-//! Programs on the page: dropped, followed from chart to line and back, kept when they are rejected, long ones.
+//! Programs on the page: dropped, followed from chart to line and back, kept when rejected, and
+//! long ones.
 
 use crate::browser::{DESKTOP, Page, Result, visit};
 use crate::common::run;
@@ -25,7 +26,7 @@ fn job(kind: &str, text: &str) -> [(&'static str, Value); 1] {
     [("path", json!({ "kind": kind, "text": text }))]
 }
 
-/// The line of the program that is selected, from 1, and what stands in it.
+/// The selected line of the program, from 1, and its text.
 async fn selected(page: &Page) -> Result<(u64, String)> {
     let found = page
         .js("const t = document.getElementById('path-text'); const upTo = t.value.slice(0, t.selectionStart); \
@@ -44,7 +45,8 @@ fn a_dropped_program_is_the_path() -> Result {
         let slot = [job("gcode", SLOT).as_slice(), &[("motion.feed_mm_s", json!(50))]].concat();
         shows(page, &run(&slot)).await?;
         assert_eq!(page.value("#path-text").await?, SLOT, "as dropped");
-        // What it is tells the language, whatever its name says; undo brings back what was before.
+        // The content determines the language, whatever the name; undo restores the previous
+        // program.
         drop(page, "dome.txt", "UNITS/MM\nFEDRAT/1200,MMPM\nGOTO/600,0,100\nGOTO/640,0,100\nFINI").await?;
         page.wait_for("document.querySelector('#path-kind').value === 'apt'", 20.0).await?;
         current(page).await?;
@@ -66,14 +68,16 @@ fn a_chart_leads_to_its_line_and_back() -> Result {
         current(page).await?;
         page.click("#tab-overview").await?;
         page.wait_for("document.querySelector('#chart-before-after svg')", 20.0).await?;
-        // From the line to the chart: the caret in line 7 moves the cursor to where it starts to run.
+        // From the line to the chart: the caret in line 7 moves the cursor to the start of its run.
         let lines = crate::common::column(&run(&job("gcode", SLOT)), "program_line");
         let seventh = lines.iter().position(|line| *line == 7.0).ok_or("line 7 does not run")?;
-        page.js("const t = document.getElementById('path-text'); const at = t.value.indexOf('G1 Y-40'); t.focus(); t.setSelectionRange(at, at); t.click()").await?;
+        page.js("const t = document.getElementById('path-text'); const at = t.value.indexOf('G1 Y-40'); \
+             t.focus(); t.setSelectionRange(at, at); t.click()")
+            .await?;
         let cursor = page.with_module("cursor", "({ cursor }) => cursor()").await?;
         assert!((cursor.as_f64().unwrap_or(-1.0) - seventh as f64 * 1e-3).abs() < 1e-9, "{cursor}");
         page.wait_for("document.querySelector('#chart-before-after .readout').textContent.includes('line 7 of the program')", 10.0).await?;
-        // From the chart to the line: the readout of the place that was clicked leads there.
+        // From the chart to the line: the readout of the clicked place leads there.
         page.click("#chart-before-after .drawing").await?;
         let named = page.text("#chart-before-after .readout").await?;
         page.click("#chart-before-after .readout button").await?;
@@ -135,10 +139,12 @@ fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
         page.click("#download-job").await?;
         let saved: Value = serde_json::from_str(&page.downloaded("armill-job.json").await?)?;
         assert_eq!(saved["path"]["text"], json!(long));
-        // From a line to the cursor and from a chart to the line, as with a short one.
+        // From a line to the cursor and from a chart to the line, as with a short program.
         page.js("document.getElementById('path-text-window').scrollTop = 1e9").await?;
         page.wait_for("document.getElementById('path-text-window').textContent.includes('M30')", 5.0).await?;
-        page.js("const rows = [...document.querySelectorAll('#path-text-window [data-line]')]; rows.find(row => row.dataset.line === '25000').click()").await?;
+        page.js("const rows = [...document.querySelectorAll('#path-text-window [data-line]')]; \
+             rows.find(row => row.dataset.line === '25000').click()")
+            .await?;
         let cursor = page.with_module("cursor", "({ cursor }) => cursor()").await?;
         assert!(cursor.as_f64().is_some_and(|time| time > 0.1), "{cursor}");
         page.click("#tab-overview").await?;
@@ -159,7 +165,7 @@ fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
         let error = text(page, "path-text-error").await?.to_lowercase();
         assert!(error.contains("line 15005, column 10"), "{error}");
         assert!(text(page, "path-text-window").await?.contains("15005 X630.000 A5"));
-        // A short one is typed again.
+        // A short program is an editable text again.
         page.choose("#examples", "contour.nc").await?;
         current(page).await?;
         assert!(page.value("#path-text").await?.starts_with('%'));
@@ -167,7 +173,8 @@ fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
     })
 }
 
-/// The verdict is about joint commands, which keep the run's timing; what a program keeps is said below it.
+/// The verdict is about joint commands, which keep the run's timing; a program's accuracy is stated
+/// below it.
 #[test]
 fn what_a_program_is_worth_stands_under_the_verdict() -> Result {
     let following = [("cutting.feed_per_tooth_mm", json!("from_feed"))];
@@ -177,8 +184,8 @@ fn what_a_program_is_worth_stands_under_the_verdict() -> Result {
     assert!(standard.met && !beyond.met);
     visit("/", DESKTOP, async |page| {
         current(page).await?;
-        let told = "document.getElementById('as-program').textContent.startsWith('As a G-code')";
-        page.wait_for(told, 20.0).await?;
+        let stated = "document.getElementById('as-program').textContent.startsWith('As a G-code')";
+        page.wait_for(stated, 20.0).await?;
         assert_eq!(text(page, "as-program").await?, standard.sentence);
         assert_eq!(page.js("return document.querySelectorAll('#as-program.bad').length").await?, json!(0));
         unfold(page, "cutting").await?;

@@ -1,11 +1,11 @@
-//! Numbers that are pushed: a label is a slider, and results follow while it is dragged.
+//! Dragged numbers: a label is a slider, and results follow while it is dragged.
 
 use crate::browser::{DESKTOP, Page, Result, visit};
 use crate::common::run;
 use crate::{current, shows, unfold};
 use serde_json::json;
 
-/// Presses the mouse on a label, moves it by some pixels in steps of one, and lets it go.
+/// Presses the mouse on a label, moves it by some pixels in steps of one, and releases it.
 async fn drag(page: &Page, label: &str, pixels: i32) -> Result {
     let place = page
         .js(&format!(
@@ -61,7 +61,7 @@ fn a_pushed_number_is_followed_by_previews_and_then_by_all_samples() -> Result {
         let reached: f64 = page.value("#cutting-axial_depth_mm").await?.parse()?;
         let wanted = run(&[("cutting.axial_depth_mm", json!(reached))]);
         shows(page, &wanted).await?;
-        // Number of samples, and whether they can be taken away: of a preview they cannot.
+        // Number of samples, and whether they can be downloaded: those of a preview cannot.
         let seen: Vec<(usize, bool)> = serde_json::from_value(page.js("return seen").await?)?;
         let all = wanted.samples();
         assert!(seen.iter().any(|(samples, _)| (2000..all / 2).contains(samples)), "{seen:?}");

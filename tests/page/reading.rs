@@ -1,4 +1,5 @@
-//! The page as it is read: units, colours, what is remembered of it; still while it opens; explained; on paper; without JavaScript.
+//! Reading the page: units, colours, what is remembered; stable while it opens; explained; on
+//! paper; without JavaScript.
 
 use crate::browser::{DESKTOP, PHONE, Result, visit};
 use crate::common::run;
@@ -12,7 +13,9 @@ fn units_colours_and_open_panels_are_remembered() -> Result {
         let background = "return getComputedStyle(document.body).backgroundColor";
         let light = page.js(background).await?;
         page.click("#tab-joints").await?;
-        page.js("document.querySelector('#group-motion > summary').click(); document.querySelector('#group-tool > summary').click()").await?;
+        page.js("document.querySelector('#group-motion > summary').click(); \
+             document.querySelector('#group-tool > summary').click()")
+            .await?;
         page.click("#open-settings").await?;
         for choice in ["length-inch", "force-lbf", "theme-dark"] {
             page.click(&format!("#setting-{choice}")).await?;
@@ -30,7 +33,10 @@ fn units_colours_and_open_panels_are_remembered() -> Result {
                 summary.before_mm.both.max,
                 "in full it stays in mm"
             );
-            let units = page.js("return [...new Set([...document.querySelectorAll('[data-unit]')].map(unit => unit.textContent))].sort()").await?;
+            let units = page
+                .js("return [...new Set([...document.querySelectorAll('[data-unit]')].map(unit => \
+                 unit.textContent))].sort()")
+                .await?;
             assert_eq!(units, json!(["in", "lbf"]));
             assert_eq!(text(page, "verdict").await?, summary.verdict);
             assert_ne!(page.js(background).await?, light);
@@ -43,7 +49,7 @@ fn units_colours_and_open_panels_are_remembered() -> Result {
         let open = page.js("return ['motion', 'tool', 'path'].map(name => document.getElementById(`group-${name}`).open)").await?;
         assert_eq!(open, json!([false, true, true]));
         assert_eq!(page.js("return document.querySelector('#panel-joints').hidden").await?, false);
-        // Light was chosen: the system does not count.
+        // Light was chosen, so the system setting does not count.
         page.click("#open-settings").await?;
         page.click("#setting-theme-light").await?;
         page.prefer_dark(true).await?;
@@ -58,8 +64,10 @@ fn units_colours_and_open_panels_are_remembered() -> Result {
 fn nothing_moves_while_the_page_opens_and_typing_never_waits() -> Result {
     let watch = "localStorage.setItem('armill-settings', JSON.stringify({ length: 'inch', force: 'lbf', theme: 'dark' }));
         window.shifts = []; window.pictures = [];
-        new PerformanceObserver((list) => window.shifts.push(...list.getEntries().map((entry) => entry.value))).observe({ type: 'layout-shift', buffered: true });
-        addEventListener('keydown', ({ target }) => requestAnimationFrame(() => window.pictures.push([target.value, document.getElementById('results').dataset.state])), true);";
+        new PerformanceObserver((list) => window.shifts.push(...list.getEntries().map((entry) => entry.value)))\
+          .observe({ type: 'layout-shift', buffered: true });
+        addEventListener('keydown', ({ target }) => requestAnimationFrame(() => \
+          window.pictures.push([target.value, document.getElementById('results').dataset.state])), true);";
     for size in [DESKTOP, PHONE] {
         visit("/", size, async |page| {
             page.devtools("Page.addScriptToEvaluateOnNewDocument", json!({ "source": watch })).await?;
@@ -73,7 +81,8 @@ fn nothing_moves_while_the_page_opens_and_typing_never_waits() -> Result {
             if size == PHONE {
                 return Ok(());
             }
-            // Every key has its picture while the runs it supersedes are under way: none waits for a result.
+            // Every key is painted while the runs it supersedes are under way: none waits for a
+            // result.
             page.type_into("#motion-sample_time_s", "0.0005").await?;
             current(page).await?;
             page.js("window.pictures = []").await?;
@@ -96,8 +105,8 @@ fn each_view_says_how_it_is_computed_with_and_without_javascript() -> Result {
         for view in ["overview", "path", "forces", "deflection", "error", "joints", "shaper"] {
             page.click(&format!("#tab-{view}")).await?;
             page.click(&format!("#panel-{view} > .how > summary")).await?;
-            let told = page.text(&format!("#panel-{view} > .how")).await?;
-            assert!(told.contains("Thesis"), "{view}: {told}");
+            let caption = page.text(&format!("#panel-{view} > .how")).await?;
+            assert!(caption.contains("Thesis"), "{view}: {caption}");
             let formulas = format!("return document.querySelectorAll('#panel-{view} > .how math').length");
             assert!(page.js(&formulas).await?.as_u64() > Some(0), "{view}");
         }

@@ -1,4 +1,5 @@
-//! Robots on the page: the library by maker, where its numbers come from, one's own arm, its drawing, a place within reach.
+//! Robots on the page: the library by maker, where its numbers come from, a custom arm, its
+//! drawing, a place within reach.
 
 use crate::browser::{DESKTOP, Result, visit};
 use crate::{current, text};
@@ -8,7 +9,8 @@ use serde_json::json;
 fn a_robot_is_picked_doubted_drawn_and_reached() -> Result {
     visit("/", DESKTOP, async |page| {
         current(page).await?;
-        let pick = "const pick = (value) => { const s = document.getElementById('robot-preset'); s.value = value; s.dispatchEvent(new Event('change', { bubbles: true })); };";
+        let pick = "const pick = (value) => { const s = document.getElementById('robot-preset'); \
+             s.value = value; s.dispatchEvent(new Event('change', { bubbles: true })); };";
         let groups =
             "return [...document.querySelectorAll('#robot-preset optgroup')].map(group => group.label)";
         assert_eq!(
@@ -34,15 +36,17 @@ fn a_robot_is_picked_doubted_drawn_and_reached() -> Result {
         let warnings = page.js("return document.querySelector('#warnings').textContent").await?;
         assert!(warnings.as_str().is_some_and(|text| text.contains("joint stiffness")), "{warnings}");
 
-        // One's own arm starts from the numbers of the one before, and means the same.
+        // A custom arm starts from the numbers of the previous one, and means the same.
         let verdict = text(page, "verdict").await?;
         page.js(&format!("{pick} pick('opw')")).await?;
         current(page).await?;
         assert_eq!(page.js("return document.getElementById('robot-opw-c2_mm').value").await?, "1150");
         assert_eq!(text(page, "verdict").await?, verdict);
 
-        // Out of reach: the page offers a place.
-        page.js("const x = document.getElementById('path-center_mm-x'); x.value = '9000'; x.dispatchEvent(new Event('input', { bubbles: true }))").await?;
+        // Out of reach: the page suggests a place.
+        page.js("const x = document.getElementById('path-center_mm-x'); x.value = '9000'; \
+             x.dispatchEvent(new Event('input', { bubbles: true }))")
+            .await?;
         page.wait_for(
             "document.querySelector('#alert button')?.textContent.startsWith('Place the path')",
             20.0,

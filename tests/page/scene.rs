@@ -1,4 +1,5 @@
-//! Paths and arm in space, play, and the error budget: compared with native runs, steered by real pointers and keys.
+//! Paths and arm in space, playback, and the error budget: compared with native runs, driven by
+//! real pointers and keys.
 
 use super::browser::{DESKTOP, Key, PHONE, Page, Result, visit};
 use super::common::run;
@@ -12,13 +13,14 @@ async fn open(page: &Page) -> Result {
     page.wait_for("document.querySelector('#scene').dataset.sample === '0'", 30.0).await
 }
 
-/// What the scene says of itself.
+/// A value that the scene reports.
 async fn data(page: &Page, key: &str) -> Result<String> {
     let value = page.js(&format!("return document.querySelector('#scene').dataset['{key}']")).await?;
-    Ok(value.as_str().ok_or(format!("the scene tells no {key}"))?.to_owned())
+    Ok(value.as_str().ok_or(format!("the scene reports no {key}"))?.to_owned())
 }
 
-/// The number of colours on the canvas; its picture is there only until the browser has shown it, so it is read in the frame that draws it.
+/// The number of colours on the canvas. Its picture exists only until the browser has shown it, so
+/// it is read in the frame that draws it.
 async fn colours(page: &Page) -> Result<u64> {
     let count = page
         .js("document.querySelector('#scene [data-view=iso]').click();
@@ -76,7 +78,7 @@ fn the_arm_follows_the_cursor_and_play_stops_at_the_end() -> Result {
             frames[start..start + 3].iter().map(|v| format!("{v:.6}")).collect::<Vec<_>>().join(" ")
         };
         assert_eq!(data(page, "tip").await?, tip(0));
-        // Play, faster than life; it stops at the end by itself.
+        // Playback, faster than real time; it stops at the end.
         assert_eq!(
             page.js("return document.querySelector('.player').dataset.playing").await?,
             json!("false")
@@ -92,7 +94,7 @@ fn the_arm_follows_the_cursor_and_play_stops_at_the_end() -> Result {
         assert_eq!(data(page, "sample").await?, last.to_string());
         assert!(page.text(".player .time").await?.starts_with("19.70"));
 
-        // A pointer that comes from the left meets the circle's edge, and the cursor moves there.
+        // A pointer coming from the left meets the circle's edge, and the cursor moves there.
         page.js("document.querySelector('#scene [data-view=top]').click()").await?;
         page.wait_for("document.querySelector('#scene').dataset.elevation === '90.00'", 5.0).await?;
         page.js(
@@ -100,7 +102,8 @@ fn the_arm_follows_the_cursor_and_play_stops_at_the_end() -> Result {
              return new Promise(done => {
                let x = 0;
                const step = () => {
-                 canvas.dispatchEvent(new PointerEvent('pointermove', { clientX: box.left + (x += 10), clientY: box.top + box.height / 2 }));
+                 canvas.dispatchEvent(new PointerEvent('pointermove', { \
+                   clientX: box.left + (x += 10), clientY: box.top + box.height / 2 }));
                  if (x < box.width / 2) requestAnimationFrame(step); else done();
                };
                step();
@@ -119,7 +122,9 @@ fn the_arm_follows_the_cursor_and_play_stops_at_the_end() -> Result {
 fn the_picture_comes_back_after_the_graphics_were_lost() -> Result {
     visit("/", DESKTOP, async |page| {
         open(page).await?;
-        page.js("window.lose = document.querySelector('#scene canvas').getContext('webgl2').getExtension('WEBGL_lose_context'); lose.loseContext()").await?;
+        page.js("window.lose = document.querySelector('#scene \
+             canvas').getContext('webgl2').getExtension('WEBGL_lose_context'); lose.loseContext()")
+            .await?;
         page.wait_for("!document.querySelector('#scene .message').hidden", 5.0).await?;
         page.js("lose.restoreContext()").await?;
         page.wait_for("document.querySelector('#scene .message').hidden", 5.0).await?;
@@ -146,7 +151,8 @@ fn the_budget_is_the_native_one() -> Result {
         current(page).await?;
         let budget = run(&[]).budget();
         let shown = page
-            .js("return [...document.querySelectorAll('#budget-table tbody tr')].map(row => [...row.querySelectorAll('[data-value]')].map(cell => cell.dataset.value))")
+            .js("return [...document.querySelectorAll('#budget-table tbody tr')].map(row => \
+                 [...row.querySelectorAll('[data-value]')].map(cell => cell.dataset.value))")
             .await?;
         let (worst, mean) = (budget.worst_mm, budget.mean_mm);
         let mut rows: Vec<[f64; 2]> = (0..6).map(|i| [worst.joints[i], mean.joints[i]]).collect();
@@ -155,7 +161,7 @@ fn the_budget_is_the_native_one() -> Result {
             [worst.shaping, mean.shaping],
             [worst.total, mean.total],
         ]);
-        // As text: the last bit of a number may be lost on the way through the driver's JSON.
+        // As text: the driver's JSON may lose the last bit of a number.
         let shown: Vec<[String; 2]> = serde_json::from_value(shown)?;
         assert_eq!(shown.len(), rows.len());
         for (shown, row) in shown.iter().zip(rows) {

@@ -1,17 +1,18 @@
-//! Where the inputs come from and where they go: links, what the browser keeps, undo and redo.
+//! Where the inputs come from and where they go: links, the browser's storage, undo and redo.
 
 use crate::browser::{DESKTOP, Key, Page, Result, visit};
 use crate::common::run;
 use crate::{current, shows, stale, text};
 use serde_json::json;
 
-/// The fragment that stands for the JSON text of a job, as the page makes it.
+/// The fragment that encodes the JSON text of a job, as the page makes it.
 async fn fragment(page: &Page, job: &str) -> Result<String> {
     let made = page.with_module("link", &format!("({{ fragmentOf }}) => fragmentOf({})", json!(job))).await?;
     Ok(made.as_str().unwrap_or_default().to_owned())
 }
 
-/// What the dialog "Share" gives as `form`, and whether the page's own copy button says that it is copied.
+/// The content of the dialog "Share" in the form `form`, and whether the page's own copy button
+/// reports a copy.
 async fn shared(page: &Page, form: &str) -> Result<String> {
     page.click("#share").await?;
     page.wait_for("document.querySelector('#share-dialog').open", 5.0).await?;
@@ -26,7 +27,7 @@ async fn shared(page: &Page, form: &str) -> Result<String> {
     Ok(value)
 }
 
-/// What the line at the foot of the page says.
+/// The line at the foot of the page.
 async fn notice(page: &Page) -> Result<String> {
     text(page, "notice").await
 }
@@ -35,7 +36,7 @@ async fn feed(page: &Page) -> Result<String> {
     page.value("#motion-feed_mm_s").await
 }
 
-/// Opens the page anew, as a bookmark or another page's link would.
+/// Loads the page from scratch, as a bookmark or another page's link would.
 async fn open(page: &Page, fragment: &str) -> Result {
     page.js("location.href = 'about:blank'").await?;
     page.wait_for("location.href === 'about:blank'", 10.0).await?;
@@ -78,7 +79,7 @@ fn a_link_that_cannot_be_opened_says_why_and_the_default_stands() -> Result {
         let damaged = format!("{}A{}", &good[..8], &good[9..]);
         let bomb = fragment(page, &format!("{{\"version\":1}}{}", " ".repeat(5_000_000))).await?;
         assert!(bomb.len() < 10_000);
-        for (broken, told) in [
+        for (broken, reason) in [
             (good[..good.len() - 2].to_owned(), "cut off or damaged"),
             (damaged, "cut off or damaged"),
             ("job=".to_owned(), "not of the form"),
@@ -91,14 +92,15 @@ fn a_link_that_cannot_be_opened_says_why_and_the_default_stands() -> Result {
             open(page, &broken).await?;
             shows(page, &run(&[])).await?;
             let alert = text(page, "alert").await?;
-            assert!(alert.contains(told) && alert.contains("default inputs"), "{broken}: {alert}");
+            assert!(alert.contains(reason) && alert.contains("default inputs"), "{broken}: {alert}");
         }
-        // One's own inputs are an undo away.
+        // The user's own inputs are one undo away.
         page.click("#undo").await?;
         shows(page, &run(&[("motion.feed_mm_s", json!(70))])).await?;
         assert_eq!(text(page, "alert").await?, "");
 
-        // A link pasted into the address of the open page takes the place of the inputs, a broken one does not.
+        // A link pasted into the address of the open page replaces the inputs, a broken one does
+        // not.
         let job = fragment(page, "{\"motion\":{\"feed_mm_s\":60}}").await?;
         page.js(&format!("location.hash = '{job}'")).await?;
         page.wait_for("document.querySelector('#motion-feed_mm_s').value === '60'", 10.0).await?;
@@ -131,7 +133,7 @@ fn nothing_typed_is_lost_by_a_reload() -> Result {
         page.type_into("#motion-feed_mm_s", "80").await?;
         page.type_into("#path-center_mm-y", "0").await?;
         shows(page, &run(&[("motion.feed_mm_s", json!(80))])).await?;
-        // What stands in a kind of path that is not chosen now is kept too.
+        // The inputs of a kind of path that is not selected are kept too.
         page.choose("#path-kind", "csv").await?;
         assert!(page.value("#path-text").await?.contains("650,0,110"));
         Ok(())
@@ -145,7 +147,7 @@ fn undo_and_redo_go_by_steps_that_make_sense() -> Result {
         let can =
             async |id: &str| page.js(&format!("return !document.getElementById('{id}').disabled")).await;
         assert_eq!((can("undo").await?, can("redo").await?), (json!(false), json!(false)));
-        // Five keys in one field are one step.
+        // Five keystrokes in one field are one step.
         page.type_into("#motion-feed_mm_s", "80.25").await?;
         page.type_into("#path-radius_mm", "zero").await?;
         page.choose("#path-kind", "line").await?;
@@ -161,7 +163,7 @@ fn undo_and_redo_go_by_steps_that_make_sense() -> Result {
         shows(page, &run(&[])).await?;
         assert_eq!((can("undo").await?, can("redo").await?), (json!(false), json!(true)));
 
-        // By keys, wherever the focus is; only a field that is being typed into keeps its own undo.
+        // By keys, wherever the focus is; only a field being typed into keeps its own undo.
         let keys = |key: &str| format!("{}{key}{}", Key::Control, Key::Null);
         page.press(keys("y")).await?;
         assert_eq!(feed(page).await?, "80.25");
@@ -188,7 +190,8 @@ fn undo_and_redo_go_by_steps_that_make_sense() -> Result {
 #[test]
 fn without_storage_the_page_works_and_says_once_that_nothing_is_kept() -> Result {
     visit("/", DESKTOP, async |page| {
-        let denied = "for (const name of ['localStorage', 'sessionStorage']) Object.defineProperty(window, name, { get() { throw new DOMException('denied', 'SecurityError'); } });";
+        let denied = "for (const name of ['localStorage', 'sessionStorage']) Object.defineProperty(window, \
+             name, { get() { throw new DOMException('denied', 'SecurityError'); } });";
         page.devtools("Page.addScriptToEvaluateOnNewDocument", json!({ "source": denied })).await?;
         page.reload().await?;
         current(page).await?;
@@ -216,7 +219,7 @@ fn two_tabs_keep_their_own_inputs() -> Result {
         current(page).await?;
         page.type_into("#motion-feed_mm_s", "80").await?;
         shows(page, &run(&[("motion.feed_mm_s", json!(80))])).await?;
-        // A new tab opens with what was changed last, and from then on the two go their own ways.
+        // A new tab opens with the latest inputs, and from then on the two are independent.
         page.wait_for("localStorage.getItem('armill-inputs')", 10.0).await?;
         let first = page.new_tab("/", DESKTOP).await?;
         shows(page, &run(&[("motion.feed_mm_s", json!(80))])).await?;
@@ -239,7 +242,7 @@ fn a_result_is_shared_in_three_forms() -> Result {
         page.type_into("#motion-feed_mm_s", "80").await?;
         let report = run(&[("motion.feed_mm_s", json!(80))]);
         shows(page, &report).await?;
-        // What is shared is what is shown, whatever is being typed.
+        // The shown job is shared, whatever is being typed.
         page.type_into("#motion-feed_mm_s", "fast").await?;
         stale(page).await?;
         let link = shared(page, "link").await?;
@@ -262,13 +265,17 @@ fn a_result_is_shared_in_three_forms() -> Result {
         let source = link.replace("/#", "/embed.html#");
         assert!(frame.starts_with(&format!("<iframe src=\"{source}\"")), "{frame}");
 
-        // Copying: as the browser lets the page, or by hand.
+        // Copying: by the page if the browser allows it, or by hand.
         page.click("#share").await?;
-        page.js("Object.defineProperty(navigator, 'clipboard', { configurable: true, value: { writeText: async (text) => { window.copied = text; } } })").await?;
+        page.js("Object.defineProperty(navigator, 'clipboard', { configurable: true, \
+             value: { writeText: async (text) => { window.copied = text; } } })")
+            .await?;
         page.click("#share-copy").await?;
         page.wait_for("document.querySelector('#share-dialog .said').textContent === 'Copied.'", 5.0).await?;
         assert_eq!(page.js("return window.copied").await?, json!(link));
-        page.js("Object.defineProperty(navigator, 'clipboard', { value: { writeText: async () => { throw new DOMException('denied', 'NotAllowedError'); } } })").await?;
+        page.js("Object.defineProperty(navigator, 'clipboard', { value: { writeText: async () => { \
+             throw new DOMException('denied', 'NotAllowedError'); } } })")
+            .await?;
         page.click("#share-copy").await?;
         page.wait_for(
             "document.querySelector('#share-dialog .said').textContent.includes('does not let')",
@@ -279,14 +286,19 @@ fn a_result_is_shared_in_three_forms() -> Result {
         assert_eq!(page.js("return getSelection().toString()").await?, json!(link));
         page.click("#share-close").await?;
 
-        // A job that makes the link too long becomes a file.
+        // A job too long for a link becomes a file.
         let points: Vec<[f64; 3]> = (0..1500)
             .map(|k| [600.0 + 0.1 * f64::from(k), armill::math::sin(f64::from(k) * 0.7) * 50.0, 100.0])
             .collect();
         let rows: Vec<String> = points.iter().map(|[x, y, z]| format!("{x},{y},{z}")).collect();
         page.click("#undo").await?;
         page.choose("#path-kind", "csv").await?;
-        page.js(&format!("const text = document.querySelector('#path-text'); text.value = {}; text.dispatchEvent(new Event('input', {{ bubbles: true }}))", json!(rows.join("\n")))).await?;
+        page.js(&format!(
+            "const text = document.querySelector('#path-text'); text.value = {}; \
+             text.dispatchEvent(new Event('input', {{ bubbles: true }}))",
+            json!(rows.join("\n"))
+        ))
+        .await?;
         current(page).await?;
         page.click("#share").await?;
         page.wait_for(

@@ -22,14 +22,14 @@ fn a_box_zooms_all_charts_over_time_and_a_double_click_shows_all() -> Result {
         let duration = run(&[]).duration();
         assert!(ticks.iter().all(|t| (0.25 * duration - 0.1..0.5 * duration + 0.1).contains(t)), "{ticks:?}");
         other.wait_for(zoomed).await?;
-        // Detail appears: what is read is still a sample.
+        // Detail appears: the value read is still a sample.
         chart.hover(0.5).await?;
         let values = chart.values().await?;
         assert!((values[0] - 0.375 * duration).abs() < 0.05, "{values:?}");
-        // A chart that is first looked at now has the same range.
+        // A chart opened only now has the same range.
         let joint = Chart::open(page, "joints", "joint-3").await?;
         assert!(joint.ticks().await?.iter().all(|t| (4.5..10.0).contains(t)));
-        // Keys zoom in further about the cursor, and out to the whole.
+        // Keys zoom in further about the cursor, and back out to the whole.
         joint.js("chart.querySelector('.drawing').focus()").await?;
         page.press("+").await?;
         joint.wait_for(&format!("Math.max(...{TICKS}) < 9")).await?;
@@ -39,7 +39,7 @@ fn a_box_zooms_all_charts_over_time_and_a_double_click_shows_all() -> Result {
         // The whole is shown at once and drawn exactly after that.
         chart.wait_for(&format!("Math.max(...{TICKS}) === 18")).await?;
         assert_eq!(chart.ticks().await?, whole);
-        // A box of some height zooms both axes, in this chart only.
+        // A box with some height zooms both axes, in this chart only.
         chart.drag((0.2, 0.1), (0.4, 0.6)).await?;
         chart.wait_for(&format!("Math.min(...{TICKS}) >= 3")).await?;
         let lowest = "Math.min(...[...chart.querySelectorAll('.axis text[text-anchor=end]')].map(t => Number(t.textContent)))";
@@ -70,7 +70,7 @@ fn the_wheel_scrolls_the_page_unless_a_chart_is_meant() -> Result {
             .await?;
         chart.wait_for("chart.classList.contains('zoomed')").await?;
         assert_eq!(scrolled().await?, before);
-        // What was under the pointer still is.
+        // The point under the pointer has not moved.
         chart.hover(0.5).await?;
         assert!((chart.values().await?[0] - 0.5 * run(&[]).duration()).abs() < 0.05);
         Ok(())
@@ -92,7 +92,7 @@ fn two_fingers_zoom_and_one_scrolls_or_reads() -> Result {
                 .await
                 .map(|_| ())
         };
-        // One finger across reads values off.
+        // One finger across reads values.
         let y = chart.at(0.5, 0.5).await?.1;
         let x = async |across: f64| chart.at(across, 0.5).await.map(|place| place.0);
         touch("touchStart", &[(x(0.3).await?, y)]).await?;
@@ -128,7 +128,8 @@ fn two_fingers_zoom_and_one_scrolls_or_reads() -> Result {
         chart.wait_for("!chart.classList.contains('zoomed')").await?;
         // The tools are there without hovering, and large enough; nothing is wider than the screen.
         let least = chart
-            .js("return Math.min(...[...chart.querySelectorAll('.chart-tools button, .legend button')].filter(b => b.checkVisibility()).map(b => b.offsetHeight))")
+            .js("return Math.min(...[...chart.querySelectorAll('.chart-tools button, \
+                 .legend button')].filter(b => b.checkVisibility()).map(b => b.offsetHeight))")
             .await?;
         assert!(least.as_f64().unwrap() >= 24.0, "{least}");
         let wider = page

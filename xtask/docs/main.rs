@@ -1,4 +1,4 @@
-//! Builds the book in `xtask/docs/book` into the folder that is given: what `mdbook build --dest-dir` does.
+//! Builds the book in `xtask/docs/book` into the given folder, like `mdbook build --dest-dir`.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! What Armill depends on: licences, sources and known faults, by the rules in `deny.toml`, which `cargo deny` reads too.
-//! cargo-deny as a library would double this tool's compile time.
+//! Checks Armill's dependencies: licences, sources and known faults, by the rules in `deny.toml`,
+//! which `cargo deny` reads too. cargo-deny as a library would double this tool's compile time.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,8 @@ const ADVISORIES: &str = "https://github.com/rustsec/advisory-db";
 /// Checks every package in `Cargo.lock`, for all targets and features.
 ///
 /// # Errors
-/// If a package breaks a rule or has a known fault. That the faults could not be fetched is printed, and no error.
+/// If a package breaks a rule or has a known fault. A failure to fetch the list of faults is
+/// printed, but is not an error.
 pub(crate) fn audit() -> Result<()> {
     let rules: toml::Table = toml::from_str(&fs::read_to_string(root()?.join("deny.toml"))?)?;
     let metadata = workspace::output("cargo", &["metadata", "--locked", "--format-version", "1"])
@@ -47,7 +48,7 @@ fn strings<'a>(rules: &'a toml::Table, section: &str, key: &str) -> Result<Vec<&
     list.iter().map(|item| item.as_str().with_context(|| format!("{section}.{key} holds strings"))).collect()
 }
 
-/// What in these packages, as `cargo metadata` lists them, breaks the rules.
+/// The violations of the rules among these packages, as listed by `cargo metadata`.
 fn broken(packages: &[Value], rules: &toml::Table) -> Result<Vec<String>> {
     let licences = strings(rules, "licenses", "allow")?
         .into_iter()
@@ -63,7 +64,7 @@ fn broken(packages: &[Value], rules: &toml::Table) -> Result<Vec<String>> {
         {
             faults.push(format!("{name}: licence `{}`", text("license")));
         }
-        let source = text("source"); // nothing for what is in the checkout
+        let source = text("source"); // empty for packages in the checkout
         let known = registries.iter().any(|registry| source == format!("registry+{registry}"));
         if !source.is_empty() && !known {
             faults.push(format!("{name}: source `{source}`"));
@@ -97,7 +98,8 @@ fn database() -> Result<PathBuf> {
     Ok(folder)
 }
 
-/// Looks up every package of `Cargo.lock`. Crates without a maintainer and the like are printed, faults are errors.
+/// Looks up every package of `Cargo.lock`. Crates without a maintainer and the like are printed,
+/// faults are errors.
 fn known_faults(database: &Path, rules: &toml::Table) -> Result<()> {
     let ignore = strings(rules, "advisories", "ignore")?.into_iter().map(str::parse);
     let settings = Settings { ignore: ignore.collect::<std::result::Result<_, _>>()?, ..Settings::default() };
@@ -108,12 +110,12 @@ fn known_faults(database: &Path, rules: &toml::Table) -> Result<()> {
         let title = warning.advisory.as_ref().map_or("", |advisory| advisory.title.as_str());
         println!("{} {}: {}: {title}", warning.package.name, warning.package.version, warning.kind.as_str());
     }
-    let told = report.vulnerabilities.list.iter().map(|fault| {
+    let found = report.vulnerabilities.list.iter().map(|fault| {
         let (package, advisory) = (&fault.package, &fault.advisory);
         format!("{} {}: {} {}", package.name, package.version, advisory.id, advisory.title)
     });
-    let told: Vec<String> = told.collect();
-    ensure!(told.is_empty(), "known faults:\n  {}", told.join("\n  "));
+    let found: Vec<String> = found.collect();
+    ensure!(found.is_empty(), "known faults:\n  {}", found.join("\n  "));
     println!("None of {} published faults is in Cargo.lock", database.iter().count());
     Ok(())
 }
@@ -130,8 +132,16 @@ mod tests {
 
     #[test]
     fn what_the_rules_do_not_allow_is_told() {
-        let package = |licence: &str, source: Value| json!({ "name": "a", "version": "1.0.0", "license": licence, "source": source, "dependencies": [] });
-        let own = json!({ "name": "own", "version": "0.1.0", "license": "MIT", "dependencies": [{ "name": "b", "req": "*" }, { "name": "c", "req": "*", "path": "/c" }, { "name": "d", "req": "^1" }] });
+        let package = |licence: &str, source: Value| {
+            json!({
+                "name": "a", "version": "1.0.0", "license": licence, "source": source, "dependencies": []
+            })
+        };
+        let own = json!({ "name": "own", "version": "0.1.0", "license": "MIT", "dependencies": [
+            { "name": "b", "req": "*" },
+            { "name": "c", "req": "*", "path": "/c" },
+            { "name": "d", "req": "^1" },
+        ] });
         let registry = || json!("registry+https://crates");
         let packages = [
             package("MIT/Apache-2.0", registry()),
@@ -142,7 +152,7 @@ mod tests {
             package("MIT", json!("git+https://elsewhere")),
             own,
         ];
-        let told = broken(&packages, &rules()).unwrap();
+        let found = broken(&packages, &rules()).unwrap();
         let wanted = [
             "a 1.0.0: licence `GPL-3.0`",
             "a 1.0.0: licence `MIT AND GPL-3.0-only`",
@@ -150,7 +160,7 @@ mod tests {
             "a 1.0.0: source `git+https://elsewhere`",
             "own 0.1.0: any version of \"b\"",
         ];
-        assert_eq!(told, wanted);
+        assert_eq!(found, wanted);
     }
 
     #[test]
@@ -160,7 +170,8 @@ mod tests {
         fs::create_dir_all(&crates).unwrap();
         let advisory = |patched: &str| {
             format!(
-                "```toml\n[advisory]\nid = \"RUSTSEC-2020-0001\"\npackage = \"anyhow\"\ndate = \"2020-01-01\"\n\n[versions]\npatched = [\"{patched}\"]\n```\n\n# A fault\n\nIt is made up.\n"
+                "```toml\n[advisory]\nid = \"RUSTSEC-2020-0001\"\npackage = \"anyhow\"\ndate = \"2020-01-01\"\n\n\
+                 [versions]\npatched = [\"{patched}\"]\n```\n\n# A fault\n\nIt is made up.\n"
             )
         };
         let file = crates.join("RUSTSEC-2020-0001.md");

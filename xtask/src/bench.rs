@@ -1,5 +1,5 @@
-//! Speed and memory, natively and in Chromium, side by side in one table. Nothing here passes or fails: a time says as much about the
-//! machine as about the code.
+//! Speed and memory, natively and in Chromium, side by side in one table. Nothing here passes or
+//! fails: a time depends as much on the machine as on the code.
 
 mod results;
 
@@ -17,8 +17,8 @@ use crate::site::{self, core, folder::mirror};
 use crate::workspace::{self, cargo, output, run};
 use results::{Native, Results};
 
-/// Times everything for the default job with about so many samples each, `sizes` separated by commas, and prints one table; it also stands in
-/// `target/bench/results.json`.
+/// Times everything for the default job with roughly this many samples each, `sizes` separated by
+/// commas, and prints one table, which is also written to `target/bench/results.json`.
 ///
 /// # Errors
 /// If something does not compile or run.
@@ -34,7 +34,7 @@ pub(crate) fn bench(sizes: &str) -> Result<()> {
     let folder = workspace::root()?.join("target/bench");
     let site = page(&folder)?;
     browser::driver()?;
-    // Everything is compiled before anything is timed.
+    // Compile everything before timing anything.
     for arguments in [&NATIVE[..], &MEMORY, &BROWSER] {
         run(cargo(&["bench", "--no-run"])?.args(arguments))?;
     }
@@ -52,11 +52,11 @@ pub(crate) fn bench(sizes: &str) -> Result<()> {
 
 const NATIVE: [&str; 5] = ["--locked", "--package", "armill-bench", "--bench", "native"];
 const MEMORY: [&str; 5] = ["--locked", "--package", "armill-bench", "--bench", "memory"];
-/// It only asks and waits.
+/// A debug build, because it only sends requests and waits.
 const BROWSER: [&str; 7] =
     ["--locked", "--package", "armill-bench", "--bench", "browser", "--profile", "dev"];
 
-/// The site with the benchmark's page in it.
+/// The site with the benchmark's page added.
 fn page(folder: &Path) -> Result<std::path::PathBuf> {
     let site = folder.join("site");
     mirror(&site::build()?, &site, &["bench"])?;
@@ -79,7 +79,7 @@ fn criterion(folder: &Path, sizes: &str) -> Result<Native> {
     Native::read(&results)
 }
 
-/// Samples and bytes at the peak of each size; nothing where the system does not tell.
+/// Samples and peak memory [bytes] of each size; nothing where the system does not report it.
 fn memory(sizes: &str) -> Result<Vec<(usize, u64)>> {
     let mut command = cargo(&["bench", "--quiet"])?;
     let output = command.args(MEMORY).env("ARMILL_BENCH_SAMPLES", sizes).stderr(Stdio::inherit()).output()?;
@@ -104,7 +104,7 @@ fn chromium(folder: &Path, site: &Path, sizes: &str) -> Result<Value> {
     Ok(serde_json::from_slice(&fs::read(file)?)?)
 }
 
-/// The load of the machine just now: how many programs wanted to run in the last minute.
+/// The machine's current load: how many programs wanted to run in the last minute.
 fn load() -> String {
     let text = fs::read_to_string("/proc/loadavg").unwrap_or_default();
     text.split(' ').next().filter(|load| !load.is_empty()).unwrap_or("unknown").to_owned()

@@ -12,17 +12,18 @@ use anyhow::{Context, Result, bail};
 
 use crate::workspace::{self, program};
 
-/// What Debian calls the browser and its driver.
+/// Debian's packages of the browser and its driver.
 const PACKAGES: [&str; 2] = ["chromium", "chromium-driver"];
 
-/// Names under which the browser may be on the search path.
+/// Possible names of the browser on the search path.
 const BROWSERS: [&str; 5] =
     ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome"];
 
-/// The driver, after both it and a browser have been made sure of: found, or installed where that can be done.
+/// Finds the driver, and installs it and a browser where that is possible.
 ///
 /// # Errors
-/// If something is missing and cannot be installed from here; names the packages to install.
+/// If something is missing and cannot be installed from here; the message names the packages to
+/// install.
 pub(crate) fn driver() -> Result<PathBuf> {
     if let Some(path) = find() {
         return Ok(path);
@@ -41,13 +42,13 @@ pub(crate) fn driver() -> Result<PathBuf> {
 
 /// The driver, if there is a browser for it.
 fn find() -> Option<PathBuf> {
-    // Elsewhere browsers are not on the search path, and the driver knows where they are.
+    // On other systems browsers are not on the search path, and the driver finds them itself.
     let browser = !cfg!(target_os = "linux") || BROWSERS.iter().any(|name| program(name).is_some());
     let driver = env::var_os("CHROMEDRIVER").map(PathBuf::from).or_else(|| program("chromedriver"));
     driver.filter(|_| browser)
 }
 
-/// A running driver; stops, and its browsers with it, when dropped.
+/// A running driver; dropping it stops it and its browsers.
 pub(crate) struct Driver {
     process: Child,
     port: u16,
@@ -69,17 +70,17 @@ impl Driver {
         // From here on, an early return stops the process too.
         let mut driver = Driver { process, port: 0 };
         driver.port = announced_port(&mut lines)?;
-        // A full pipe would stop it.
+        // A full pipe would block it.
         thread::spawn(move || std::io::copy(&mut lines, &mut std::io::sink()));
         Ok(driver)
     }
 
-    /// Where it listens.
+    /// The driver's address.
     pub(crate) fn url(&self) -> String {
         format!("http://127.0.0.1:{}", self.port)
     }
 
-    /// Asks it to quit, which closes the browsers that a failed test has left open.
+    /// Asks it to quit, which closes the browsers left open by failed tests.
     fn quit(&self) -> std::io::Result<()> {
         let mut stream = TcpStream::connect((Ipv4Addr::LOCALHOST, self.port))?;
         stream.set_read_timeout(Some(Duration::from_secs(5)))?;
@@ -102,14 +103,14 @@ impl Driver {
 impl Drop for Driver {
     fn drop(&mut self) {
         if self.quit().is_err() || !self.has_ended_within(Duration::from_secs(5)) {
-            // It may have ended just now: then there is nothing left to stop.
+            // It may have ended already: then there is nothing left to stop.
             let _ = self.process.kill();
             let _ = self.process.wait();
         }
     }
 }
 
-/// Reads until the driver tells its port.
+/// Reads until the driver reports its port.
 fn announced_port(lines: &mut BufReader<ChildStdout>) -> Result<u16> {
     let mut line = String::new();
     while lines.read_line(&mut line)? > 0 {

@@ -13,7 +13,7 @@ use crate::server::Server;
 use crate::site;
 use crate::workspace::{self, WASM, cargo, run};
 
-/// All checks; the first that fails ends them.
+/// Runs all checks; stops at the first that fails.
 ///
 /// # Errors
 /// If a check fails, or a tool is missing and cannot be installed.
@@ -41,7 +41,7 @@ pub(crate) fn all() -> Result<()> {
     })
 }
 
-/// The checks that need no browser.
+/// Runs the checks that need no browser.
 ///
 /// # Errors
 /// As for [`all`].
@@ -60,8 +60,8 @@ pub(crate) fn native() -> Result<()> {
     step("tests of this tool", || run(&mut cargo(&["test", "--locked", "--package", "xtask"])?))
 }
 
-/// Runs one compiled WebAssembly test binary in a headless browser. The words are the file and what
-/// `cargo test` adds to it; .cargo/config.toml holds the settings.
+/// Runs one compiled WebAssembly test binary in a headless browser. The arguments are the file and
+/// the options that `cargo test` adds; .cargo/config.toml holds the settings.
 ///
 /// # Errors
 /// If a test fails, or there is no browser.
@@ -73,7 +73,7 @@ pub(crate) fn run_wasm(words: &[&str]) -> Result<()> {
     )
 }
 
-/// Options of the native test harness that only change its output, and that wasm-bindgen's refuses.
+/// Options of the native test harness that only change its output, and that wasm-bindgen's rejects.
 fn is_foreign(word: &str) -> bool {
     matches!(word, "--quiet" | "-q" | "--show-output")
         || word.starts_with("--color=")

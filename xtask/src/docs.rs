@@ -1,4 +1,5 @@
-//! The documentation with the calculator in it: the crate's own pages and the book, side by side with the site.
+//! The documentation with the calculator in it: the crate's own pages and the book, side by side
+//! with the site.
 
 use std::path::PathBuf;
 
@@ -7,8 +8,9 @@ use anyhow::Result;
 use crate::site::{self, folder::mirror};
 use crate::workspace::{self, cargo, run};
 
-/// Makes `target/docs` with `calculator/` (the site), `rustdoc/` and `book/`, and returns that folder. Their pages name each other by
-/// relative addresses, so the folder may be served from anywhere.
+/// Makes `target/docs` with `calculator/` (the site), `rustdoc/` and `book/`, and returns that
+/// folder. Their pages link to each other by relative addresses, so the folder may be served from
+/// anywhere.
 ///
 /// # Errors
 /// If something does not compile, or a file cannot be read or written.

@@ -1,4 +1,4 @@
-//! The core as a package for npm, and what the tests take from there.
+//! The core as an npm package, and the packages that the tests use.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,10 +9,11 @@ use anyhow::{Context, Result, ensure};
 use crate::site::{self, folder::update};
 use crate::workspace::{self, output, program, run};
 
-/// What Debian calls Node and its package manager.
+/// Debian's packages of Node and npm.
 const PACKAGES: [&str; 2] = ["nodejs", "npm"];
 
-/// What the tests take from npm, in these versions. Neither needs another package; nothing of them is in the page.
+/// The npm packages that the tests use, with their versions. Neither needs another package; the
+/// page contains none of them.
 const TOOLS: [(&str, &str); 2] = [("axe-core", "4.14.1"), ("typescript", "7.0.2")];
 
 /// Makes the package in `target/npm` and returns that folder.
@@ -48,7 +49,8 @@ pub(crate) fn package() -> Result<PathBuf> {
     Ok(folder)
 }
 
-/// A project in `target/npm-project` that has the package installed, packed as it would be published.
+/// A project in `target/npm-project` that has the package installed, packed as it would be
+/// published.
 ///
 /// # Errors
 /// If npm is missing, or fails.
@@ -63,10 +65,10 @@ pub(crate) fn project() -> Result<PathBuf> {
     Ok(project)
 }
 
-/// The folder with [`TOOLS`], fetched if they are not there yet.
+/// The folder with [`TOOLS`], fetched if they are missing.
 ///
 /// # Errors
-/// If npm is missing, or does not get them.
+/// If npm is missing, or cannot fetch them.
 pub(crate) fn tools() -> Result<PathBuf> {
     let folder = workspace::root()?.join("target/npm-tools");
     let modules = folder.join("node_modules");
@@ -98,7 +100,7 @@ fn install(folder: &Path, what: &[&str]) -> Result<()> {
     run(npm()?.args(quietly).args(["--loglevel=error", "--prefix"]).arg(folder).args(what))
 }
 
-/// Node, made sure of as for the package.
+/// Node, found or installed.
 ///
 /// # Errors
 /// If it is missing and cannot be installed from here.
@@ -106,7 +108,7 @@ pub(crate) fn node() -> Result<Command> {
     npm().map(|_| Command::new("node"))
 }
 
-/// npm, after both it and Node have been made sure of: found, or installed where that can be done.
+/// Finds npm, and installs it and Node where that is possible.
 fn npm() -> Result<Command> {
     if (program("node").is_none() || program("npm").is_none()) && workspace::may_install() {
         workspace::install(&PACKAGES)?;

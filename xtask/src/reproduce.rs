@@ -1,4 +1,4 @@
-//! The same sources give the same core, wherever they lie and on whatever machine.
+//! Checks that the same sources give the same core, in any folder and on any machine.
 
 use std::fs;
 use std::path::Path;
@@ -9,8 +9,9 @@ use sha2::{Digest, Sha256};
 use crate::site::{core, folder::update};
 use crate::workspace::{self, root};
 
-/// Builds the core from copies of the sources in two folders with names of different length, each with a target folder of its own, and
-/// compares the two with each other and with what this machine must not leave in them. Prints the hash.
+/// Builds the core from copies of the sources in two folders with names of different length, each
+/// with its own target folder. Compares the two with each other, and searches them for paths of
+/// this machine. Prints the hash.
 ///
 /// # Errors
 /// If a byte differs, or a path of this machine is found.
@@ -51,10 +52,10 @@ fn copy_sources(folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Whether a path stands anywhere in a module.
+/// Whether a path occurs anywhere in a module.
 fn names(module: &[u8], path: &Path) -> bool {
     let path = path.as_os_str().as_encoded_bytes();
-    // The root of a file system, which some call home, stands in any text.
+    // The root of a file system, which is some users' home, occurs in any text.
     path.len() > 1 && module.windows(path.len()).any(|part| part == path)
 }
 

@@ -1,4 +1,5 @@
-//! A static web server for this machine: what a plain host does, with the strictest headers the page must live with.
+//! A static web server for this machine: it serves like a plain host, with the strictest headers
+//! the page must live with.
 
 use std::fs;
 use std::io::{Cursor, ErrorKind};
@@ -21,10 +22,10 @@ const PORTS: std::ops::Range<u16> = 8080..8180;
 /// Enough for a browser, which opens up to six connections.
 const THREADS: usize = 6;
 
-/// A line in the head of an answer: its name and what it says.
+/// A response header: name and value.
 type Line = (&'static str, &'static str);
 
-/// Sent with every answer of the site.
+/// Sent with every response of the site.
 const STRICT: &[Line] = &[
     CACHE,
     ("X-Content-Type-Options", "nosniff"),
@@ -32,15 +33,16 @@ const STRICT: &[Line] = &[
     ("Content-Security-Policy", POLICY),
 ];
 
-/// What a host of documentation sends: the pages of rustdoc and mdBook have scripts in them.
+/// Headers of a documentation host: the pages of rustdoc and mdBook contain scripts.
 const PLAIN: &[Line] = &[CACHE];
 
-/// A browser keeps what it got, with the code that it made of it, and asks each time whether that still holds.
+/// A browser keeps a file, with the code compiled from it, and asks each time whether it is still
+/// valid.
 const CACHE: Line = ("Cache-Control", "no-cache");
 
 /// A running server; it lives as long as the process.
 pub(crate) struct Server {
-    /// Where it is, with a slash at the end.
+    /// Its address, with a slash at the end.
     pub(crate) url: String,
     threads: Vec<JoinHandle<()>>,
 }
@@ -62,7 +64,7 @@ impl Server {
     /// Serves `site` on any free port.
     ///
     /// # Errors
-    /// If this machine lets nobody listen.
+    /// If listening is not permitted on this machine.
     pub(crate) fn start_anywhere(site: &Path) -> Result<Server> {
         Server::start(site, TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?, STRICT)
     }
@@ -70,7 +72,7 @@ impl Server {
     /// Serves `docs` on any free port, without a policy of its own.
     ///
     /// # Errors
-    /// If this machine lets nobody listen.
+    /// If listening is not permitted on this machine.
     pub(crate) fn start_plain(docs: &Path) -> Result<Server> {
         Server::start(docs, TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?, PLAIN)
     }
@@ -91,7 +93,7 @@ impl Server {
     }
 }
 
-/// Listens on the first port that nobody else listens on.
+/// Listens on the first free port.
 fn first_free(ports: std::ops::Range<u16>) -> Result<TcpListener> {
     for port in ports.clone() {
         match TcpListener::bind((Ipv4Addr::LOCALHOST, port)) {
@@ -117,7 +119,7 @@ fn answer(site: &Path, request: Request, headers: &[Line]) {
     for (name, value) in headers {
         response = with(response, &format!("{name}: {value}"));
     }
-    // Nothing to do about a browser that has left.
+    // The browser may have closed the connection.
     let _ = request.respond(response);
 }
 
@@ -126,12 +128,12 @@ type Reply = Response<Cursor<Vec<u8>>>;
 const TEXT: &str = "text/plain; charset=utf-8";
 
 fn reply(status: u16, media_type: &str, content: Vec<u8>) -> Reply {
-    // The length is known, so it is told; tiny_http would send large files in chunks.
+    // The length is known, so send it; tiny_http would send large files in chunks.
     let response = Response::from_data(content).with_status_code(status).with_chunked_threshold(usize::MAX);
     with(response, &format!("Content-Type: {media_type}"))
 }
 
-/// A file's content under its tag, or that what the browser has with this tag still holds.
+/// A file's content with its tag, or 304 if the browser's copy has this tag.
 fn fresh(request: &Request, media_type: &str, content: Vec<u8>) -> Reply {
     let tag = format!("\"{}\"", BASE64_STANDARD.encode(Sha256::digest(&content)));
     let asked = request.headers().iter().find(|header| header.field.equiv("If-None-Match"));
@@ -151,11 +153,11 @@ fn with(mut response: Reply, header: &str) -> Reply {
     response
 }
 
-/// What a request's path leads to.
+/// The target of a request's path.
 #[derive(Debug, PartialEq)]
 enum Found {
     File(PathBuf),
-    /// A folder asked for without the slash at its end: the same address with it.
+    /// A folder requested without the slash at its end: the same address with it.
     Folder(String),
     Nothing,
 }
@@ -236,12 +238,12 @@ mod tests {
         parent
     }
 
-    /// Head and body of the answer to a raw request.
+    /// Head and body of the response to a raw request.
     fn ask(server: &Server, method: &str, path: &str) -> (String, Vec<u8>) {
         ask_with(server, method, path, "")
     }
 
-    /// The same with more lines in the head.
+    /// Head and body of the response to a request with more header lines.
     fn ask_with(server: &Server, method: &str, path: &str, lines: &str) -> (String, Vec<u8>) {
         let address = server.url.strip_prefix("http://").unwrap().strip_suffix('/').unwrap();
         let mut stream = TcpStream::connect(address).unwrap();

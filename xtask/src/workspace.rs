@@ -1,4 +1,4 @@
-//! The checkout, and the programs that are run in it.
+//! The checkout, and the programs run in it.
 
 use std::env;
 use std::ffi::OsStr;
@@ -7,13 +7,13 @@ use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, ensure};
 
-/// What the browser runs.
+/// The target of the browser's code.
 pub(crate) const WASM: &str = "wasm32-unknown-unknown";
 
 /// The root folder of the checkout.
 ///
 /// # Errors
-/// If this program was not started by cargo, which tells where the checkout is.
+/// If this program was not started by cargo, which sets the checkout's path.
 pub(crate) fn root() -> Result<PathBuf> {
     let package = env::var_os("CARGO_MANIFEST_DIR").context("start this with `cargo xtask`")?;
     let root = Path::new(&package).parent().context("xtask has no parent folder")?;
@@ -30,13 +30,13 @@ pub(crate) fn cargo(arguments: &[&str]) -> Result<Command> {
     Ok(command)
 }
 
-/// Where cargo keeps the sources of dependencies.
+/// The folder in which cargo keeps the sources of dependencies.
 pub(crate) fn cargo_home() -> Option<PathBuf> {
-    let told = env::var_os("CARGO_HOME").map(PathBuf::from);
-    told.or_else(|| Some(env::home_dir()?.join(".cargo")))
+    let stated = env::var_os("CARGO_HOME").map(PathBuf::from);
+    stated.or_else(|| Some(env::home_dir()?.join(".cargo")))
 }
 
-/// Runs a program to its end, in this terminal.
+/// Runs a program to completion, in this terminal.
 ///
 /// # Errors
 /// If it cannot be started, or fails.
@@ -47,7 +47,7 @@ pub(crate) fn run(command: &mut Command) -> Result<()> {
     Ok(())
 }
 
-/// Runs a program silently and tells what it printed, or nothing if it cannot be started or fails.
+/// Runs a program silently and returns its output, or nothing if it cannot be started or fails.
 pub(crate) fn output(program: &str, arguments: &[&str]) -> Option<String> {
     let output = Command::new(program).args(arguments).stderr(Stdio::null()).output().ok()?;
     output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
@@ -59,12 +59,12 @@ pub(crate) fn program(name: &str) -> Option<PathBuf> {
     env::split_paths(&env::var_os("PATH")?).map(|folder| folder.join(&file)).find(|path| path.is_file())
 }
 
-/// Whether packages of the system can be installed from here: root on Debian or Ubuntu.
+/// Whether system packages can be installed from here: root on Debian or Ubuntu.
 pub(crate) fn may_install() -> bool {
     program("apt-get").is_some() && output("id", &["-u"]).as_deref() == Some("0")
 }
 
-/// Installs packages of the system.
+/// Installs system packages.
 ///
 /// # Errors
 /// If apt-get fails.
@@ -102,7 +102,7 @@ pub(crate) fn add_linters() -> Result<()> {
     Ok(())
 }
 
-/// The command as one would type it.
+/// The command as typed in a shell.
 fn line(command: &Command) -> String {
     let program = Path::new(command.get_program()).file_stem().unwrap_or(command.get_program());
     let words: Vec<_> = [program].into_iter().chain(command.get_args()).map(OsStr::to_string_lossy).collect();

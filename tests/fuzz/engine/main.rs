@@ -1,4 +1,5 @@
-//! libFuzzer on one of the targets, named by the environment variable `ARMILL_FUZZ_TARGET`. See `cargo xtask fuzz`.
+//! libFuzzer on one of the targets, named by the environment variable `ARMILL_FUZZ_TARGET`. See
+//! `cargo xtask fuzz`.
 #![no_main]
 
 #[path = "../target.rs"]
@@ -23,7 +24,8 @@ fuzz_target!(|data: &[u8]| {
     }
 });
 
-// Half the time bytes as libFuzzer does it, which it learns from; half the time words, which keep their sense.
+// Half the time mutate bytes as libFuzzer does, which feeds its own guidance; half the time whole
+// words, which keep their meaning.
 fuzz_mutator!(|data: &mut [u8], size: usize, max_size: usize, seed: u32| {
     let mut random = fastrand::Rng::with_seed(u64::from(seed));
     match std::str::from_utf8(&data[..size]) {

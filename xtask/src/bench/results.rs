@@ -8,7 +8,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
 
-/// Median and least time [ns].
+/// Median and minimum time [ns].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Time {
     pub(crate) median: f64,
@@ -16,7 +16,7 @@ pub(crate) struct Time {
 }
 
 impl Time {
-    /// Of times in ms, as the browser's clock tells them.
+    /// Statistics of times in ms, as the browser's clock reports them.
     fn of_milliseconds(times: &Value) -> Option<Time> {
         let mut times: Vec<f64> = times.as_array()?.iter().filter_map(Value::as_f64).collect();
         times.sort_by(f64::total_cmp);
@@ -36,7 +36,7 @@ impl Time {
 pub(crate) struct Native(BTreeMap<String, BTreeMap<String, Time>>);
 
 impl Native {
-    /// Reads what criterion has left in its folder.
+    /// Reads criterion's output folder.
     pub(crate) fn read(folder: &Path) -> Result<Native> {
         let mut native = Native::default();
         native.gather(folder)?;
@@ -55,7 +55,7 @@ impl Native {
         Ok(())
     }
 
-    /// One benchmark: what it is, criterion's median, and the least time among its samples.
+    /// One benchmark: its name, criterion's median, and the minimum time among its samples.
     fn take(&mut self, folder: &Path) -> Result<()> {
         let read =
             |file: &str| -> Result<Value> { Ok(serde_json::from_slice(&fs::read(folder.join(file))?)?) };
@@ -86,7 +86,7 @@ pub(crate) struct Results {
     pub(crate) chromium: Value,
 }
 
-/// The stages in the order of the work, as `benches/src/stages.rs` names them.
+/// The stages in order of execution, as `benches/src/stages.rs` names them.
 const STAGES: [&str; 9] = [
     "reading the job",
     "path: sampling",
@@ -113,7 +113,7 @@ impl Results {
         self.chromium["jobs"][size.to_string()]["whole"]["samples"].as_u64().unwrap_or_default()
     }
 
-    /// All of it for other programs, in ns and bytes.
+    /// All results for other programs, in ns and bytes.
     pub(crate) fn json(&self) -> Value {
         let native: BTreeMap<_, BTreeMap<_, _>> = (self.native.0.iter())
             .map(|(group, times)| (group, times.iter().map(|(name, time)| (name, time.json())).collect()))
@@ -121,7 +121,11 @@ impl Results {
         json!({
             "conditions": self.conditions,
             "native": native,
-            "native_peak_bytes": self.memory.iter().map(|(samples, bytes)| (samples.to_string(), json!(bytes))).collect::<serde_json::Map<_, _>>(),
+            "native_peak_bytes": self
+                .memory
+                .iter()
+                .map(|(samples, bytes)| (samples.to_string(), json!(bytes)))
+                .collect::<serde_json::Map<_, _>>(),
             "browser_ms": self.chromium,
         })
     }
@@ -150,7 +154,8 @@ impl Results {
         if let Some(Time { median, least }) = Time::of_milliseconds(&json!(warm)) {
             writeln!(
                 f,
-                "From opening the page to its first result: {:.0} ms with nothing cached; {:.0} ms after that, the median of {} visits, {:.0} ms at least.\n",
+                "From opening the page to its first result: {:.0} ms with nothing cached; \
+                 {:.0} ms after that, the median of {} visits, {:.0} ms at least.\n",
                 cold.as_f64().unwrap_or(f64::NAN),
                 median / 1e6,
                 warm.len(),
@@ -227,7 +232,8 @@ impl Display for Results {
         let drag = |key: &str| self.chromium["drag"][key].as_f64().unwrap_or(f64::NAN);
         writeln!(
             f,
-            "\nA number of the default job dragged: {:.0} inputs, {:.0} results, {:.0} drawings of a chart and {:.0} paintings of the page a second; \
+            "\nA number of the default job dragged: {:.0} inputs, {:.0} results, {:.0} drawings of a chart \
+             and {:.0} paintings of the page a second; \
              at most {:.0} ms between two paintings.",
             drag("inputs"),
             drag("results"),
@@ -238,7 +244,8 @@ impl Display for Results {
     }
 }
 
-/// One row: medians and least times in `unit` ns, Chromium over native by medians.
+/// One row: medians and minimum times in `unit` ns, and the ratio of Chromium's median to the
+/// native one.
 fn line(
     f: &mut Formatter<'_>,
     name: &str,
@@ -259,7 +266,7 @@ fn ratio(above: Option<Time>, below: Option<Time>) -> String {
     above.zip(below).map_or("-".to_owned(), |(a, b)| format!("{:.2}", a.median / b.median))
 }
 
-/// Three figures that count.
+/// Formats a number with three significant digits.
 fn digits(value: f64) -> String {
     let places = if value >= 100.0 {
         0

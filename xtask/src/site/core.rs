@@ -1,4 +1,5 @@
-//! The core as WebAssembly: compiled, bound to JavaScript, and weighed. There is one, for every page, Worker and package.
+//! The core as WebAssembly: compiled, bound to JavaScript, and weighed. There is one, for every
+//! page, Worker and package.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -21,11 +22,13 @@ pub(crate) const BENCH: &str = "armill-bench";
 /// The module in the folder that [`make`] fills.
 pub(crate) const MODULE: &str = "armill_bg.wasm";
 
-/// Most bytes of the core, as it is and compressed by gzip: every visit fetches them. When it became the only core it had 1,167,494
-/// and 474,512; these are 15 % more. Raise them only with a reason in CHANGELOG.md.
+/// Size limits of the core in bytes, as it is and compressed by gzip: every visit fetches it. When
+/// it became the only core it had 1,167,494 and 474,512; these are 15 % more. Raise them only with
+/// a reason in CHANGELOG.md.
 pub(super) const LIMITS: [usize; 2] = [1_342_000, 545_000];
 
-/// Makes the core in `package` from the sources in `root`: `folder` gets the module, its JavaScript side and their types.
+/// Makes the core in `package` from the sources in `root`: `folder` gets the module, its JavaScript
+/// side and their types.
 ///
 /// # Errors
 /// If it does not compile, or a tool is missing.
@@ -34,7 +37,7 @@ pub(crate) fn make(root: &Path, package: &str, folder: &Path) -> Result<()> {
     bind(&compile(root, package)?, folder).context("wasm-bindgen failed")
 }
 
-/// Prints the size of a module, as it is and compressed, and refuses one that exceeds either limit.
+/// Prints the size of a module, as it is and compressed, and rejects one that exceeds either limit.
 ///
 /// # Errors
 /// If it is too large, or cannot be read.
@@ -50,10 +53,10 @@ pub(super) fn weigh(module: &Path, [raw_limit, zipped_limit]: [usize; 2]) -> Res
     Ok(())
 }
 
-/// The bytes compressed by gzip, as well as it can.
+/// The bytes compressed by gzip at its best level.
 ///
 /// # Errors
-/// Never: memory takes all bytes.
+/// Never: writing to memory does not fail.
 pub(super) fn compressed(bytes: &[u8]) -> Result<Vec<u8>> {
     let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(bytes)?;
@@ -65,14 +68,17 @@ fn compile(root: &Path, package: &str) -> Result<PathBuf> {
     let arguments = ["rustc", "--release", "--locked", "--target", WASM, "--package", package, "--lib"];
     let mut command = workspace::cargo(&arguments)?;
     command.current_dir(root);
-    // An explicit folder, because the site has to be found in `target` whatever the environment says.
+    // An explicit folder, because the site has to be found in `target` whatever the environment
+    // says.
     command.args(["--target-dir", "target"]);
     if let Some(home) = workspace::cargo_home() {
-        // Panic messages name source files: without this machine's home folder the core is the same everywhere.
+        // Panic messages name source files: without this machine's home folder the core is the same
+        // everywhere.
         let flag = format!("--remap-path-prefix={}=cargo", home.display());
         command.args(["--config", &format!("target.{WASM}.rustflags=['{flag}']")]);
     }
-    // Calls that are not inlined cost little where numbers are computed, and save a tenth of the bytes.
+    // Calls that are not inlined cost little where numbers are computed, and save a tenth of the
+    // bytes.
     command.args(["--", "-C", "llvm-args=-inline-threshold=75"]);
     workspace::run(&mut command)?;
     Ok(root.join("target").join(WASM).join("release").join(package.replace('-', "_") + ".wasm"))

@@ -1,4 +1,4 @@
-//! Folders that are kept like others, with no file written that is as it should be.
+//! Mirrored folders; a file that is already up to date is not written.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 
-/// Makes `copy` hold the same files as `original`, but for the entries `besides`, which are left alone.
+/// Makes `copy` hold the same files as `original`, except the entries `besides`, which are left
+/// alone.
 ///
 /// # Errors
 /// If a file cannot be read or written.
@@ -32,7 +33,7 @@ pub(crate) fn mirror(original: &Path, copy: &Path, besides: &[&str]) -> Result<(
     Ok(())
 }
 
-/// What is in a folder.
+/// The entries of a folder.
 ///
 /// # Errors
 /// If it cannot be read.

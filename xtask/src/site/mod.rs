@@ -22,7 +22,8 @@ pub(crate) const PKG: &str = "pkg";
 /// The whole site in one file.
 const STANDALONE: &str = "standalone.html";
 
-/// Makes the site in `target/site` and returns that folder. What is up to date stays untouched.
+/// Makes the site in `target/site` and returns that folder. Files that are up to date stay
+/// untouched.
 ///
 /// # Errors
 /// If the core does not compile, a tool is missing, or a file cannot be read or written.

@@ -1,6 +1,8 @@
-//! Puts ES modules together in one script: a browser asks for few files instead of many, and the one-file page has none beside it.
+//! Joins ES modules into one script: a browser fetches few files instead of many, and the one-file
+//! page cannot load others.
 //!
-//! Each module becomes a block (a block and not a function, for it may wait at its top level), after the modules that it needs:
+//! Each module becomes a block (not a function, because it may await at its top level), after the
+//! modules that it needs:
 //!
 //! ```js
 //! import { byId } from "./dom.js";            const module_form = {};
@@ -11,11 +13,12 @@
 //!                                             }
 //! ```
 //!
-//! A script may share modules with an earlier one: it imports `module_form` from there, so that both have the same.
+//! A script may share modules with an earlier one: it imports `module_form` from there, so that
+//! both have the same instance.
 //!
 //! # The dialect
 //!
-//! Of the syntax of modules it takes these statements, each from the first column of a line on:
+//! It accepts these statements of the module syntax, each starting in the first column of a line:
 //!
 //! ```js
 //! import { a, b as c } from "./one.js";           // over several lines too, up to the semicolon
@@ -28,22 +31,25 @@
 //! export { local, other as i, main as default };  // over several lines too
 //! ```
 //!
-//! Addresses stand in double quotes, start with `./` or `../` and stay in the site. These are refused, as errors of the build: `export
-//! default …`, `export let` and `var` (importers get a copy, which would not follow), generators and patterns (`export function*`, `export
-//! const { a } = …`), exports from another module (`export … from`), an import for its side effects alone (`import "./a.js"`), single
-//! quotes, modules that need each other in a circle.
+//! Addresses are in double quotes, start with `./` or `../` and stay in the site. These are
+//! rejected, as errors of the build: `export default …`, `export let` and `var` (importers get a
+//! copy, which would not follow), patterns and generators (`export const { a } = …`, `export
+//! function*`), exports from another module (`export … from`), an import for its side effects alone
+//! (`import "./a.js"`), single quotes, and circular imports.
 //!
-//! These are not noticed, so mind them: only the first name of `export const a = 1, b = 2` is exported; an import or export that is
-//! indented, or follows another statement on its line, stays as it is and fails in the browser; a line that starts with `import ` or
-//! `export ` counts as a statement even in a comment or a template; `import()` and `import.meta.url` start from the joined script.
+//! These are not detected, so avoid them: only the first name of `export const a = 1, b = 2` is
+//! exported; an import or export that is indented, or follows another statement on its line, stays
+//! as it is and fails in the browser; a line that starts with `import ` or `export ` counts as a
+//! statement even in a comment or a template; `import()` and `import.meta.url` start from the
+//! joined script.
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 
-/// Modules in one script, in the order in which they run.
+/// Modules in one script, in execution order.
 pub(super) struct Script {
-    /// The last of them, which also gives the script its place.
+    /// The last of them, which also determines the script's address.
     entry: PathBuf,
     modules: Vec<PathBuf>,
     /// A block for each.
@@ -51,10 +57,11 @@ pub(super) struct Script {
 }
 
 impl Script {
-    /// The module at `entry` and all that it imports, directly or not, but for those that `earlier` has. `read` tells the text of a module.
+    /// The module at `entry` and all its direct and indirect imports, except those that `earlier`
+    /// has. `read` returns the text of a module.
     ///
     /// # Errors
-    /// If a module cannot be read, uses syntax that this does not know, or needs itself.
+    /// If a module cannot be read, uses unsupported syntax, or imports itself in a circle.
     pub(super) fn new(
         entry: &Path,
         earlier: Option<&Script>,
@@ -63,7 +70,7 @@ impl Script {
         let shared = earlier.map_or(Vec::new(), |script| script.modules.clone());
         let mut text = String::from("\"use strict\";\n");
         if let Some(script) = earlier {
-            // Scripts that share lie in the same folder.
+            // Scripts that share modules are in the same folder.
             let file = script.entry.file_name().unwrap_or_default().to_string_lossy();
             text.push_str(&format!("import {{ {} }} from \"./{file}\";\n", names(&shared)));
         }
@@ -82,7 +89,8 @@ fn names(modules: &[PathBuf]) -> String {
     modules.iter().map(|path| variable(path)).collect::<Vec<_>>().join(", ")
 }
 
-/// Appends a module after those that it needs. `open` are the modules that wait for this one, `done` those there are already.
+/// Appends a module after its imports. `open` are the modules waiting for this one, `done` those
+/// already appended.
 fn add(
     path: &Path,
     read: &dyn Fn(&Path) -> Result<String>,
@@ -113,12 +121,12 @@ fn add(
     Ok(())
 }
 
-/// A module without the syntax of modules.
+/// A module with its imports and exports translated.
 #[derive(Debug, PartialEq)]
 struct Module {
     /// The modules it needs.
     imports: Vec<PathBuf>,
-    /// What it exports, as the properties of an object: `name` or `name: local`.
+    /// Its exports, as the properties of an object: `name` or `name: local`.
     exports: Vec<String>,
     body: String,
 }
@@ -145,7 +153,7 @@ impl Module {
         Ok(module)
     }
 
-    /// Takes over an `import` or `export { … }` statement.
+    /// Translates an `import` or `export { … }` statement.
     fn take(&mut self, path: &Path, statement: &str) -> Result<()> {
         if let Some(list) = statement.strip_prefix("export {").and_then(|rest| rest.trim().strip_suffix('}'))
         {
@@ -181,7 +189,7 @@ impl Module {
     }
 }
 
-/// The items of `a, b as c`: each name, and what it is called on the other side.
+/// The items of `a, b as c`: each name, and its name on the other side.
 fn items(list: &str) -> impl Iterator<Item = (&str, &str)> {
     let words = list.split(',').map(str::trim).filter(|item| !item.is_empty());
     words.map(|item| item.split_once(" as ").unwrap_or((item, item)))
@@ -200,7 +208,7 @@ fn declared(declaration: &str) -> Result<&str> {
     bail!("no export that this knows: {declaration}")
 }
 
-/// The module that `path` means by `specifier`.
+/// The module that `specifier` refers to in `path`.
 fn beside(path: &Path, specifier: &str) -> Result<PathBuf> {
     let mut target = path.parent().unwrap_or(Path::new("")).to_path_buf();
     for name in specifier.split('/') {
@@ -213,7 +221,7 @@ fn beside(path: &Path, specifier: &str) -> Result<PathBuf> {
     Ok(target)
 }
 
-/// What a module's exports are called in the script.
+/// The name of a module's exports in the script.
 fn variable(path: &Path) -> String {
     let name = path.with_extension("").to_string_lossy().replace(|c: char| !c.is_ascii_alphanumeric(), "_");
     format!("module_{name}")
@@ -237,7 +245,11 @@ mod tests {
     #[test]
     fn modules_become_functions_in_the_order_of_their_needs() {
         let script = bundled(&[
-            ("js/main.js", "import start, * as core from \"../pkg/core.js\";\nimport {\n  a,\n  b as c,\n} from \"./two.js\";\nstart(core, a, c);\n"),
+            (
+                "js/main.js",
+                "import start, * as core from \"../pkg/core.js\";\n\
+                 import {\n  a,\n  b as c,\n} from \"./two.js\";\nstart(core, a, c);\n",
+            ),
             ("js/two.js", "import { x } from \"../pkg/core.js\";\nexport const a = x;\nexport async function b() {}\nexport class D {}\n"),
             ("pkg/core.js", "function init() {}\nexport const x = 1;\nexport { init as default };\n"),
         ])
@@ -246,8 +258,10 @@ mod tests {
             script,
             "\"use strict\";\n\
              const module_pkg_core = {};\n{\nfunction init() {}\nconst x = 1;\n\nObject.assign(module_pkg_core, { x, default: init });\n}\n\
-             const module_js_two = {};\n{\nconst { x: x } = module_pkg_core; \nconst a = x;\nasync function b() {}\nclass D {}\nObject.assign(module_js_two, { a, b, D });\n}\n\
-             const module_js_main = {};\n{\nconst start = module_pkg_core.default; const core = module_pkg_core; \nconst { a: a, b: c } = module_js_two; \nstart(core, a, c);\nObject.assign(module_js_main, {  });\n}\n"
+             const module_js_two = {};\n{\nconst { x: x } = module_pkg_core; \nconst a = x;\n\
+             async function b() {}\nclass D {}\nObject.assign(module_js_two, { a, b, D });\n}\n\
+             const module_js_main = {};\n{\nconst start = module_pkg_core.default; const core = module_pkg_core; \n\
+             const { a: a, b: c } = module_js_two; \nstart(core, a, c);\nObject.assign(module_js_main, {  });\n}\n"
         );
     }
 

@@ -1,4 +1,5 @@
-//! The page's own files: what `web/` keeps in many small ones, a browser gets in few, for each of them takes a request.
+//! The page's own files: `web/` has many small ones. The site joins them into few, because each
+//! takes a request.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -9,18 +10,21 @@ use anyhow::{Context, Result, bail, ensure};
 use super::folder::{entries, mirror, update};
 use super::modules::Script;
 
-/// The scripts that pages and the Worker start with. `main.js` shares the modules of `start.js`, which runs first.
+/// The entry scripts of the pages and the Worker. `main.js` shares the modules of `start.js`, which
+/// runs first.
 const START: &str = "js/start.js";
 const MAIN: &str = "js/main.js";
 const OTHERS: [&str; 2] = ["js/embed.js", "js/worker.js"];
 
-/// What stays a file of its own: the element that other pages import, and the styles without JavaScript.
+/// Files that stay separate: the element that other pages import, and the styles without
+/// JavaScript.
 const ALONE: [&str; 2] = ["js/armill-calculator.js", "css/noscript.css"];
 
-/// How a page names a stylesheet.
+/// How a page links a stylesheet.
 const STYLESHEET: &str = "<link rel=\"stylesheet\" href=\"";
 
-/// Fills an empty `folder` with the page in `web`, its scripts and styles joined. `pkg` has the core's module.
+/// Fills an empty `folder` with the page in `web`, its scripts and styles joined. `pkg` has the
+/// core's module.
 ///
 /// # Errors
 /// If a file cannot be read or written, or a script uses syntax that cannot be joined.
@@ -64,7 +68,7 @@ pub(super) fn join(web: &Path, pkg: &Path, folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// The text of a file of the page, wherever it is before it is in the site.
+/// The text of a page's file, at its place before the build.
 ///
 /// # Errors
 /// If it cannot be read.
@@ -73,7 +77,8 @@ pub(super) fn text_of(web: &Path, pkg: &Path, path: &Path) -> Result<String> {
     fs::read_to_string(&file).with_context(|| format!("cannot read {}", file.display()))
 }
 
-/// A page whose stylesheets are one, `name`, and its text. They stand one to a line, in the order in which they hold.
+/// A page with its stylesheets joined into `name`, and the joined text. The links are one per line,
+/// in cascade order.
 fn with_one_stylesheet(
     html: &str,
     name: &str,

@@ -5,14 +5,15 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use sha2::{Digest, Sha256};
 
-/// The policy of the pages in `web`, which state it themselves. The server repeats it, because a Worker only obeys its own answer's.
+/// The policy of the pages in `web`, which state it themselves. The server repeats it, because a
+/// Worker only obeys the policy of its own response.
 pub(crate) const POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; \
     connect-src 'self'; style-src 'self'; img-src 'self' data: blob:; base-uri 'none'; form-action 'none'";
 
-/// How a page states its policy, up to the text of it.
+/// How a page states its policy, up to the policy's text.
 pub(super) const META: &str = "<meta http-equiv=\"Content-Security-Policy\" content=\"";
 
-/// What may run and style in the one-file page: only what stands in it, by its hash.
+/// The scripts and styles allowed in the one-file page: only those inside it, by their hashes.
 #[derive(Default)]
 pub(super) struct Hashes {
     scripts: String,
@@ -36,7 +37,7 @@ impl Hashes {
         allow(&mut self.styles, text, "</style")
     }
 
-    /// [`POLICY`] for a page that has nothing beside it; its Worker starts from a Blob.
+    /// [`POLICY`] for a page without other files; its Worker starts from a Blob.
     pub(super) fn policy(&self) -> String {
         POLICY
             .replace("script-src 'self'", &format!("script-src{}", self.scripts))

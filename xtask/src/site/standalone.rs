@@ -1,5 +1,6 @@
-//! The page as one file, `standalone.html`: a double click opens it from disk, where a browser loads nothing from beside it.
-//! Styles and scripts stand in it, allowed by their hashes alone; the core is in it as compressed text, the Worker starts from a Blob.
+//! The page as one file, `standalone.html`, opened from disk by a double click, where a browser
+//! cannot load other files. Styles and scripts are inline, allowed by their hashes alone; the core
+//! is in it as compressed text, the Worker starts from a Blob.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,10 +14,11 @@ use super::modules::Script;
 use super::page::text_of;
 use super::policy::{Hashes, META};
 
-/// What the one-file page has in place of `web/js/files.js`.
+/// Replaces `web/js/files.js` in the one-file page.
 const FILES: &str = include_str!("files.js");
 
-/// Lines of the page about files beside it: what is needed early, and the first script, whose modules are in the other.
+/// Lines of the page about other files: preloads, and the first script, whose modules are in the
+/// other.
 const BESIDE: [&str; 2] = ["<link rel=\"preload\"", "<script type=\"module\" src=\"js/start.js\""];
 
 /// Folder of files that the page reads as text.
@@ -33,7 +35,7 @@ pub(super) fn page(web: &Path, pkg: &Path) -> Result<String> {
     let icon = format!("data:image/svg+xml;base64,{}", BASE64_STANDARD.encode(read(Path::new("icon.svg"))?));
     let mut hashes = Hashes::default();
 
-    // What stands in the page does not need to be waited for.
+    // Inline content needs no preload.
     let html: String = read(Path::new("index.html"))?
         .split_inclusive('\n')
         .filter(|line| !BESIDE.iter().any(|start| line.trim_start().starts_with(start)))
@@ -49,8 +51,8 @@ pub(super) fn page(web: &Path, pkg: &Path) -> Result<String> {
             hashes.script(Script::new(Path::new(file), None, &module)?.text)?
         ))
     })?;
-    // A browser starts no module from a Blob of a page on disk, and a classic script knows no `import.meta`. The glue
-    // only asks for it when it is to load the core itself.
+    // A browser does not start a module from a Blob of a page on disk, and a classic script has no
+    // `import.meta`. The glue only uses it when it is to load the core itself.
     let worker = Script::new(Path::new("js/worker.js"), None, &module)?
         .text
         .replace("import.meta.url", "location.href");
@@ -68,7 +70,8 @@ pub(super) fn page(web: &Path, pkg: &Path) -> Result<String> {
     Ok(html)
 }
 
-/// The text with each stretch from `start` to the next `end` replaced by what `make` makes of what is between them.
+/// The text with each stretch from `start` to the next `end` replaced by the result of `make` for
+/// the text between them.
 fn replaced(
     text: &str,
     start: &str,
@@ -88,7 +91,8 @@ fn replaced(
     Ok(result)
 }
 
-/// The examples as a JSON object, text by path; without the one character that could end it in HTML.
+/// The examples as a JSON object, text by path, without the one character that could end it in
+/// HTML.
 fn files(web: &Path) -> Result<String> {
     let mut paths: Vec<PathBuf> = fs::read_dir(web.join(EXAMPLES))
         .context("cannot list the examples")?
