@@ -139,6 +139,7 @@ fn commands(
     axis: &Axes,
     progress: &mut Progress,
 ) -> Result<Arc<Vec<Joints>>, Error> {
+    progress.at(0.0);
     let position: Vec<_> =
         plan.trajectory.position.iter().zip(correction).map(|(desired, c)| desired + c).collect();
     let targets = Targets { position: &position, axis, ..Targets::desired(&plan.path, &plan.trajectory) };

@@ -126,14 +126,11 @@ impl Command {
             commanded.stops = report.plan.trajectory.stops.iter().any(|corner| corner.s == end);
         }
         if deviation > thinning {
-            return Err(Error::Invalid {
-                field: "thinning_mm".into(),
-                value: millimetres(thinning),
-                expected: format!(
-                    "the samples stray {} mm from the thinned path; state more",
-                    millimetres(deviation)
-                ),
-            });
+            return Err(Error::invalid(
+                "thinning_mm",
+                millimetres(thinning),
+                format!("the samples stray {} mm from the thinned path; state more", millimetres(deviation)),
+            ));
         }
         let start =
             start.unwrap_or(Point { position: path.point(0.0), axis: path.axis(0.0), spin: path.roll(0.0) });

@@ -180,11 +180,7 @@ fn check(field: String, value: &Value, min: f64, max: f64, unit: &'static str) -
             parts.iter().try_for_each(|(key, part)| check(format!("{field}.{key}"), part, min, max, unit))
         }
         // serde_json writes non-finite numbers as null.
-        Value::Null => Err(Error::Invalid {
-            field,
-            value: "not a finite number".into(),
-            expected: format!("{min} to {max} {unit}"),
-        }),
+        Value::Null => Err(Error::invalid(field, "not a finite number", format!("{min} to {max} {unit}"))),
         Value::Number(number) => match number.as_f64() {
             Some(value) if value >= min && value <= max => Ok(()),
             number => Err(Error::OutOfRange { field, value: number.unwrap_or(f64::NAN), min, max, unit }),
@@ -201,11 +197,11 @@ pub(crate) fn check_path_keys(job: &Job) -> Result<(), Error> {
         let Some((key, when)) = field.path.strip_prefix("path.").zip(field.when.as_ref()) else { continue };
         if given.get(key).is_some() && !when.is.contains(&kind) {
             let kinds = when.is.join(", ");
-            return Err(Error::Invalid {
-                field: field.path.into(),
-                value: "given".into(),
-                expected: format!("a path of kind {kind} has no {key}; it belongs to {kinds}"),
-            });
+            return Err(Error::invalid(
+                field.path,
+                "given",
+                format!("a path of kind {kind} has no {key}; it belongs to {kinds}"),
+            ));
         }
     }
     Ok(())

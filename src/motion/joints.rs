@@ -66,7 +66,6 @@ pub fn joint_trajectory(
     progress: &mut Progress,
 ) -> Result<JointTrajectory, Error> {
     let Targets { path, arc_length, position: positions, axis: axes } = *targets;
-    progress.at(0.0);
     let mut q = Vec::with_capacity(positions.len());
     let mut margin = Vec::with_capacity(positions.len());
     let mut previous: Option<Solution> = None;
@@ -93,7 +92,7 @@ pub fn joint_trajectory(
     }
     match first {
         Some(start) => Ok(JointTrajectory { q: Arc::new(q), margin, start }),
-        None => Err(Error::Missing { field: "path".into(), expected: "a path has points".into() }),
+        None => Err(Error::missing("path", "a path has points")),
     }
 }
 
@@ -109,14 +108,16 @@ pub(crate) fn first_solution(robot: &Robot, tcp: &Pose, start: StartBranch) -> R
         (wrists.first().copied(), wrists.last().copied())
     };
     let chosen = if start.wrist_near { near } else { flipped };
-    chosen.copied().ok_or_else(|| Error::Invalid {
-        field: "start_branch".into(),
-        value: format!(
-            "shoulder {}, elbow {}",
-            if start.front { "front" } else { "back" },
-            if start.elbow_positive { "positive" } else { "negative" }
-        ),
-        expected: "the path's first point has no solution on it; choose another".into(),
+    chosen.copied().ok_or_else(|| {
+        Error::invalid(
+            "start_branch",
+            format!(
+                "shoulder {}, elbow {}",
+                if start.front { "front" } else { "back" },
+                if start.elbow_positive { "positive" } else { "negative" }
+            ),
+            "the path's first point has no solution on it; choose another",
+        )
     })
 }
 

@@ -21,6 +21,8 @@ use std::sync::Arc;
 pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     let steps = Steps::of(job);
     let setup = Setup::of(job, &mut steps.reading(progress))?;
+    // Reported before the motion is sampled, which takes a while on a long run.
+    steps.part(progress, "joint commands", 0.0, 1.0).at(0.0);
     let mut plan = Plan::new(Arc::new(setup));
     plan.path = roll::chosen(&plan, &mut steps.part(progress, "spin about the tool axis", 0.0, 0.0));
     let joints = plan.joints(&mut steps.part(progress, "joint commands", 0.0, 1.0))?;

@@ -90,7 +90,7 @@ fn read(id: &str, text: &str) -> Result<Program, Error> {
 /// [`Error::Missing`] for a program without a move; [`Error::Unreachable`] where it is out of
 /// reach.
 pub fn run(report: &Report, commanded_path: &CommandedPath, program: &Program) -> Result<Replay, Error> {
-    let empty = || Error::Missing { field: "program".into(), expected: "a move".into() };
+    let empty = || Error::missing("program", "a move");
     let commanded = Path::of_program(program).ok_or_else(empty)?.placed(&report.setup().workpiece);
     // A program of points does not define the roll: the report's own is used, at the same fraction
     // of the path.

@@ -92,11 +92,11 @@ impl MoveWords {
     /// [`Error::Invalid`] if the tool axis differs from +Z anywhere: three axes cannot express it.
     pub(super) fn new(command: &Command) -> Result<Self, Error> {
         if command.is_tilted() {
-            return Err(Error::Invalid {
-                field: "format".into(),
-                value: "\"gcode\"".into(),
-                expected: "the tool axis is not +Z all along, which this G-code cannot say: use apt".into(),
-            });
+            return Err(Error::invalid(
+                "format",
+                "\"gcode\"",
+                "the tool axis is not +Z all along, which this G-code cannot say: use apt",
+            ));
         }
         let (inch, at) = (command.style.inch, command.start.position);
         Ok(Self { inch, at, motion: "", plane: PLANES[2], feed: String::new() })
