@@ -211,9 +211,13 @@ impl PoseProblem<'_> {
 }
 
 /// The frame after three links, starting with `link` (from 0), from their angles about z.
-fn chain(robot: &Robot, link: usize, frame: Pose, turns: [Turn; 3]) -> Pose {
-    let turns = turns.into_iter().enumerate();
-    turns.fold(frame, |outer, (i, theta)| forward::next(robot, link + i, &outer, theta))
+///
+/// Inlined, because the first chain starts from the identity, which then costs nothing.
+#[inline(always)]
+fn chain(robot: &Robot, link: usize, frame: Pose, [first, second, third]: [Turn; 3]) -> Pose {
+    let frame = forward::next(robot, link, &frame, first);
+    let frame = forward::next(robot, link + 1, &frame, second);
+    forward::next(robot, link + 2, &frame, third)
 }
 
 /// Theta_4, theta_5, theta_6 from M = Rz(theta_4) Rx(alpha_4) Rz(theta_5) Rx(alpha_5) Rz(theta_6)
