@@ -1,4 +1,5 @@
-// The Worker's side of core.js: owns one Run of the WebAssembly core and answers questions about it.
+// The Worker's side of core.js: owns one Run of the WebAssembly core and answers questions about
+// it.
 
 const PROGRESS_MS = 40;
 const ROWS = 20_000; // of a file written at a time
@@ -55,7 +56,10 @@ const answers = {
   trap: () => armill.trap(),
 };
 
-/** All columns as a file. A long run is a gigabyte of text, more than a string holds: the browser keeps the parts on its disk. */
+/**
+ * All columns as a file. A long run is a gigabyte of text, more than a string holds: the browser
+ * keeps the parts on its disk.
+ */
 function columnsFile() {
   const samples = run.column("time_s").length;
   const parts = [];
@@ -80,19 +84,32 @@ function surveyOf(json) {
 }
 
 /** What is handed over instead of copied: a column, or those of a chart. */
-const buffers = (value) => [value].flat().flatMap((each) => (each instanceof Float64Array ? each : each?.values)?.buffer ?? []);
+const buffers = (value) =>
+  [value].flat().flatMap((each) => (each instanceof Float64Array ? each : each?.values)?.buffer ?? []);
 
 /** An error as data: Errors lose their extra properties on the way through postMessage. */
 function plain(error) {
   const { code, message, field, line, column } = error;
-  return { code, message: message ?? String(error), field, line, column, fatal: error instanceof WebAssembly.RuntimeError };
+  return {
+    code,
+    message: message ?? String(error),
+    field,
+    line,
+    column,
+    fatal: error instanceof WebAssembly.RuntimeError,
+  };
 }
 
-/** Answers the page's questions with a core, the module that wasm-bindgen made; the page sends the compiled WebAssembly first. */
+/**
+ * Answers the page's questions with a core, the module that wasm-bindgen made; the page sends the
+ * compiled WebAssembly first.
+ */
 export function serve(core) {
   armill = core;
   let start;
-  const started = new Promise((resolve) => (start = resolve)).then((module) => armill.default({ module_or_path: module }));
+  const started = new Promise((resolve) => (start = resolve)).then((module) =>
+    armill.default({ module_or_path: module }),
+  );
   started.catch(() => {}); // every question reports it
   addEventListener("message", async ({ data: { module, id, kind, args } }) => {
     if (module) return start(module);

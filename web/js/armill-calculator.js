@@ -26,7 +26,8 @@ export class ArmillCalculator extends HTMLElement {
   constructor() {
     super();
     this.#frame.loading = "lazy";
-    for (const [name, value] of Object.entries({ display: "block", width: "100%", border: "0" })) this.#frame.style.setProperty(name, value);
+    for (const [name, value] of Object.entries({ display: "block", width: "100%", border: "0" }))
+      this.#frame.style.setProperty(name, value);
     this.#tall(FIRST_HEIGHT);
     this.attachShadow({ mode: "open" });
   }

@@ -15,7 +15,8 @@ export function judgeAsProgram({ summary: { passes }, preview }, took) {
   line.classList.remove("bad");
   clearTimeout(waiting);
   if (passes === 0 || preview) return; // nothing is promised
-  if (took > LONG_MS) line.textContent = "Timed by its own moves and feeds, a program may differ: it is run when it is downloaded.";
+  if (took > LONG_MS)
+    line.textContent = "Timed by its own moves and feeds, a program may differ: it is run when it is downloaded.";
   else waiting = setTimeout(judge, QUIET_MS, line, core.shownJob());
 }
 
@@ -26,6 +27,7 @@ async function judge(line, json) {
     line.textContent = sentence;
     line.classList.toggle("bad", !met);
   } catch (error) {
-    if (!error.fatal && error.code !== "cancelled" && core.shownJob() === json) line.textContent = `As a program: ${error.message}`;
+    if (!error.fatal && error.code !== "cancelled" && core.shownJob() === json)
+      line.textContent = `As a program: ${error.message}`;
   }
 }

@@ -1,7 +1,8 @@
 // The inputs as they stand, kept in this browser so that a reload loses nothing that was typed.
 //
-// Every tab keeps its own (session storage) and opens with it again; a new tab opens with what was changed last
-// anywhere (local storage). So two tabs never change each other's inputs, and `onshared` tells when they compete.
+// Every tab keeps its own (session storage) and opens with it again; a new tab opens with what was
+// changed last anywhere (local storage). So two tabs never change each other's inputs, and
+// `onshared` tells when they compete.
 
 import { debounced } from "./dom.js";
 import { isDown, named, pickUp, putDown } from "./shelf.js";
@@ -15,7 +16,10 @@ let waiting; // state that is not written yet
 let refused = false;
 let shared = false;
 
-/** `onrefused(full)` is called once if nothing can be kept, `onshared()` once if another tab keeps inputs too. */
+/**
+ * `onrefused(full)` is called once if nothing can be kept, `onshared()` once if another tab keeps
+ * inputs too.
+ */
 export function start(handlers) {
   events = handlers;
   addEventListener("pagehide", flush);
@@ -27,7 +31,9 @@ export function start(handlers) {
   });
 }
 
-/** Resolves with the inputs that this tab, or else any tab, kept last; undefined if there are none. */
+/**
+ * Resolves with the inputs that this tab, or else any tab, kept last; undefined if there are none.
+ */
 export async function kept() {
   for (const store of [() => sessionStorage, () => localStorage]) {
     try {

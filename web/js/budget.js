@@ -1,4 +1,5 @@
-// The error budget: which joint and which source gives how much of the contour error, as bars, table and sentence.
+// The error budget: which joint and which source gives how much of the contour error, as bars,
+// table and sentence.
 
 import { byId, make } from "./dom.js";
 import { inLength, lengthUnit } from "./units.js";
@@ -15,7 +16,9 @@ export function showBudget({ worst_mm, mean_mm, time_s, sentence }) {
   byId("budget-mean").replaceChildren(...barOf(mean_mm));
   byId("budget-time").textContent = `at ${time_s.toFixed(2)} s`;
   const rows = [
-    ...NAMES.slice(0, 6).map((name, i) => row(name, `s${i + 1}`, worst_mm.joints[i], mean_mm.joints[i], worst_mm, mean_mm)),
+    ...NAMES.slice(0, 6).map((name, i) =>
+      row(name, `s${i + 1}`, worst_mm.joints[i], mean_mm.joints[i], worst_mm, mean_mm),
+    ),
     ...(worst_mm.tool || mean_mm.tool ? [row("Tool", "tool", worst_mm.tool, mean_mm.tool, worst_mm, mean_mm)] : []),
     row("Deflection", "sum", sumOf(worst_mm), sumOf(mean_mm), worst_mm, mean_mm),
     row("Shaping", "shaping", worst_mm.shaping, mean_mm.shaping, worst_mm, mean_mm),
@@ -26,20 +29,35 @@ export function showBudget({ worst_mm, mean_mm, time_s, sentence }) {
 
 const sumOf = ({ joints, tool }) => joints.reduce((sum, joint) => sum + joint, tool);
 const percent = (part, total) => (total > 0 ? signed((100 * part) / total, 0) : "–");
-const signed = (value, digits) => value.toFixed(digits).replace(/^-(0(\.0+)?)$/, "$1").replace("-", "\u2212");
+const signed = (value, digits) =>
+  value
+    .toFixed(digits)
+    .replace(/^-(0(\.0+)?)$/, "$1")
+    .replace("-", "\u2212");
 
 function row(name, key, worst, mean, worsts, means) {
-  const swatch = ["sum", "total"].includes(key) ? [] : [make("span", { className: `part ${key}`, "aria-hidden": "true" })];
+  const swatch = ["sum", "total"].includes(key)
+    ? []
+    : [make("span", { className: `part ${key}`, "aria-hidden": "true" })];
   const number = (value) => {
     const td = make("td", {}, signed(inLength(value), lengthUnit() === "mm" ? 4 : 6));
     td.dataset.value = String(value);
     return td;
   };
-  return make("tr", { className: key }, make("th", { scope: "row" }, ...swatch, name),
-    number(worst), make("td", {}, percent(worst, worsts.total)), number(mean), make("td", {}, percent(mean, means.total)));
+  return make(
+    "tr",
+    { className: key },
+    make("th", { scope: "row" }, ...swatch, name),
+    number(worst),
+    make("td", {}, percent(worst, worsts.total)),
+    number(mean),
+    make("td", {}, percent(mean, means.total)),
+  );
 }
 
-/** Parts that pull the tip back stand left of the line, the others right of it; all on one scale. */
+/**
+ * Parts that pull the tip back stand left of the line, the others right of it; all on one scale.
+ */
 function barOf(parts) {
   const all = [...parts.joints, parts.tool, parts.shaping].map((value, i) => ({ value, name: NAMES[i], key: KEYS[i] }));
   const whole = all.reduce((sum, { value }) => sum + Math.abs(value), 0);

@@ -1,4 +1,5 @@
-// Draws the charts of one panel, and keeps them together: one cursor, one range of time, one set of units.
+// Draws the charts of one panel, and keeps them together: one cursor, one range of time, one set of
+// units.
 
 import { Figure } from "./chart/figure.js";
 import { onCursor } from "./cursor.js";
@@ -88,5 +89,12 @@ async function draw() {
   }
 }
 
-document.body.append(make("p", { id: "chart-keys", className: "hidden-text" },
-  "Left and right arrows move the cursor, Page Up and Page Down by a tenth, Home and End to the ends of what is shown. Plus and minus zoom, zero shows all, Shift and arrows pan. Enter leads to the line of the program, Escape takes the cursor away. The button Table shows the values as a table."));
+document.body.append(
+  make(
+    "p",
+    { id: "chart-keys", className: "hidden-text" },
+    "Left and right arrows move the cursor, Page Up and Page Down by a tenth, Home and End to the ends of what is " +
+      "shown. Plus and minus zoom, zero shows all, Shift and arrows pan. Enter leads to the line of the program, " +
+      "Escape takes the cursor away. The button Table shows the values as a table.",
+  ),
+);

@@ -1,5 +1,5 @@
-// A pinned result, A, beside the shown one, B: every figure with its difference, the inputs that differ, the curves in the charts.
-// It stays pinned in this tab when the page is loaded again.
+// A pinned result, A, beside the shown one, B: every figure with its difference, the inputs that
+// differ, the curves in the charts. It stays pinned in this tab when the page is loaded again.
 
 import { setBeside } from "./charts.js";
 import { byId, make } from "./dom.js";
@@ -87,9 +87,16 @@ function showFigure(output, { of, text }, shown) {
   if (!pinned) return;
   const [a, b] = [of(pinned.summary), of(shown.summary)];
   const change = b - a;
-  const share = a === 0 || change === 0 ? "" : `(${signed((100 * change) / a, (percent) => formatNumber(percent, 2))}\u00a0%)`;
+  const share =
+    a === 0 || change === 0 ? "" : `(${signed((100 * change) / a, (percent) => formatNumber(percent, 2))}\u00a0%)`;
   const told = change === 0 ? "no change" : `${signed(change, text)} ${share}`;
-  const line = make("dd", { className: "sub versus" }, make("strong", {}, "A"), ` ${text(a)} `, make("span", {}, `B − A ${told}`));
+  const line = make(
+    "dd",
+    { className: "sub versus" },
+    make("strong", {}, "A"),
+    ` ${text(a)} `,
+    make("span", {}, `B − A ${told}`),
+  );
   line.dataset.value = String(change);
   cell.append(line);
 }
@@ -98,9 +105,17 @@ function showInputs(box, shown) {
   const differences = shown.job.differences(JSON.parse(pinned.json));
   const count = differences.length;
   byId("compare-title").textContent =
-    count === 0 ? "A is pinned. Change an input, and the next result stands beside it as B." : `A is pinned, B is shown: ${count === 1 ? "one input differs" : `${count} inputs differ`}.`;
+    count === 0
+      ? "A is pinned. Change an input, and the next result stands beside it as B."
+      : `A is pinned, B is shown: ${count === 1 ? "one input differs" : `${count} inputs differ`}.`;
   const rows = differences.map(({ field, own, other }) =>
-    make("tr", {}, make("th", { scope: "row" }, field.label), make("td", {}, inWords(field, other)), make("td", {}, inWords(field, own))),
+    make(
+      "tr",
+      {},
+      make("th", { scope: "row" }, field.label),
+      make("td", {}, inWords(field, other)),
+      make("td", {}, inWords(field, own)),
+    ),
   );
   const table = box.querySelector("table");
   table.hidden = count === 0;

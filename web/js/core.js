@@ -1,7 +1,8 @@
 // The page's side of the WebAssembly core.
 //
-// Two Workers take turns: one holds the result that the page shows and draws its charts, the other computes the
-// next one. A run that is invalid, cancelled or trapped therefore never takes the shown result away.
+// Two Workers take turns: one holds the result that the page shows and draws its charts, the other
+// computes the next one. A run that is invalid, cancelled or trapped therefore never takes the
+// shown result away.
 
 import { compileCore, startWorker } from "./files.js";
 import { textOf } from "./job.js";
@@ -23,7 +24,10 @@ let next = null; // the job to compute next: only the latest counts
 let good = null; // the job of the shown result
 let lost = false; // the shown result was lost to a trap and is being computed again
 
-/** Begins to load the core, and resolves with what a form is built from: version, default job, fields, presets, formats. */
+/**
+ * Begins to load the core, and resolves with what a form is built from: version, default job,
+ * fields, presets, formats.
+ */
 export function load() {
   hello ??= (spare ??= spawn()).ask("hello").then(
     (answer) => {
@@ -44,7 +48,9 @@ export function start(handlers) {
   return load();
 }
 
-/** Begins to compute a job, or without one the default job, before the page is ready to ask for it. */
+/**
+ * Begins to compute a job, or without one the default job, before the page is ready to ask for it.
+ */
 export function foresee(json) {
   const early = { json, result: spare.ask("run", json) };
   early.result.catch(() => {
@@ -63,7 +69,9 @@ export function run(json) {
   else if (performance.now() - since > patience()) cutOff(CANCELLED);
 }
 
-/** Twice as long as the last run took, within bounds, so that dragging a number still shows results. */
+/**
+ * Twice as long as the last run took, within bounds, so that dragging a number still shows results.
+ */
 const patience = () => Math.min(SUPERSEDE_MS[1], Math.max(SUPERSEDE_MS[0], 2 * lasted));
 
 /** Stops the run in progress, at once. */
@@ -84,13 +92,18 @@ export const placeInFront = (json) => (spare ??= spawn()).ask("place", json);
 /** The thesis's printed figures beside ours; they are the default job's, whatever is shown. */
 export const thesis = () => (spare ??= spawn()).ask("thesis");
 
-/** A Worker of its own, `{ ask(kind, ...args) }`, for what has nothing to do with the shown result. */
+/**
+ * A Worker of its own, `{ ask(kind, ...args) }`, for what has nothing to do with the shown result.
+ */
 export const helper = () => spawn(() => {});
 
 /** One chart of the shown result, drawn at `options.width` pixels. */
 export const chart = (name, options) => askShown("chart", name, options);
 
-/** The values that a chart of the shown result is drawn from: its first axis, then each series, every sample. */
+/**
+ * The values that a chart of the shown result is drawn from: its first axis, then each series,
+ * every sample.
+ */
 export const chartData = (name, units) => askShown("data", name, units);
 
 /** One column of the shown result, as a Float64Array. */
@@ -108,7 +121,10 @@ export const exported = (format) => askShown("export", format);
 /** Mean and largest contour error [mm] of the shown result's program, read back and run. */
 export const replayed = (format) => askShown("replay", format);
 
-/** The accuracy of the shown result's path as a program, of G-code unless another format is given: `{ max_mm, met, sentence }`. */
+/**
+ * The accuracy of the shown result's path as a program, of G-code unless another format is given:
+ * `{ max_mm, met, sentence }`.
+ */
 export const promised = (format) => askShown("promise", format);
 
 /** Smallest and largest x, y, z [mm] of places for the part that are worth a look. */
@@ -166,7 +182,10 @@ async function askShown(kind, ...args) {
   }
 }
 
-/** The shown result died with its Worker: says so and computes it again, but only once for the same job. */
+/**
+ * The shown result died with its Worker: says so and computes it again, but only once for the same
+ * job.
+ */
 function recover(error) {
   retire(shown);
   events.ontrap(error);

@@ -1,4 +1,5 @@
-// The page's one cursor: an instant of the shown run, in seconds. Charts, scene, play and program all read and move it.
+// The page's one cursor: an instant of the shown run, in seconds. Charts, scene, play and program
+// all read and move it.
 
 const followers = new Set();
 let now = null; // seconds from the start, or null while nothing is pointed at
@@ -6,7 +7,10 @@ let now = null; // seconds from the start, or null while nothing is pointed at
 /** The instant pointed at [s], or null. */
 export const cursor = () => now;
 
-/** Points at an instant [s], or at none; `from` is told to everyone who follows, so that they can tell their own moves. */
+/**
+ * Points at an instant [s], or at none; `from` is told to everyone who follows, so that they can
+ * tell their own moves.
+ */
 export function setCursor(time, from) {
   if (time === now) return;
   now = time;

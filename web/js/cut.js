@@ -1,4 +1,5 @@
-// The cut of the shown result: a drawing of the engagement, the figures of tool, material and spindle, and what the wall keeps of the deflection.
+// The cut of the shown result: a drawing of the engagement, the figures of tool, material and
+// spindle, and what the wall keeps of the deflection.
 
 import { byId, make, makeSvg } from "./dom.js";
 import { formatNumber } from "./number.js";
@@ -15,11 +16,13 @@ export function showCut({ material, material_note, cut, walls, mean_force_n }) {
   byId("cut-drawing").replaceChildren(figure());
   byId("group-cutting")?.querySelector("fieldset").append(sketchOf(figure));
   byId("cut-material").textContent = [material, material_note].filter(Boolean).join(". ");
-  byId("cut-figures").replaceChildren(...figures(cut, mean_force_n).map(([name, unit, value, key]) => {
-    const dd = make("dd", {}, value);
-    if (key) dd.dataset.value = String(cut[key]);
-    return make("div", {}, make("dt", {}, `${name} `, make("span", { className: "unit" }, unit)), dd);
-  }));
+  byId("cut-figures").replaceChildren(
+    ...figures(cut, mean_force_n).map(([name, unit, value, key]) => {
+      const dd = make("dd", {}, value);
+      if (key) dd.dataset.value = String(cut[key]);
+      return make("div", {}, make("dt", {}, `${name} `, make("span", { className: "unit" }, unit)), dd);
+    }),
+  );
   showWalls(walls, cut.tooth_passing_hz);
 }
 
@@ -44,7 +47,10 @@ function wayOf(cut) {
 
 function inWords(cut) {
   const angle = (value) => formatNumber(Number(value.toFixed(2)));
-  return `${wayOf(cut)}, seen from the spindle: a tooth cuts from ${angle(cut.entry_deg)} to ${angle(cut.exit_deg)} deg; radial depth ${lengthText(tidy(cut.radial_depth_mm))} ${lengthUnit()}.`;
+  return (
+    `${wayOf(cut)}, seen from the spindle: a tooth cuts from ${angle(cut.entry_deg)} to ${angle(cut.exit_deg)} ` +
+    `deg; radial depth ${lengthText(tidy(cut.radial_depth_mm))} ${lengthUnit()}.`
+  );
 }
 
 /** Where the drawing has the immersion angle: from the left (y), clockwise over the feed (up). */
@@ -55,18 +61,28 @@ function drawing(cut) {
   const { entry_deg: entry, exit_deg: exit } = cut;
   const [from, to] = [at(entry), at(exit)];
   const arc = `A ${RADIUS} ${RADIUS} 0 0 1 ${point(to)}`;
-  const svg = makeSvg("svg", { viewBox: `${-EDGE} ${-EDGE} ${2 * EDGE} ${2 * EDGE}`, role: "img", "aria-label": inWords(cut) });
+  const svg = makeSvg("svg", {
+    viewBox: `${-EDGE} ${-EDGE} ${2 * EDGE} ${2 * EDGE}`,
+    role: "img",
+    "aria-label": inWords(cut),
+  });
   const side = (x) => makeSvg("rect", { class: "stays", x, y: -EDGE, width: EDGE - RADIUS, height: 2 * EDGE });
   if (entry < EXACT) svg.append(side(-EDGE));
   if (exit > 180 - EXACT) svg.append(side(RADIUS));
   svg.append(
-    makeSvg("path", { class: "chip", d: `M ${point([from[0], -EDGE])} L ${point(from)} ${arc} L ${point([to[0], -EDGE])} Z` }),
+    makeSvg("path", {
+      class: "chip",
+      d: `M ${point([from[0], -EDGE])} L ${point(from)} ${arc} L ${point([to[0], -EDGE])} Z`,
+    }),
     makeSvg("circle", { class: "tool", r: RADIUS }),
     makeSvg("path", { class: "limit", d: `M 0 0 L ${point(from)} M 0 0 L ${point(to)}` }),
     makeSvg("path", { class: "engaged", d: `M ${point(from)} ${arc}` }),
     // The feed, up, and the turn of the spindle, clockwise.
     makeSvg("path", { class: "arrow", d: "M 0 0 V -20 m -3 5 l 3 -5 l 3 5" }),
-    makeSvg("path", { class: "arrow", d: `M ${point(at(250, 16))} A 16 16 0 0 1 ${point(at(320, 16))} m 4.7 1.7 l -4.7 -1.7 l 0.85 4.9` }),
+    makeSvg("path", {
+      class: "arrow",
+      d: `M ${point(at(250, 16))} A 16 16 0 0 1 ${point(at(320, 16))} m 4.7 1.7 l -4.7 -1.7 l 0.85 4.9`,
+    }),
     makeSvg("text", { x: 3, y: -8 }, "feed"),
   );
   for (const angle of [entry, exit]) {
@@ -80,7 +96,12 @@ function drawing(cut) {
 function figures(cut, mean) {
   const n = (key, digits) => formatNumber(tidy(cut[key]), digits);
   const length = (key) => lengthText(tidy(cut[key]));
-  const tool = cut.corner_radius_mm === 0 ? "flat end mill" : 2 * cut.corner_radius_mm >= cut.diameter_mm ? "ball nose" : `bull nose, corner ${length("corner_radius_mm")}`;
+  const tool =
+    cut.corner_radius_mm === 0
+      ? "flat end mill"
+      : 2 * cut.corner_radius_mm >= cut.diameter_mm
+        ? "ball nose"
+        : `bull nose, corner ${length("corner_radius_mm")}`;
   const rows = [
     ["Tool", lengthUnit(), `${tool}, diameter ${length("diameter_mm")}`],
     ["Cutting k_tc, k_rc, k_ac", "N/mm²", [n("ktc_n_mm2", 4), n("krc_n_mm2"), n("kac_n_mm2")].join(", ")],
@@ -90,13 +111,26 @@ function figures(cut, mean) {
     ["Feed per tooth; mean chip", lengthUnit(), `${length("feed_per_tooth_mm")}; ${length("mean_chip_mm")}`],
     ["Mean force; largest in a turn", forceUnit(), `${forceText(Math.hypot(...mean))}; ${forceText(cut.peak_force_n)}`],
     ["Torque", "N m", n("torque_nm"), "torque_nm"],
-    ["Spindle power" + (cut.spindle_power_kw ? ", of rated" : ""), "kW", n("power_kw") + (cut.spindle_power_kw ? ` of ${n("spindle_power_kw")}` : ""), "power_kw"],
+    [
+      "Spindle power" + (cut.spindle_power_kw ? ", of rated" : ""),
+      "kW",
+      n("power_kw") + (cut.spindle_power_kw ? ` of ${n("spindle_power_kw")}` : ""),
+      "power_kw",
+    ],
     ["Removal rate", "cm³/min", n("removal_cm3_min"), "removal_cm3_min"],
   ];
-  if (cut.removal_cm3_min > 0) rows.push(["Power for removal rate", "N/mm²", formatNumber((cut.power_kw * 6e4) / cut.removal_cm3_min)]);
+  if (cut.removal_cm3_min > 0)
+    rows.push(["Power for removal rate", "N/mm²", formatNumber((cut.power_kw * 6e4) / cut.removal_cm3_min)]);
   if (cut.kc11_n_mm2) rows.splice(1, 0, ["k_c1.1; m_c", "N/mm²; 1", `${n("kc11_n_mm2", 4)}; ${n("mc")}`]);
-  if (cut.made_at_chip_mm) rows.splice(cut.kc11_n_mm2 ? 2 : 1, 0, ["Made at chip thickness", lengthUnit(), length("made_at_chip_mm"), "made_at_chip_mm"]);
-  if (cut.tool_bending_um_n) rows.splice(1, 0, ["Bends at the tip by", "µm/N", n("tool_bending_um_n"), "tool_bending_um_n"]);
+  if (cut.made_at_chip_mm)
+    rows.splice(cut.kc11_n_mm2 ? 2 : 1, 0, [
+      "Made at chip thickness",
+      lengthUnit(),
+      length("made_at_chip_mm"),
+      "made_at_chip_mm",
+    ]);
+  if (cut.tool_bending_um_n)
+    rows.splice(1, 0, ["Bends at the tip by", "µm/N", n("tool_bending_um_n"), "tool_bending_um_n"]);
   if (cut.spread_percent) rows.push(["Coefficients are known to", "%", `±${n("spread_percent")}`, "spread_percent"]);
   return rows;
 }
@@ -111,12 +145,24 @@ function showWalls(walls, passing) {
     return td;
   };
   const row = (name, force, mean, max) =>
-    make("tr", {}, make("th", { scope: "row" }, name), force === null ? make("td", {}, "") : cell(force, forceText), cell(mean, errorText), max === null ? make("td", {}, "") : cell(max, errorText));
+    make(
+      "tr",
+      {},
+      make("th", { scope: "row" }, name),
+      force === null ? make("td", {}, "") : cell(force, forceText),
+      cell(mean, errorText),
+      max === null ? make("td", {}, "") : cell(max, errorText),
+    );
   const rows = walls.flatMap((wall) => {
     const which = walls.length === 1 ? "" : wall.side > 0 ? " (left wall)" : " (right wall)";
     return [
       row(`By the mean force${which}`, wall.mean_force_n, wall.by_mean_force_mm, wall.by_mean_force_max_mm),
-      row(`At the instant that makes the wall${which}`, wall.instant_force_n, wall.at_instant_mm, wall.at_instant_max_mm),
+      row(
+        `At the instant that makes the wall${which}`,
+        wall.instant_force_n,
+        wall.at_instant_mm,
+        wall.at_instant_max_mm,
+      ),
       row(`Left if the mean is compensated${which}`, null, wall.at_instant_mm - wall.by_mean_force_mm, null),
     ];
   });

@@ -2,7 +2,10 @@
 
 export const byId = (id) => document.getElementById(id);
 
-/** An element with properties (or attributes, where the name has a dash or is `role`) and children. Text children stay text. */
+/**
+ * An element with properties (or attributes, where the name has a dash or is `role`) and children.
+ * Text children stay text.
+ */
 export function make(tag, props = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(props)) {

@@ -1,6 +1,6 @@
-// One editor per kind of field. An editor is
-//   { node, inputs, read(), write(value), at(rest), mark(line), step(count) }
-// of which mark is for texts and step for numbers alone. read() gives the value or throws a Mistake; at(rest) gives the input that an error path such as "[1].a_mm" means.
+// One editor per kind of field. An editor is { node, inputs, read(), write(value), at(rest),
+// mark(line), step(count) } of which mark is for texts and step for numbers alone. read() gives the
+// value or throws a Mistake; at(rest) gives the input that an error path such as "[1].a_mm" means.
 
 import { make } from "./dom.js";
 import { listing } from "./listing.js";
@@ -42,7 +42,12 @@ function single(field, input, read, write) {
 function number(field) {
   const whole = field.kind === "integer";
   const input = numberInput(idOf(field.path), whole);
-  const editor = single(field, input, () => typedNumber(input, whole), (value) => (input.value = plainNumber(value)));
+  const editor = single(
+    field,
+    input,
+    () => typedNumber(input, whole),
+    (value) => (input.value = plainNumber(value)),
+  );
   return { ...editor, step: (count) => step(input, count, whole) };
 }
 
@@ -57,7 +62,9 @@ function numberInput(id, whole = false) {
   return input;
 }
 
-/** Changes a number by some steps at once: an "input" whose detail says that nothing is being typed. */
+/**
+ * Changes a number by some steps at once: an "input" whose detail says that nothing is being typed.
+ */
 function step(input, count, whole) {
   let value = parseNumber(input.value);
   if (Number.isNaN(value)) return;
@@ -79,10 +86,16 @@ function typedNumber(input, whole = false) {
 function numberOrWord(field, { value: word, label }) {
   const input = numberInput(idOf(field.path));
   const box = make("input", { type: "checkbox", id: `${idOf(field.path)}-${word}` });
-  const node = make("div", { className: "number-or-word" }, input, make("label", { className: "check", for: box.id }, box, label));
+  const node = make(
+    "div",
+    { className: "number-or-word" },
+    input,
+    make("label", { className: "check", for: box.id }, box, label),
+  );
   box.addEventListener("input", () => {
     input.disabled = box.checked;
-    if (!box.checked && input.value === "") input.value = plainNumber(typeof field.default === "number" ? field.default : field.min ?? 0);
+    if (!box.checked && input.value === "")
+      input.value = plainNumber(typeof field.default === "number" ? field.default : (field.min ?? 0));
   });
   return {
     node,
@@ -107,12 +120,21 @@ function choice(field) {
     }
     (groups.get(heading) ?? input).append(make("option", { value }, label));
   }
-  return single(field, input, () => input.value, (value) => (input.value = value));
+  return single(
+    field,
+    input,
+    () => input.value,
+    (value) => (input.value = value),
+  );
 }
 
 function checkboxes(field) {
-  const inputs = field.choices.map(({ value }) => make("input", { type: "checkbox", value, id: `${idOf(field.path)}-${value}` }));
-  const labels = field.choices.map(({ label }, i) => make("label", { className: "check", for: inputs[i].id }, inputs[i], label));
+  const inputs = field.choices.map(({ value }) =>
+    make("input", { type: "checkbox", value, id: `${idOf(field.path)}-${value}` }),
+  );
+  const labels = field.choices.map(({ label }, i) =>
+    make("label", { className: "check", for: inputs[i].id }, inputs[i], label),
+  );
   return {
     node: make("div", { id: idOf(field.path), className: "checks", role: "group" }, ...labels),
     inputs,
@@ -123,10 +145,16 @@ function checkboxes(field) {
 }
 
 function vector(field) {
-  const names = field.path.endsWith("range_deg") ? ["from", "to"] : field.path.endsWith("rpy_deg") ? ["roll", "pitch", "yaw"] : ["x", "y", "z"];
+  const names = field.path.endsWith("range_deg")
+    ? ["from", "to"]
+    : field.path.endsWith("rpy_deg")
+      ? ["roll", "pitch", "yaw"]
+      : ["x", "y", "z"];
   const id = idOf(field.path);
   const inputs = names.map((name) => numberInput(`${id}-${name}`));
-  const parts = names.map((name, i) => make("label", { className: "part", for: inputs[i].id }, make("span", {}, name), inputs[i]));
+  const parts = names.map((name, i) =>
+    make("label", { className: "part", for: inputs[i].id }, make("span", {}, name), inputs[i]),
+  );
   return {
     node: make("div", { id, className: "vector", role: "group" }, ...parts),
     inputs,
@@ -136,11 +164,14 @@ function vector(field) {
   };
 }
 
-/** A table with as many rows as its default: rows of named numbers, of numbers, or single numbers. */
+/**
+ * A table with as many rows as its default: rows of named numbers, of numbers, or single numbers.
+ */
 function table(field) {
   const id = idOf(field.path);
   const sample = field.default[0];
-  const columns = typeof sample !== "object" ? [null] : Object.keys(sample).sort((a, b) => DH_ORDER.indexOf(a) - DH_ORDER.indexOf(b));
+  const columns =
+    typeof sample !== "object" ? [null] : Object.keys(sample).sort((a, b) => DH_ORDER.indexOf(a) - DH_ORDER.indexOf(b));
   const heads = columns[0] === null ? [""] : Array.isArray(sample) ? ["lowest", "highest"] : columns.map(heading);
   const rowName = (row) => (field.path.startsWith("robot.") ? `J${row + 1}` : `${row + 1}`);
   const cells = field.default.map((_, row) =>
@@ -153,7 +184,10 @@ function table(field) {
   const body = cells.map((row, i) =>
     make("tr", {}, make("th", { scope: "row" }, rowName(i)), ...row.map((input) => make("td", {}, input))),
   );
-  const head = columns[0] === null ? "" : make("thead", {}, make("tr", {}, make("td"), ...heads.map((name) => make("th", { scope: "col" }, name))));
+  const head =
+    columns[0] === null
+      ? ""
+      : make("thead", {}, make("tr", {}, make("td"), ...heads.map((name) => make("th", { scope: "col" }, name))));
   return {
     node: make("table", { id, className: "cells" }, head, make("tbody", {}, ...body)),
     inputs: cells.flat(),
@@ -164,10 +198,14 @@ function table(field) {
         return Array.isArray(sample) ? values : Object.fromEntries(columns.map((key, i) => [key, values[i]]));
       }),
     write: (rows) =>
-      cells.forEach((row, i) => row.forEach((input, c) => (input.value = plainNumber(columns[c] === null ? rows[i] : rows[i]?.[columns[c]])))),
+      cells.forEach((row, i) =>
+        row.forEach((input, c) => (input.value = plainNumber(columns[c] === null ? rows[i] : rows[i]?.[columns[c]]))),
+      ),
     at(rest) {
       const row = cells[indexIn(rest)] ?? cells[0];
-      const column = columns.findIndex((key) => key !== null && (rest.endsWith(`.${key}`) || rest.endsWith(`][${key}]`)));
+      const column = columns.findIndex(
+        (key) => key !== null && (rest.endsWith(`.${key}`) || rest.endsWith(`][${key}]`)),
+      );
       return row[Math.max(0, column)];
     },
   };
@@ -178,15 +216,32 @@ function lengths(field) {
   const id = idOf(field.path);
   const scalars = Object.keys(field.default).filter((key) => key.endsWith("_mm"));
   const inputs = scalars.map((key) => numberInput(`${id}-${key}`));
-  const parts = scalars.map((key, i) => make("label", { className: "part", for: inputs[i].id }, make("span", {}, key.replace("_mm", "")), inputs[i]));
-  const joints = table({ path: field.path, default: field.default.joint_sign.map((sign, i) => ({ joint_sign: sign, offset_deg: field.default.joint_offset_deg[i] })) });
+  const parts = scalars.map((key, i) =>
+    make("label", { className: "part", for: inputs[i].id }, make("span", {}, key.replace("_mm", "")), inputs[i]),
+  );
+  const joints = table({
+    path: field.path,
+    default: field.default.joint_sign.map((sign, i) => ({
+      joint_sign: sign,
+      offset_deg: field.default.joint_offset_deg[i],
+    })),
+  });
   return {
-    node: make("div", { id: `${id}-lengths`, role: "group" }, make("div", { className: "vector lengths" }, ...parts), joints.node),
+    node: make(
+      "div",
+      { id: `${id}-lengths`, role: "group" },
+      make("div", { className: "vector lengths" }, ...parts),
+      joints.node,
+    ),
     inputs: [...inputs, ...joints.inputs],
     read() {
       const rows = joints.read();
       const values = scalars.map((key, i) => [key, typedNumber(inputs[i])]);
-      return { ...Object.fromEntries(values), joint_sign: rows.map((row) => row.joint_sign), joint_offset_deg: rows.map((row) => row.offset_deg) };
+      return {
+        ...Object.fromEntries(values),
+        joint_sign: rows.map((row) => row.joint_sign),
+        joint_offset_deg: rows.map((row) => row.offset_deg),
+      };
     },
     write(value) {
       scalars.forEach((key, i) => (inputs[i].value = plainNumber(value[key])));
@@ -194,26 +249,54 @@ function lengths(field) {
     },
     at(rest) {
       const scalar = inputs[scalars.findIndex((key) => rest.startsWith(`.${key}`))];
-      return scalar ?? joints.at(rest.replace(/^\.joint_(sign|offset_deg)(\[\d+\])$/, (_, key, row) => `${row}.${key === "sign" ? "joint_sign" : key}`));
+      return (
+        scalar ??
+        joints.at(
+          rest.replace(
+            /^\.joint_(sign|offset_deg)(\[\d+\])$/,
+            (_, key, row) => `${row}.${key === "sign" ? "joint_sign" : key}`,
+          ),
+        )
+      );
     },
   };
 }
 
 function text(field) {
   const input = make("input", { id: idOf(field.path), spellcheck: false, type: "text" });
-  return single(field, input, () => input.value, (value) => (input.value = value));
+  return single(
+    field,
+    input,
+    () => input.value,
+    (value) => (input.value = value),
+  );
 }
 
 /** The text of a program, of which there is one. */
 function program() {
-  return { node: listing.node, inputs: listing.inputs, read: () => listing.text, write: (text) => (listing.text = text), at: () => listing.input, mark: (line) => listing.mark(line) };
+  return {
+    node: listing.node,
+    inputs: listing.inputs,
+    read: () => listing.text,
+    write: (text) => (listing.text = text),
+    at: () => listing.input,
+    mark: (line) => listing.mark(line),
+  };
 }
 
 /** Rows of as many numbers as `names`, a line each. */
 function rows(field, names) {
-  const input = make("textarea", { id: idOf(field.path), rows: field.default.length ? 8 : 2, spellcheck: false, placeholder: names.join(", ") });
+  const input = make("textarea", {
+    id: idOf(field.path),
+    rows: field.default.length ? 8 : 2,
+    spellcheck: false,
+    placeholder: names.join(", "),
+  });
   const read = () => {
-    const lines = input.value.split("\n").map((line, i) => ({ line: line.trim(), number: i + 1 })).filter(({ line }) => line);
+    const lines = input.value
+      .split("\n")
+      .map((line, i) => ({ line: line.trim(), number: i + 1 }))
+      .filter(({ line }) => line);
     return lines.map(({ line, number }) => {
       const values = line.split(line.includes(";") ? ";" : /[,\s]+/).map((part) => parseNumber(part));
       if (values.length !== names.length || values.some(Number.isNaN)) {

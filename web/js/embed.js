@@ -1,5 +1,5 @@
-// The calculator as a guest of another page. What to compute and to show stands in the fragment, as armill-calculator.js writes it;
-// nothing is stored, and no message is listened to.
+// The calculator as a guest of another page. What to compute and to show stands in the fragment, as
+// armill-calculator.js writes it; nothing is stored, and no message is listened to.
 
 import * as core from "./core.js";
 import { showBudget } from "./budget.js";
@@ -68,7 +68,10 @@ const events = {
     alertOn(`${error.message}${error.line ? ` (line ${error.line}, column ${error.column})` : ""}`);
   },
   oncancel: () => {},
-  ontrap: (error) => (error.code === "load" ? cannotStart(error) : alertOn(`The core stopped unexpectedly and was started again; your inputs are kept. (${error.message})`)),
+  ontrap: (error) =>
+    error.code === "load"
+      ? cannotStart(error)
+      : alertOn(`The core stopped unexpectedly and was started again; your inputs are kept. (${error.message})`),
 };
 
 function cannotStart(error) {
@@ -78,7 +81,10 @@ function cannotStart(error) {
 
 function show({ verdict, before_mm, after_mm, fingerprint }) {
   byId("verdict").textContent = verdict;
-  for (const [row, { mean, max }] of [[".before", before_mm.both], [".after", after_mm]]) {
+  for (const [row, { mean, max }] of [
+    [".before", before_mm.both],
+    [".after", after_mm],
+  ]) {
     const cells = byId("figures").querySelectorAll(`${row} td`);
     [mean, max].forEach((value, i) => {
       cells[i].textContent = errorText(value);
@@ -98,14 +104,16 @@ async function link() {
 /** Shows the parts asked for, in the units asked for. */
 function furnish() {
   lend(options.units);
-  for (const unit of document.querySelectorAll("[data-unit]")) unit.textContent = unit.dataset.unit === "force" ? forceUnit() : lengthUnit();
+  for (const unit of document.querySelectorAll("[data-unit]"))
+    unit.textContent = unit.dataset.unit === "force" ? forceUnit() : lengthUnit();
   for (const part of ["scene", "budget"]) byId(part).hidden = !options.show.includes(part);
   if (options.show.includes("scene")) scene = makeScene(byId("scene"));
 }
 
 /** Tells the page around how high this one is. That is no secret, so it may be any page. */
 function tellHeight() {
-  const tell = () => parent.postMessage({ type: "armill-height", height: document.body.getBoundingClientRect().height }, "*");
+  const tell = () =>
+    parent.postMessage({ type: "armill-height", height: document.body.getBoundingClientRect().height }, "*");
   new ResizeObserver(tell).observe(document.body);
 }
 

@@ -1,4 +1,5 @@
-// The files that this page has beside it. The one-file page has its own version of this module and finds them inside itself.
+// The files that this page has beside it. The one-file page has its own version of this module and
+// finds them inside itself.
 
 const urlOf = (path) => new URL(`../${path}`, import.meta.url);
 

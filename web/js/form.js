@@ -25,7 +25,10 @@ export class Form {
   #robots; // id -> preset
   #groups = new Map();
 
-  /** Fills `parent`; `onchange` is called after every edit, with the field's path while it is typed into. */
+  /**
+   * Fills `parent`; `onchange` is called after every edit, with the field's path while it is typed
+   * into.
+   */
   constructor(parent, job, fields, presets, onchange) {
     this.#job = job;
     this.#onchange = onchange;
@@ -57,14 +60,20 @@ export class Form {
   /** What was typed and is not a value: path of the field -> what each of its inputs holds. */
   get typed() {
     const flawed = this.#rows.filter((row) => row.mistake);
-    return Object.fromEntries(flawed.map(({ field, editor }) => [field.path, editor.inputs.map((input) => (isBox(input) ? input.checked : input.value))]));
+    return Object.fromEntries(
+      flawed.map(({ field, editor }) => [
+        field.path,
+        editor.inputs.map((input) => (isBox(input) ? input.checked : input.value)),
+      ]),
+    );
   }
 
   /** Shows another job: whatever was wrong before is forgotten, `typed` takes its place. */
   reload(typed = {}) {
     for (const row of this.#rows) this.#setError(row, "");
     this.refresh();
-    for (const row of this.#rows) if (typed[row.field.path] && !row.node.hidden) this.#retype(row, typed[row.field.path]);
+    for (const row of this.#rows)
+      if (typed[row.field.path] && !row.node.hidden) this.#retype(row, typed[row.field.path]);
     this.#digest();
   }
 
@@ -83,7 +92,8 @@ export class Form {
       row.node.hidden = !this.#job.shows(row.field);
       if (row.node.hidden) this.#setError(row, "");
       if (row.mistake && !row.node.hidden) continue;
-      if (!row.editor.inputs.includes(document.activeElement) || !this.#says(row)) row.editor.write(this.#job.get(row.field));
+      if (!row.editor.inputs.includes(document.activeElement) || !this.#says(row))
+        row.editor.write(this.#job.get(row.field));
       this.#decorate(row);
     }
     this.#digest();
@@ -139,7 +149,9 @@ export class Form {
     const row = { field, editor, node, reset, error, note, notes, mistake: false };
     // Some assistive tools and drivers choose an option with "change" alone.
     const kind = editor.inputs[0].tagName === "SELECT" ? "change" : "input";
-    node.addEventListener(kind, ({ target, detail }) => this.#edited(row, kind === "change" || isBox(target) ? undefined : field.path, detail === "stepped"));
+    node.addEventListener(kind, ({ target, detail }) =>
+      this.#edited(row, kind === "change" || isBox(target) ? undefined : field.path, detail === "stepped"),
+    );
     if (editor.step) scrub(title, (count) => editor.step(count));
     reset.addEventListener("click", () => {
       this.#setError(row, "");
@@ -231,8 +243,15 @@ export class Form {
       const rows = this.#rows.filter(({ field, node }) => field.group === name && !node.hidden);
       const broken = rows.some((row) => row.error.textContent);
       details.classList.toggle("broken", broken);
-      const telling = rows.filter(({ field }, i) => i === 0 || (i === 1 && !field.choices) || (i === 2 && rows[1].field.kind === "vector"));
-      digest.textContent = broken ? "needs a look" : telling.map(({ field }) => brief(field, this.#job.get(field))).filter(Boolean).join(", ");
+      const telling = rows.filter(
+        ({ field }, i) => i === 0 || (i === 1 && !field.choices) || (i === 2 && rows[1].field.kind === "vector"),
+      );
+      digest.textContent = broken
+        ? "needs a look"
+        : telling
+            .map(({ field }) => brief(field, this.#job.get(field)))
+            .filter(Boolean)
+            .join(", ");
     }
   }
 
@@ -246,7 +265,11 @@ export class Form {
 
 /** Shows and hides a field's help. Screen readers have it with the field in either case. */
 function helpButton(field, help) {
-  const button = make("button", { type: "button", className: "explain", "aria-expanded": "false", "aria-controls": help.id }, "?");
+  const button = make(
+    "button",
+    { type: "button", className: "explain", "aria-expanded": "false", "aria-controls": help.id },
+    "?",
+  );
   button.setAttribute("aria-label", `Explain ${field.label}`);
   button.addEventListener("click", () => {
     help.hidden = !help.hidden;

@@ -1,4 +1,5 @@
-// What a host page asks the embedded calculator for: read from the fragment, and refused where it makes no sense.
+// What a host page asks the embedded calculator for: read from the fragment, and refused where it
+// makes no sense.
 
 import { readText } from "./files.js";
 import { jobIn } from "./link.js";
@@ -44,7 +45,8 @@ async function put(name, job, { robots, materials }) {
     const examples = JSON.parse(await readText("examples/index.json"));
     const nameOf = ({ file }) => file.replace(/\.\w+$/, "");
     const example = examples.find((each) => nameOf(each) === name);
-    if (!example) throw unknown("preset", name, [...robots, ...materials].map(({ id }) => id).concat(examples.map(nameOf)));
+    if (!example)
+      throw unknown("preset", name, [...robots, ...materials].map(({ id }) => id).concat(examples.map(nameOf)));
     job.path = { kind: example.kind, text: await readText(`examples/${example.file}`) };
   }
 }
@@ -52,7 +54,13 @@ async function put(name, job, { robots, materials }) {
 /** The fields to show: those named, and those of groups named. */
 export function fieldsIn(fields, inputs) {
   const names = new Set(fields.flatMap(({ group, path }) => [group, path]));
-  return chosen("inputs", fields, inputs, [...names], ({ group, path }, name) => name === "all" || name === group || path === name || path.startsWith(`${name}.`));
+  return chosen(
+    "inputs",
+    fields,
+    inputs,
+    [...names],
+    ({ group, path }, name) => name === "all" || name === group || path === name || path.startsWith(`${name}.`),
+  );
 }
 
 /** The charts to show: those named, and those of views named. */
@@ -71,4 +79,5 @@ function chosen(option, items, asked, legal, picks) {
   return [...new Set(found)];
 }
 
-const unknown = (option, value, legal) => new Error(`This calculator is asked for ${option} "${value}", which is none of ${legal.join(", ")}.`);
+const unknown = (option, value, legal) =>
+  new Error(`This calculator is asked for ${option} "${value}", which is none of ${legal.join(", ")}.`);

@@ -1,4 +1,5 @@
-// Undo and redo over states of the inputs. A state is plain data that is never changed once it is recorded.
+// Undo and redo over states of the inputs. A state is plain data that is never changed once it is
+// recorded.
 
 const MOST = 200; // steps
 
@@ -7,13 +8,16 @@ export class History {
   #at = -1;
   #group; // edits of the same group are one step
 
-  /** Records what is now. Typing in one field, named by `group`, is one step until `rest` is called. */
+  /**
+   * Records what is now. Typing in one field, named by `group`, is one step until `rest` is called.
+   */
   record(state, group) {
     if (same(state, this.#states[this.#at])) return;
     this.#states.length = this.#at + 1;
     if (group !== undefined && group === this.#group) this.#states.pop();
     this.#group = group;
-    if (same(state, this.#states.at(-1))) this.#group = undefined; // typed, and taken back
+    if (same(state, this.#states.at(-1)))
+      this.#group = undefined; // typed, and taken back
     else this.#states.push(state);
     if (this.#states.length > MOST) this.#states.shift();
     this.#at = this.#states.length - 1;
@@ -32,7 +36,10 @@ export class History {
     return this.#at < this.#states.length - 1;
   }
 
-  /** The state before (`step` -1) or after (1) this one, which it becomes; undefined if there is none. */
+  /**
+   * The state before (`step` -1) or after (1) this one, which it becomes; undefined if there is
+   * none.
+   */
   move(step) {
     const state = this.#states[this.#at + step];
     if (state === undefined) return undefined;
@@ -42,7 +49,10 @@ export class History {
   }
 }
 
-/** Whether two values of plain data are equal. Long texts are shared between states, so this is quick. */
+/**
+ * Whether two values of plain data are equal. Long texts are shared between states, so this is
+ * quick.
+ */
 function same(a, b) {
   if (a === b) return true;
   if (typeof a !== "object" || typeof b !== "object" || !a || !b) return false;

@@ -1,8 +1,10 @@
-// The job as the page holds it: a plain object in the shape of the job file, read and written by path.
+// The job as the page holds it: a plain object in the shape of the job file, read and written by
+// path.
 //
-// Some parts of a job take one of several shapes: a robot or material by preset or by numbers, a path of some kind,
-// a shaper or "none". A choice ending in `.preset` or `.kind` decides; the other fields of that part name in `when`
-// what they need: a value of that choice, or the state of the part itself ("preset", "table", "opw", "kienzle" or "hz").
+// Some parts of a job take one of several shapes: a robot or material by preset or by numbers, a
+// path of some kind, a shaper or "none". A choice ending in `.preset` or `.kind` decides; the other
+// fields of that part name in `when` what they need: a value of that choice, or the state of the
+// part itself ("preset", "table", "opw", "kienzle" or "hz").
 
 const MOST_POINTS = 5000; // in a field of their own: browsers take seconds to lay out more
 const TURN = 2 * Math.PI;
@@ -80,7 +82,8 @@ export class Job {
     this.#write(field.path, value);
     // What the choice asks for starts as the form shows it.
     for (const { path, when, default: standard } of this.#fields) {
-      if (when?.path === field.path && when.is.includes(value) && this.#read(path) === undefined) this.#write(path, structuredClone(standard));
+      if (when?.path === field.path && when.is.includes(value) && this.#read(path) === undefined)
+        this.#write(path, structuredClone(standard));
     }
   }
 
@@ -94,7 +97,9 @@ export class Job {
   changed(field) {
     if (this.#read(parentOf(field.path))?.preset && !decides(field)) return this.#overrules(field);
     const value = this.get(field);
-    return typeof value === "string" ? value !== field.default : JSON.stringify(value) !== JSON.stringify(field.default);
+    return typeof value === "string"
+      ? value !== field.default
+      : JSON.stringify(value) !== JSON.stringify(field.default);
   }
 
   /** Another job of the same kind, from its plain object. */
@@ -102,7 +107,10 @@ export class Job {
     return new Job(data, this.#fields, { robots: this.#presets.robot, materials: this.#presets.material });
   }
 
-  /** The fields in which another job, a plain object, differs: [{ field, own, other }]; undefined where there is no such field. */
+  /**
+   * The fields in which another job, a plain object, differs: [{ field, own, other }]; undefined
+   * where there is no such field.
+   */
   differences(data) {
     const other = this.of(data);
     return this.#fields.flatMap((field) => {
@@ -158,7 +166,10 @@ export class Job {
     return other !== undefined && this.#read(other) !== undefined;
   }
 
-  /** Whether a part with the `known` keys gives the quantity by this field's twin; rad/s unless Hz is known. */
+  /**
+   * Whether a part with the `known` keys gives the quantity by this field's twin; rad/s unless Hz
+   * is known.
+   */
   #inOtherUnit(field, known) {
     if (!this.otherUnit(field)) return false;
     return field.path.endsWith("_hz") !== known.has("frequency_hz");
@@ -213,7 +224,10 @@ export class Job {
   }
 }
 
-/** A job whose polyline is too long for a text field has its points as rows of a program, the same path. */
+/**
+ * A job whose polyline is too long for a text field has its points as rows of a program, the same
+ * path.
+ */
 function listed(job) {
   const { kind, points_mm } = job.path ?? {};
   if (kind !== "polyline" || !(points_mm?.length > MOST_POINTS)) return job;

@@ -1,12 +1,16 @@
-// A job as a link: the whole of it in the fragment, which a browser keeps to itself, as `#job=1.<compressed JSON>`.
+// A job as a link: the whole of it in the fragment, which a browser keeps to itself, as
+// `#job=1.<compressed JSON>`.
 //
-// The compression is zlib's ("deflate"), because its checksum tells a damaged link from a whole one; base64url has no
-// character that a mail program would break a link at.
+// The compression is zlib's ("deflate"), because its checksum tells a damaged link from a whole
+// one; base64url has no character that a mail program would break a link at.
 
 const FORMAT = 1;
 const LARGEST = 4_000_000; // bytes of JSON: what unfolds to more is refused, for a few kB can be made to unfold to gigabytes
 
-/** Characters of the longest link that is handed out. Browsers take far more; mail and chat programs cut or refuse it. */
+/**
+ * Characters of the longest link that is handed out. Browsers take far more; mail and chat programs
+ * cut or refuse it.
+ */
 export const LONGEST_LINK = 8000;
 
 /** Whether a fragment means to be a job. */
@@ -18,11 +22,15 @@ export async function fragmentOf(json) {
   return `job=${FORMAT}.${toBase64(bytes)}`;
 }
 
-/** The JSON text of the job in a fragment. Rejects with `{ code: "link", message }` if there is none to be had. */
+/**
+ * The JSON text of the job in a fragment. Rejects with `{ code: "link", message }` if there is none
+ * to be had.
+ */
 export async function jobIn(fragment) {
   const [, format, body] = /^#?job=(\d+)\.([\w-]*)$/.exec(fragment) ?? [];
   if (format === undefined) throw broken("it is not of the form #job=1.… with letters, digits, - and _ only");
-  if (Number(format) > FORMAT) throw broken(`it was made by a newer Armill (format ${format}; this one reads format ${FORMAT})`);
+  if (Number(format) > FORMAT)
+    throw broken(`it was made by a newer Armill (format ${format}; this one reads format ${FORMAT})`);
   if (Number(format) < 1) throw broken(`there is no format ${format}`);
   let bytes;
   try {
@@ -58,7 +66,10 @@ async function read(stream, most = Infinity) {
 }
 
 const toBase64 = (bytes) =>
-  btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join("")).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
+  btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""))
+    .replaceAll("+", "-")
+    .replaceAll("/", "_")
+    .replace(/=+$/, "");
 
 const fromBase64 = (text) =>
   Uint8Array.from(atob(text.replaceAll("-", "+").replaceAll("_", "/")), (character) => character.charCodeAt(0));

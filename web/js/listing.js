@@ -1,5 +1,6 @@
-// The text of a program. A short one is typed into a textarea. Browsers lay out megabytes in a textarea for half a minute and again with
-// every change, so a long one is kept aside, and only as many of its lines as fit are shown.
+// The text of a program. A short one is typed into a textarea. Browsers lay out megabytes in a
+// textarea for half a minute and again with every change, so a long one is kept aside, and only as
+// many of its lines as fit are shown.
 
 import { make } from "./dom.js";
 
@@ -9,7 +10,13 @@ const KEYS = { ArrowUp: -1, ArrowDown: 1, PageUp: -10, PageDown: 10, Home: -Infi
 
 class Listing {
   #area;
-  #window = make("div", { className: "window", tabIndex: 0, role: "listbox", hidden: true, "aria-label": "Program, line by line" });
+  #window = make("div", {
+    className: "window",
+    tabIndex: 0,
+    role: "listbox",
+    hidden: true,
+    "aria-label": "Program, line by line",
+  });
   #spacer = make("div", { className: "spacer" });
   #rows = make("div", { className: "rows", role: "presentation" });
   #about = make("p", { className: "note" });
@@ -29,7 +36,9 @@ class Listing {
     this.node = make("div", { className: "listing" }, this.#area, this.#window, this.#about);
     this.inputs = [this.#area, this.#window];
     this.#window.addEventListener("scroll", () => this.#draw());
-    this.#window.addEventListener("click", ({ target }) => this.#point(Number(target.closest("[data-line]")?.dataset.line)));
+    this.#window.addEventListener("click", ({ target }) =>
+      this.#point(Number(target.closest("[data-line]")?.dataset.line)),
+    );
     this.#window.addEventListener("keydown", (event) => {
       const step = KEYS[event.key];
       if (!step || event.altKey || event.ctrlKey || event.metaKey) return;
@@ -113,7 +122,8 @@ class Listing {
     if (!line) return;
     this.#line = line;
     const top = this.#top;
-    if (line <= top || line >= top + this.#visible) this.#window.scrollTop = (line - (line <= top ? 1 : this.#visible - 1)) * this.#pitch;
+    if (line <= top || line >= top + this.#visible)
+      this.#window.scrollTop = (line - (line <= top ? 1 : this.#visible - 1)) * this.#pitch;
     this.#draw();
     this.#onpoint(line);
   }
@@ -125,25 +135,33 @@ class Listing {
 
   /** The first line that is shown, from 0. */
   get #top() {
-    return Math.max(0, Math.min(this.#starts.length - this.#visible + 1, Math.round(this.#window.scrollTop / this.#pitch)));
+    return Math.max(
+      0,
+      Math.min(this.#starts.length - this.#visible + 1, Math.round(this.#window.scrollTop / this.#pitch)),
+    );
   }
 
   #show() {
     const lines = this.#starts?.length;
     const size = `${(this.#text.length / 1e6).toFixed(1)} MB`;
     const name = this.#name && `${this.#name}: `;
-    this.#about.textContent = lines ? `${name}${lines.toLocaleString("en").replaceAll(",", "\u202f")} lines, ${size}. Too long to type into; open the file again after a change.` : "";
+    this.#about.textContent = lines
+      ? `${name}${lines.toLocaleString("en").replaceAll(",", "\u202f")} lines, ${size}. Too long to type into; open ` +
+        `the file again after a change.`
+      : "";
     if (!lines) return this.#rows.replaceChildren();
     this.#draw();
     this.#height = this.#rows.firstChild?.offsetHeight || this.#height;
     this.#visible = Math.max(1, Math.ceil(this.#window.clientHeight / this.#height));
-    this.#spacer.style.setProperty("height", `${lines * this.#pitch + this.#window.clientHeight % this.#height}px`);
+    this.#spacer.style.setProperty("height", `${lines * this.#pitch + (this.#window.clientHeight % this.#height)}px`);
     this.#draw();
   }
 
   #draw() {
     const from = this.#top;
-    const shown = Array.from({ length: Math.min(this.#visible, this.#starts.length - from) }, (_, i) => this.#row(from + i));
+    const shown = Array.from({ length: Math.min(this.#visible, this.#starts.length - from) }, (_, i) =>
+      this.#row(from + i),
+    );
     this.#rows.replaceChildren(...shown);
     const active = shown.find((row) => row.id);
     if (active) this.#window.setAttribute("aria-activedescendant", active.id);
@@ -151,9 +169,17 @@ class Listing {
   }
 
   #row(index) {
-    const line = this.#text.slice(this.#starts[index], Math.min(this.#starts[index + 1] ?? Infinity, this.#starts[index] + 200));
+    const line = this.#text.slice(
+      this.#starts[index],
+      Math.min(this.#starts[index + 1] ?? Infinity, this.#starts[index] + 200),
+    );
     const at = index + 1 === this.#line;
-    const row = make("div", { role: "option", "aria-selected": String(at) }, make("span", { className: "unit" }, String(index + 1)), ` ${line.trimEnd()}`);
+    const row = make(
+      "div",
+      { role: "option", "aria-selected": String(at) },
+      make("span", { className: "unit" }, String(index + 1)),
+      ` ${line.trimEnd()}`,
+    );
     row.dataset.line = String(index + 1);
     if (at) row.id = `${this.#window.id}-line`;
     return row;
@@ -166,6 +192,7 @@ export const listing = new Listing("path-text");
 /** Where each line of a text starts. */
 function linesOf(text) {
   const starts = [0];
-  for (let at = text.indexOf("\n"); at >= 0 && at + 1 < text.length; at = text.indexOf("\n", at + 1)) starts.push(at + 1);
+  for (let at = text.indexOf("\n"); at >= 0 && at + 1 < text.length; at = text.indexOf("\n", at + 1))
+    starts.push(at + 1);
   return starts;
 }

@@ -30,14 +30,22 @@ const PUSHED = 4000; // samples of a run that follows a number while it is pushe
 const COARSE_S = 0.005; // but no further apart than this
 const PATIENCE_MS = 150; // a run that takes longer shows its progress
 const READ_BACK = ["gcode", "apt", "path-csv"]; // programs that Armill reads itself
-const SILENCE_MS = 30_000; // of a run that has begun and was not heard of for so long the page says so: nobody tells it that a Worker was taken away
+// Of a run that has begun and was not heard of for so long the page says so: nobody tells it that a
+// Worker was taken away
+const SILENCE_MS = 30_000;
 
 await begun;
 
 const results = byId("results");
 const scene = makeScene(byId("scene"));
-const placement = makePlacement(byId("placement"), { job: () => job && JSON.parse(job.json), use: (moved) => session.load(moved) });
-const identify = makeIdentify(byId("identify"), { job: () => JSON.parse(job.json), use: (changed) => session.load(changed) });
+const placement = makePlacement(byId("placement"), {
+  job: () => job && JSON.parse(job.json),
+  use: (moved) => session.load(moved),
+});
+const identify = makeIdentify(byId("identify"), {
+  job: () => JSON.parse(job.json),
+  use: (changed) => session.load(changed),
+});
 let job;
 let form;
 let session;
@@ -53,7 +61,8 @@ const state = (name) => (results.dataset.state = name);
 const say = (text) => (byId("status").textContent = text);
 const armView = makeArmView((json) => core.armAtZero(json));
 const computing = () => (shown?.preview ? "A preview; computing" : "Computing");
-const lastValid = () => (shown?.preview ? " Showing a preview with fewer samples." : shown ? " Showing the last valid result." : "");
+const lastValid = () =>
+  shown?.preview ? " Showing a preview with fewer samples." : shown ? " Showing the last valid result." : "";
 
 const computeNow = () => {
   if (form.flawed) return;
@@ -63,7 +72,9 @@ const computeNow = () => {
 };
 const compute = debounced(computeNow, TYPING_MS);
 
-/** Has a long run follow a number that is pushed with fewer samples; all of them come when it rests. */
+/**
+ * Has a long run follow a number that is pushed with fewer samples; all of them come when it rests.
+ */
 function computeSoon() {
   const time = job.sampleTime;
   const every = Math.floor(Math.min(shown.summary.duration_s / PUSHED, COARSE_S) / time);
@@ -74,7 +85,10 @@ function computeSoon() {
   compute();
 }
 
-/** After every edit: compute, or say what is wrong and keep the last result. A number that is pushed is complete at every step. */
+/**
+ * After every edit: compute, or say what is wrong and keep the last result. A number that is pushed
+ * is complete at every step.
+ */
 function edited(stepped = false) {
   alertOff();
   if (form.flawed) {
@@ -129,7 +143,14 @@ const events = {
     const first = !shown;
     const json = core.shownJob();
     const current = json === job.json;
-    shown = { json, summary, preview: !current && previews.has(json), get job() { return job.of(JSON.parse(this.json)); } };
+    shown = {
+      json,
+      summary,
+      preview: !current && previews.has(json),
+      get job() {
+        return job.of(JSON.parse(this.json));
+      },
+    };
     if (current) previews.clear();
     results.classList.toggle("preview", shown.preview);
     showFigures();
@@ -153,7 +174,8 @@ const events = {
     if (form.showError(error)) return stale();
     state("stale");
     const where = error.line ? ` (line ${error.line}, column ${error.column})` : "";
-    if (error.code === "unreachable" || error.field === "path") alertOn(error.message, "Place the path in front of this robot", placeInFront);
+    if (error.code === "unreachable" || error.field === "path")
+      alertOn(error.message, "Place the path in front of this robot", placeInFront);
     else alertOn(`${error.message}${where}`);
     say(lastValid().trim() || "No result yet.");
   },
@@ -167,10 +189,14 @@ const events = {
     idle();
     if (error.code === "load") return cannotStart(error);
     state("stale");
-    alertOn(`The core stopped unexpectedly and was started again; your inputs are kept. (${error.message})`, "Compute again", () => {
-      alertOff();
-      core.run(job.json);
-    });
+    alertOn(
+      `The core stopped unexpectedly and was started again; your inputs are kept. (${error.message})`,
+      "Compute again",
+      () => {
+        alertOff();
+        core.run(job.json);
+      },
+    );
     say("The core was restarted.");
   },
 };
@@ -227,7 +253,11 @@ function wireDrop() {
 /** The run in progress is alive. */
 function heard() {
   clearTimeout(silent);
-  silent = setTimeout(say, SILENCE_MS, `Nothing was heard of the run for ${SILENCE_MS / 1000} s: the browser may have ended it. Cancel, or wait.`);
+  silent = setTimeout(
+    say,
+    SILENCE_MS,
+    `Nothing was heard of the run for ${SILENCE_MS / 1000} s: the browser may have ended it. Cancel, or wait.`,
+  );
 }
 
 function idle() {
@@ -236,7 +266,10 @@ function idle() {
   results.classList.remove("slow");
 }
 
-/** The core could not be loaded, at first or for another Worker: a network that comes back mends that. */
+/**
+ * The core could not be loaded, at first or for another Worker: a network that comes back mends
+ * that.
+ */
 function cannotStart(error) {
   state("stale");
   if (!shown) byId("verdict").textContent = "The calculator could not start.";
@@ -270,7 +303,9 @@ async function openJob(file) {
     await core.check(text);
     session.load(JSON.parse(text));
   } catch ({ message, line, column }) {
-    alertOn(`“${file.name}” was not opened: ${message}${line && !/\bline\b/.test(message) ? ` (line ${line}, column ${column})` : ""}`);
+    alertOn(
+      `“${file.name}” was not opened: ${message}${line && !/\bline\b/.test(message) ? ` (line ${line}, column ${column})` : ""}`,
+    );
   }
 }
 
@@ -282,7 +317,10 @@ async function save(format, name) {
   }
 }
 
-/** Says what the downloaded program is worth: read back and run where Armill reads its language, else as it was rehearsed. */
+/**
+ * Says what the downloaded program is worth: read back and run where Armill reads its language,
+ * else as it was rehearsed.
+ */
 async function tryProgram(id) {
   if (id === "joints-csv") return;
   try {
@@ -290,7 +328,9 @@ async function tryProgram(id) {
     const { max } = await core.replayed(id);
     const { tolerance_mm } = shown.summary;
     const met = max <= tolerance_mm ? "within" : "beyond";
-    say(`Read back and run, the program errs by at most ${formatLength(max)} mm: ${met} the tolerance of ${formatLength(tolerance_mm)} mm`);
+    say(
+      `Read back and run, the program errs by at most ${formatLength(max)} mm: ${met} the tolerance of ${formatLength(tolerance_mm)} mm`,
+    );
   } catch (error) {
     if (!error.fatal && error.code !== "cancelled") alertOn(`The program could not be tried: ${error.message}`);
   }
@@ -312,7 +352,9 @@ function wire() {
   byId("reset").addEventListener("click", () => session.load(standard));
   byId("open-job").addEventListener("click", () => byId("job-file").click());
   byId("job-file").addEventListener("change", ({ target }) => openJob(target.files[0]));
-  byId("download-job").addEventListener("click", () => download("armill-job.json", "application/json", `${job.json}\n`));
+  byId("download-job").addEventListener("click", () =>
+    download("armill-job.json", "application/json", `${job.json}\n`),
+  );
   byId("download-columns").addEventListener("click", () => save("columns-csv", "armill-columns.csv"));
   byId("download-compensated").addEventListener("click", () => save("compensated-csv", "armill-compensated-path.csv"));
   byId("download-program").addEventListener("click", () => {
@@ -356,7 +398,9 @@ async function open() {
   followCaret((time) => setCursor(time, "program"));
   wireDrop();
   formats = hello.formats.filter(({ id }) => !["columns-csv", "compensated-csv"].includes(id));
-  byId("export-format").append(...formats.map(({ id, name, note }) => make("option", { value: id, title: note }, name)));
+  byId("export-format").append(
+    ...formats.map(({ id, name, note }) => make("option", { value: id, title: note }, name)),
+  );
   restoreGroups();
   session = new Session({ job, form, standard, core, changed: edited, warn: alertOn });
   await session.open();

@@ -3,7 +3,10 @@
 import { formatError, formatNumber } from "./number.js";
 import { inWords } from "./words.js";
 
-/** `job` is the Job of the result, `standard` the default job's plain object, `link` its address or null. */
+/**
+ * `job` is the Job of the result, `standard` the default job's plain object, `link` its address or
+ * null.
+ */
 export function markdown({ summary, job, standard, link }) {
   const { before_mm: before, after_mm: after, passes } = summary;
   const rows = [
@@ -20,10 +23,15 @@ export function markdown({ summary, job, standard, link }) {
     "|---|---:|---:|",
     ...rows.map(([name, { mean, max }]) => `| ${name} | ${formatError(mean)} | ${formatError(max)} |`),
     "",
-    `Mean force ${formatNumber(Math.hypot(...summary.mean_force_n))} N, path length ${formatNumber(summary.path_length_mm, 4)} mm, duration ${formatNumber(summary.duration_s)} s, warnings: ${summary.warnings.length}.`,
+    `Mean force ${formatNumber(Math.hypot(...summary.mean_force_n))} N, path length ` +
+      `${formatNumber(summary.path_length_mm, 4)} mm, duration ${formatNumber(summary.duration_s)} s, warnings: ` +
+      `${summary.warnings.length}.`,
     "",
     changed.length ? "Inputs that differ from the default job:" : "Inputs: the default job.",
-    ...changed.map(({ field, own, other }) => `- ${field.label}: ${escaped(inWords(field, own))} (default ${escaped(inWords(field, other))})`),
+    ...changed.map(
+      ({ field, own, other }) =>
+        `- ${field.label}: ${escaped(inWords(field, own))} (default ${escaped(inWords(field, other))})`,
+    ),
     "",
     `${link ? `[Open in Armill](${link}), ` : ""}fingerprint \`${summary.fingerprint}\``,
     "",

@@ -1,4 +1,5 @@
-// A short message at the foot of the page, over it, so that nothing moves. It goes by itself or when it is closed.
+// A short message at the foot of the page, over it, so that nothing moves. It goes by itself or
+// when it is closed.
 
 import { byId, make } from "./dom.js";
 

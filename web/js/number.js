@@ -2,7 +2,10 @@
 
 const GROUP = "\u202f"; // narrow no-break space between thousands
 
-/** The number that `text` stands for: "1.5", "1,5" and "1.5e3" are numbers, "1,000.5" is not. NaN if it is none. */
+/**
+ * The number that `text` stands for: "1.5", "1,5" and "1.5e3" are numbers, "1,000.5" is not. NaN if
+ * it is none.
+ */
 export function parseNumber(text) {
   const plain = text.replace(/[\s\u00a0\u2009\u202f]/g, "").replace(/\u2212/g, "-");
   const dotted = plain.includes(".") ? plain : plain.replace(",", ".");
@@ -28,11 +31,16 @@ export function formatError(length, decimals = 4) {
   return length >= 1000 ? formatNumber(length) : minus(length.toFixed(decimals));
 }
 
-/** A length to three digits, but no finer than a place that no machine knows: in mm a tenth of a micrometre. */
+/**
+ * A length to three digits, but no finer than a place that no machine knows: in mm a tenth of a
+ * micrometre.
+ */
 export function formatLength(length, decimals = 4) {
   const size = Math.abs(length);
   if (size > 0 && size < finest(decimals)) return least(decimals);
-  return size > 0 && size < 10 ** (2 - decimals) ? minus(String(Number(length.toFixed(decimals)))) : formatNumber(length);
+  return size > 0 && size < 10 ** (2 - decimals)
+    ? minus(String(Number(length.toFixed(decimals))))
+    : formatNumber(length);
 }
 
 /** `value` as an input field shows it: all its digits, nothing added. */
@@ -60,5 +68,4 @@ const group = (text) => {
   return whole.replace(/\B(?=(\d{3})+$)/g, GROUP) + (rest ? `.${rest}` : "");
 };
 
-const superscript = (exponent) =>
-  String(exponent).replace(/./g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]));
+const superscript = (exponent) => String(exponent).replace(/./g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]));

@@ -2,7 +2,10 @@
 
 const KEY = "armill-panels";
 
-/** What was open last: `tab`, an id, and `groups`, a list of ids; each undefined where nothing is remembered. */
+/**
+ * What was open last: `tab`, an id, and `groups`, a list of ids; each undefined where nothing is
+ * remembered.
+ */
 export function openPanels() {
   try {
     const { tab, groups } = JSON.parse(localStorage.getItem(KEY)) ?? {};

@@ -1,4 +1,5 @@
-// The pinned result's own Worker: it computes the job again when a chart first asks for its curves, or after a reload.
+// The pinned result's own Worker: it computes the job again when a chart first asks for its curves,
+// or after a reload.
 
 import { helper } from "./core.js";
 

@@ -1,4 +1,5 @@
-// Programs: opened, dropped or taken from the examples; what was understood of them; the way from a line to the charts and back.
+// Programs: opened, dropped or taken from the examples; what was understood of them; the way from a
+// line to the charts and back.
 
 import { byId, make } from "./dom.js";
 import { readText } from "./files.js";
@@ -7,11 +8,18 @@ import { formatNumber } from "./number.js";
 import { inLength, lengthUnit } from "./units.js";
 
 const LANGUAGES = { gcode: "G-code", apt: "APT / CLDATA", csv: "Points" };
-const ENDINGS = { apt: ["apt", "aptsource", "cls", "cl", "ncl"], csv: ["csv", "txt", "tsv", "xyz"], gcode: ["nc", "ngc", "gcode", "g", "tap", "cnc", "mpf", "eia", "iso"] };
+const ENDINGS = {
+  apt: ["apt", "aptsource", "cls", "cl", "ncl"],
+  csv: ["csv", "txt", "tsv", "xyz"],
+  gcode: ["nc", "ngc", "gcode", "g", "tap", "cnc", "mpf", "eia", "iso"],
+};
 
 const MOST_IGNORED = 40; // words listed
 
-/** The language of a program by what stands in it; where that does not tell, by the ending of its name. */
+/**
+ * The language of a program by what stands in it; where that does not tell, by the ending of its
+ * name.
+ */
 function languageOf(name, text) {
   const head = text.slice(0, 20_000);
   if (/^\s*(GOTO|FROM|FEDRAT|PARTNO|UNITS|MULTAX|SPINDL)\b/im.test(head)) return "apt";
@@ -20,11 +28,18 @@ function languageOf(name, text) {
   return Object.keys(ENDINGS).find((language) => ENDINGS[language].includes(ending)) ?? "csv";
 }
 
-/** Buttons for programs; `use(kind, text)` is called with what was opened, `fail(message)` where that did not work. */
+/**
+ * Buttons for programs; `use(kind, text)` is called with what was opened, `fail(message)` where
+ * that did not work.
+ */
 export function programTools(use, fail) {
   const file = make("input", { type: "file", id: "program-file", hidden: true, "aria-label": "Program file" });
   const open = make("button", { type: "button", id: "open-program" }, "Open program…");
-  const examples = make("select", { id: "examples", "aria-label": "Example programs" }, make("option", { value: "" }, "Examples…"));
+  const examples = make(
+    "select",
+    { id: "examples", "aria-label": "Example programs" },
+    make("option", { value: "" }, "Examples…"),
+  );
   open.addEventListener("click", () => file.click());
   file.addEventListener("change", async () => {
     const [chosen] = file.files;
@@ -32,7 +47,13 @@ export function programTools(use, fail) {
     if (chosen) await openProgram(chosen, use, fail);
   });
   const listed = readText("examples/index.json").then(JSON.parse);
-  listed.then((list) => examples.append(...list.map(({ file: name, title, note }) => make("option", { value: name, title: note }, title))), () => (examples.hidden = true));
+  listed.then(
+    (list) =>
+      examples.append(
+        ...list.map(({ file: name, title, note }) => make("option", { value: name, title: note }, title)),
+      ),
+    () => (examples.hidden = true),
+  );
   examples.addEventListener("change", async () => {
     const chosen = (await listed).find((example) => example.file === examples.value);
     examples.value = "";
@@ -76,13 +97,21 @@ export function showProgram(program, duration) {
   const extents = ["X", "Y", "Z"].map((axis, i) => `${axis} ${span(program.lowest_mm[i], program.highest_mm[i])}`);
   const facts = [
     ["Language", `${LANGUAGES[program.language]}, ${program.lines} lines in ${program.unit}`],
-    ["Moves", `${program.cutting_moves} that cut, ${program.rapid_moves} rapid${program.multi_axis ? "; the tool axis turns" : ""}`],
+    [
+      "Moves",
+      `${program.cutting_moves} that cut, ${program.rapid_moves} rapid${program.multi_axis ? "; the tool axis turns" : ""}`,
+    ],
     [`Extents, ${lengthUnit()}`, extents.join(", ")],
-    [`Feeds, ${lengthUnit()}/s`, program.feeds_mm_s ? span(...program.feeds_mm_s) : "none in the program: the job's feed holds"],
+    [
+      `Feeds, ${lengthUnit()}/s`,
+      program.feeds_mm_s ? span(...program.feeds_mm_s) : "none in the program: the job's feed holds",
+    ],
     ["Time, s", formatNumber(duration, 4)],
     ["Without effect", program.ignored.length ? "" : "nothing"],
   ];
-  byId("understood").replaceChildren(...facts.map(([name, text]) => make("div", {}, make("dt", {}, name), make("dd", {}, text))));
+  byId("understood").replaceChildren(
+    ...facts.map(([name, text]) => make("div", {}, make("dt", {}, name), make("dd", {}, text))),
+  );
   if (program.ignored.length) byId("understood").lastChild.lastChild.append(ignoredList(program.ignored));
 }
 
@@ -99,7 +128,14 @@ function ignoredItem({ word, lines }) {
     button.addEventListener("click", () => showLine(line));
     return button;
   });
-  return make("li", {}, make("code", {}, word), lines.length === 1 ? " in line " : " in lines ", ...shown, lines.length > 5 ? ` and ${lines.length - 5} more` : "");
+  return make(
+    "li",
+    {},
+    make("code", {}, word),
+    lines.length === 1 ? " in line " : " in lines ",
+    ...shown,
+    lines.length > 5 ? ` and ${lines.length - 5} more` : "",
+  );
 }
 
 let lines = null; // program line of each sample of the shown result
@@ -111,7 +147,8 @@ export function setLines(column, time) {
 }
 
 /** The line that runs at a time [s], or undefined. */
-export const lineAt = (time) => lines?.[Math.min(lines.length - 1, Math.max(0, Math.round(time / sampleTime)))] || undefined;
+export const lineAt = (time) =>
+  lines?.[Math.min(lines.length - 1, Math.max(0, Math.round(time / sampleTime)))] || undefined;
 
 /** The time [s] at which a line starts to run, or undefined. */
 function timeOf(line) {

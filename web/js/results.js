@@ -15,7 +15,8 @@ function put(id, value, format = formatNumber) {
 
 /** Writes the chosen units wherever a figure has one. */
 export function showUnits() {
-  for (const unit of document.querySelectorAll("[data-unit]")) unit.textContent = unit.dataset.unit === "force" ? forceUnit() : lengthUnit();
+  for (const unit of document.querySelectorAll("[data-unit]"))
+    unit.textContent = unit.dataset.unit === "force" ? forceUnit() : lengthUnit();
 }
 
 export function showSummary(summary) {
@@ -46,7 +47,8 @@ export function showSummary(summary) {
 }
 
 /** The tolerance as it was typed; in another unit, to three digits. */
-const toleranceText = ({ tolerance_mm }) => (lengthUnit() === "mm" ? plainNumber(tolerance_mm) : lengthText(tolerance_mm));
+const toleranceText = ({ tolerance_mm }) =>
+  lengthUnit() === "mm" ? plainNumber(tolerance_mm) : lengthText(tolerance_mm);
 
 function showTolerance(summary) {
   const { converged, tolerance_mm, after_mm } = summary;
@@ -78,7 +80,12 @@ function showWarnings(warnings) {
 }
 
 function warningItem({ code, message, from_s, to_s }) {
-  const when = from_s == null ? "" : from_s === to_s ? `at ${formatNumber(from_s)} s` : `${formatNumber(from_s)} to ${formatNumber(to_s)} s`;
+  const when =
+    from_s == null
+      ? ""
+      : from_s === to_s
+        ? `at ${formatNumber(from_s)} s`
+        : `${formatNumber(from_s)} to ${formatNumber(to_s)} s`;
   const item = make("li", {}, sentence(message), when && ": ", make("span", { className: "unit" }, when));
   item.dataset.code = code;
   return item;
@@ -87,10 +94,15 @@ function warningItem({ code, message, from_s, to_s }) {
 /** The table "Thesis, recomputed". */
 export function showThesis(rows) {
   const cells = rows.map(({ quantity, source, printed, ours, agrees, reason }) =>
-    make("tr", { className: agrees ? "" : "differs" },
-      make("th", { scope: "row" }, quantity), make("td", {}, source), make("td", { className: "digits" }, printed),
+    make(
+      "tr",
+      { className: agrees ? "" : "differs" },
+      make("th", { scope: "row" }, quantity),
+      make("td", {}, source),
+      make("td", { className: "digits" }, printed),
       make("td", { className: "digits" }, ours),
-      make("td", {}, make("strong", {}, agrees ? "✓ Agrees." : "✗ Differs."), ` ${reason}`)),
+      make("td", {}, make("strong", {}, agrees ? "✓ Agrees." : "✗ Differs."), ` ${reason}`),
+    ),
   );
   byId("thesis").tBodies[0].replaceChildren(...cells);
 }

@@ -2,7 +2,10 @@
 
 const STEP_PX = 4;
 
-/** Calls `step(count)`, negative to the left, while `label` is dragged by a mouse or pen. A click still does what it does, and a finger scrolls. */
+/**
+ * Calls `step(count)`, negative to the left, while `label` is dragged by a mouse or pen. A click
+ * still does what it does, and a finger scrolls.
+ */
 export function scrub(label, step) {
   let from = null; // where the drag began [px]
   let done = 0; // steps so far

@@ -19,7 +19,10 @@ export class Session {
   #found = ""; // what the focused text field held when it got the focus
   #own; // the focused text field, while it holds something else
 
-  /** `changed(stepped)` is called whenever the inputs are others than before, `warn(message)` with what could not be shown. */
+  /**
+   * `changed(stepped)` is called whenever the inputs are others than before, `warn(message)` with
+   * what could not be shown.
+   */
   constructor({ job, form, standard, core, changed, warn }) {
     this.#job = job;
     this.#form = form;
@@ -32,8 +35,14 @@ export class Session {
   /** Shows what the link holds; without one, what this browser kept; without that, the default. */
   async open() {
     autosave.start({
-      onrefused: (full) => notify(`Nothing is remembered: this browser’s storage for the page is ${full ? "full" : "denied"}. Save the job as a file to keep it.`),
-      onshared: () => notify("Armill is open in another tab too. Each tab keeps its own inputs; a new tab opens with those that were changed last."),
+      onrefused: (full) =>
+        notify(
+          `Nothing is remembered: this browser’s storage for the page is ${full ? "full" : "denied"}. Save the job as a file to keep it.`,
+        ),
+      onshared: () =>
+        notify(
+          "Armill is open in another tab too. Each tab keeps its own inputs; a new tab opens with those that were changed last.",
+        ),
     });
     this.#wire();
     const kept = await autosave.kept();
@@ -61,7 +70,10 @@ export class Session {
     this.#keep();
   }
 
-  /** After an edit in the form; `group` names the field while it is typed into, `stepped` says that it is rather pushed. */
+  /**
+   * After an edit in the form; `group` names the field while it is typed into, `stepped` says that
+   * it is rather pushed.
+   */
   edited(group, stepped) {
     this.#history.record(this.#state, group);
     this.#keep();
@@ -85,7 +97,10 @@ export class Session {
 
   #show(state) {
     this.#put(state, () => this.#history.record(this.#state));
-    if (state.job.path?.kind !== this.#state.job.path?.kind) notify("The points of the path are too many for a field. They are shown as rows of points, line by line: the same path.");
+    if (state.job.path?.kind !== this.#state.job.path?.kind)
+      notify(
+        "The points of the path are too many for a field. They are shown as rows of points, line by line: the same path.",
+      );
   }
 
   #put({ job, drafts, typed }, then = () => {}) {
@@ -130,7 +145,10 @@ export class Session {
       [this.#found, this.#own] = [target.value, undefined];
       this.#history.rest();
     });
-    addEventListener("input", ({ target }) => (this.#own = target.matches(TYPED) && target.value !== this.#found ? target : undefined));
+    addEventListener(
+      "input",
+      ({ target }) => (this.#own = target.matches(TYPED) && target.value !== this.#found ? target : undefined),
+    );
     addEventListener("keydown", (event) => {
       const key = event.key.toLowerCase();
       const step = key === "y" || (key === "z" && event.shiftKey) ? 1 : key === "z" ? -1 : 0;
@@ -141,7 +159,10 @@ export class Session {
     });
   }
 
-  /** Another fragment: a job takes the place of the inputs, anything else must not lose a job that only the address had. */
+  /**
+   * Another fragment: a job takes the place of the inputs, anything else must not lose a job that
+   * only the address had.
+   */
   #moved() {
     if (!holdsJob(location.hash)) return autosave.keepHere(this.#state);
     this.#openLink((why) => {

@@ -11,13 +11,26 @@ const ROWS = [
 
 /** Fills `box` with one row of choices a setting. */
 export function settingsPanel(box) {
-  box.append(make("h2", {}, "Settings"), ...ROWS.map(row),
-    make("p", { className: "note" }, "Units are those of figures, charts and tables. Inputs, sentences and files stay in mm and N."));
+  box.append(
+    make("h2", {}, "Settings"),
+    ...ROWS.map(row),
+    make(
+      "p",
+      { className: "note" },
+      "Units are those of figures, charts and tables. Inputs, sentences and files stay in mm and N.",
+    ),
+  );
 }
 
 function row({ key, title, labels }) {
   const options = choices(key).map((value) => {
-    const input = make("input", { type: "radio", name: `setting-${key}`, id: `setting-${key}-${value}`, value, checked: setting(key) === value });
+    const input = make("input", {
+      type: "radio",
+      name: `setting-${key}`,
+      id: `setting-${key}-${value}`,
+      value,
+      checked: setting(key) === value,
+    });
     input.addEventListener("change", () => choose(key, value));
     return make("label", { className: "choice" }, input, make("span", {}, labels[value]));
   });

@@ -1,4 +1,5 @@
-// What the page remembers of how it is looked at: units and theme, kept in this browser only. Inputs are none of its business.
+// What the page remembers of how it is looked at: units and theme, kept in this browser only.
+// Inputs are none of its business.
 
 const KEY = "armill-settings";
 const CHOICES = {

@@ -1,4 +1,5 @@
-// The dialog that hands out the shown result: as a link, as Markdown, as a frame to embed. Nothing is sent anywhere.
+// The dialog that hands out the shown result: as a link, as Markdown, as a frame to embed. Nothing
+// is sent anywhere.
 
 import { byId, make } from "./dom.js";
 import { download } from "./download.js";
@@ -8,27 +9,62 @@ import { markdown } from "./markdown.js";
 import { formatNumber } from "./number.js";
 
 const FORMS = {
-  link: { title: "Link", note: "The whole job is in the link itself. Whoever opens it computes the same result; nothing is stored on a server." },
-  markdown: { title: "Markdown", note: "For a report or a message: verdict, figures, inputs that differ from the default, and the link." },
+  link: {
+    title: "Link",
+    note: "The whole job is in the link itself. Whoever opens it computes the same result; nothing is stored on a server.",
+  },
+  markdown: {
+    title: "Markdown",
+    note: "For a report or a message: verdict, figures, inputs that differ from the default, and the link.",
+  },
   ...(EMBEDDABLE && { embed: { title: "Embed", note: "For a page of your own: a frame that shows this job." } }),
 };
 
 /** Makes the dialog; the function it returns opens it for `{ json, job, standard, summary }`. */
 export function shareDialog() {
-  const text = make("textarea", { id: "share-text", readOnly: true, rows: 7, spellcheck: false, "aria-label": "Text to copy" });
+  const text = make("textarea", {
+    id: "share-text",
+    readOnly: true,
+    rows: 7,
+    spellcheck: false,
+    "aria-label": "Text to copy",
+  });
   const note = make("p", { className: "note", id: "share-note" });
   const said = make("p", { className: "said", role: "status" });
   const copy = make("button", { type: "button", className: "primary", id: "share-copy" }, "Copy");
-  const file = make("button", { type: "button", className: "primary", id: "share-file" }, "Save job ", make("span", { className: "unit" }, "JSON"));
+  const file = make(
+    "button",
+    { type: "button", className: "primary", id: "share-file" },
+    "Save job ",
+    make("span", { className: "unit" }, "JSON"),
+  );
   const close = make("button", { type: "button", id: "share-close" }, "Close");
   const forms = Object.entries(FORMS).map(([value, { title }]) => {
-    const input = make("input", { type: "radio", name: "share-form", id: `share-${value}`, value, checked: value === "link" });
+    const input = make("input", {
+      type: "radio",
+      name: "share-form",
+      id: `share-${value}`,
+      value,
+      checked: value === "link",
+    });
     input.addEventListener("change", () => show(value));
     return make("label", { className: "choice" }, input, make("span", {}, title));
   });
-  const choice = make("fieldset", { className: "choices" }, make("legend", { className: "hidden-text" }, "Share as"), ...forms);
-  const dialog = make("dialog", { id: "share-dialog", "aria-labelledby": "share-title" },
-    make("h2", { id: "share-title" }, "Share this result"), choice, text, note, make("footer", {}, said, copy, file, close));
+  const choice = make(
+    "fieldset",
+    { className: "choices" },
+    make("legend", { className: "hidden-text" }, "Share as"),
+    ...forms,
+  );
+  const dialog = make(
+    "dialog",
+    { id: "share-dialog", "aria-labelledby": "share-title" },
+    make("h2", { id: "share-title" }, "Share this result"),
+    choice,
+    text,
+    note,
+    make("footer", {}, said, copy, file, close),
+  );
   document.body.append(dialog);
 
   let given; // what is shared
@@ -60,7 +96,10 @@ export function shareDialog() {
 
   return async (shown) => {
     given = shown;
-    const address = new URL(`#${await fragmentOf(JSON.stringify(JSON.parse(shown.json)))}`, location.href.replace(/#.*/, "")).href;
+    const address = new URL(
+      `#${await fragmentOf(JSON.stringify(JSON.parse(shown.json)))}`,
+      location.href.replace(/#.*/, ""),
+    ).href;
     length = address.length;
     link = length > LONGEST_LINK ? null : address;
     byId("share-link").checked = true;
@@ -70,7 +109,8 @@ export function shareDialog() {
 }
 
 const tooLong = (length) =>
-  `the link would have ${formatNumber(length)} characters. Mail and chat programs cut links above ${formatNumber(LONGEST_LINK)}, so send the job as a file instead; “Open job…” reads it.`;
+  `the link would have ${formatNumber(length)} characters. Mail and chat programs cut links above ` +
+  `${formatNumber(LONGEST_LINK)}, so send the job as a file instead; “Open job…” reads it.`;
 
 /** The frame that shows the job of a link. */
 function frame(link) {

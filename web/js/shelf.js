@@ -1,4 +1,5 @@
-// Long texts, kept in this browser's database: its storage holds some five million characters, a program may have fifty.
+// Long texts, kept in this browser's database: its storage holds some five million characters, a
+// program may have fifty.
 //
 // A text is put down once; what is kept of the inputs then only names it.
 
@@ -8,7 +9,9 @@ const keys = new Map(); // text -> its key; null if the database does not take i
 
 const isLong = (value) => typeof value === "string" && value.length > LONG;
 
-/** Puts down the long texts in plain data that lie nowhere yet; resolves when they lie, or cannot. */
+/**
+ * Puts down the long texts in plain data that lie nowhere yet; resolves when they lie, or cannot.
+ */
 export async function putDown(data) {
   for (const text of textsIn(data)) {
     if (keys.has(text)) continue;
@@ -20,8 +23,12 @@ export async function putDown(data) {
 /** Whether every long text in plain data lies in the database, or is known not to be taken. */
 export const isDown = (data) => textsIn(data).every((text) => keys.has(text));
 
-/** Plain data as JSON text, with the keys of its long texts in their place where they lie in the database. */
-export const named = (data) => JSON.stringify(data, (_, value) => (isLong(value) && keys.get(value) ? { shelf: keys.get(value) } : value));
+/**
+ * Plain data as JSON text, with the keys of its long texts in their place where they lie in the
+ * database.
+ */
+export const named = (data) =>
+  JSON.stringify(data, (_, value) => (isLong(value) && keys.get(value) ? { shelf: keys.get(value) } : value));
 
 /** Plain data with its long texts again; one that is gone is empty. */
 export async function pickUp(data) {
@@ -32,7 +39,9 @@ export async function pickUp(data) {
     return text;
   }
   if (Array.isArray(data)) return data; // numbers
-  return Object.fromEntries(await Promise.all(Object.entries(data).map(async ([key, value]) => [key, await pickUp(value)])));
+  return Object.fromEntries(
+    await Promise.all(Object.entries(data).map(async ([key, value]) => [key, await pickUp(value)])),
+  );
 }
 
 function textsIn(data) {
@@ -48,9 +57,11 @@ async function add(text) {
 
 /** The answer to one request on the texts; rejects where the database is denied or full. */
 async function ask(mode, request) {
-  const database = await done(Object.assign(indexedDB.open("armill"), {
-    onupgradeneeded: ({ target }) => target.result.createObjectStore("texts", { autoIncrement: true }),
-  }));
+  const database = await done(
+    Object.assign(indexedDB.open("armill"), {
+      onupgradeneeded: ({ target }) => target.result.createObjectStore("texts", { autoIncrement: true }),
+    }),
+  );
   try {
     return await done(request(database.transaction("texts", mode).objectStore("texts")));
   } finally {
@@ -59,4 +70,6 @@ async function ask(mode, request) {
 }
 
 const done = (request) =>
-  new Promise((resolve, reject) => Object.assign(request, { onsuccess: () => resolve(request.result), onerror: () => reject(request.error) }));
+  new Promise((resolve, reject) =>
+    Object.assign(request, { onsuccess: () => resolve(request.result), onerror: () => reject(request.error) }),
+  );

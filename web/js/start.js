@@ -1,4 +1,5 @@
-// What does not wait for the rest of the page: its colours, and the core with the job that the page opens with.
+// What does not wait for the rest of the page: its colours, and the core with the job that the page
+// opens with.
 
 import { kept } from "./autosave.js";
 import * as core from "./core.js";
@@ -10,7 +11,10 @@ applyTheme();
 
 const PATIENCE_MS = 100; // on a slow line the page does not wait for the core
 
-/** Has the job computed while the form is built. A link's is checked first, so it waits for the page. */
+/**
+ * Has the job computed while the form is built. A link's is checked first, so it waits for the
+ * page.
+ */
 async function begin() {
   const hello = core.load();
   const state = await kept();
@@ -19,4 +23,7 @@ async function begin() {
 }
 
 /** Settled when the Worker computes the first result: from then on the page is not in its way. */
-export const begun = Promise.race([begin().catch(() => {}), new Promise((resolve) => setTimeout(resolve, PATIENCE_MS))]);
+export const begun = Promise.race([
+  begin().catch(() => {}),
+  new Promise((resolve) => setTimeout(resolve, PATIENCE_MS)),
+]);

@@ -1,4 +1,5 @@
-// Lengths and forces as the settings want them read. Everything is computed, typed and saved in millimetres and newtons.
+// Lengths and forces as the settings want them read. Everything is computed, typed and saved in
+// millimetres and newtons.
 
 import { formatError, formatLength, formatNumber } from "./number.js";
 import { setting } from "./settings.js";
@@ -16,7 +17,8 @@ export const forceUnit = () => force().name;
 export const inLength = (mm) => mm / length().size;
 
 /** Millimetres to three digits (or `digits`), but no finer than any machine knows. */
-export const lengthText = (mm, digits) => (digits ? formatNumber(inLength(mm), digits) : formatLength(inLength(mm), length().decimals));
+export const lengthText = (mm, digits) =>
+  digits ? formatNumber(inLength(mm), digits) : formatLength(inLength(mm), length().decimals);
 
 /** Millimetres to a fixed place, so that a column of them lines up. */
 export const errorText = (mm) => formatError(inLength(mm), length().decimals);

@@ -6,10 +6,15 @@ import { plainNumber } from "./number.js";
 /** A preset choice that also offers one's own numbers. */
 export function withOwn(field) {
   if (!field.path.endsWith(".preset")) return field;
-  const own = field.path === "robot.preset"
-    ? [{ value: "opw", label: "Ortho-parallel lengths", heading: "My own numbers" }, { value: OWN, label: "Modified DH table", heading: "My own numbers" }]
-    : [{ value: OWN, label: "My own coefficients", heading: "My own numbers" }];
-  if (field.path === "material.preset") own.push({ value: KIENZLE, label: "My own k_c1.1 and m_c", heading: "My own numbers" });
+  const own =
+    field.path === "robot.preset"
+      ? [
+          { value: "opw", label: "Ortho-parallel lengths", heading: "My own numbers" },
+          { value: OWN, label: "Modified DH table", heading: "My own numbers" },
+        ]
+      : [{ value: OWN, label: "My own coefficients", heading: "My own numbers" }];
+  if (field.path === "material.preset")
+    own.push({ value: KIENZLE, label: "My own k_c1.1 and m_c", heading: "My own numbers" });
   return { ...field, choices: [...field.choices, ...own] };
 }
 
@@ -35,14 +40,22 @@ export function inWords(field, value) {
 }
 
 /** The default in words. */
-export const asText = (field) => (["table", "text"].includes(field.kind) ? "its default" : inWords(field, field.default));
+export const asText = (field) =>
+  ["table", "text"].includes(field.kind) ? "its default" : inWords(field, field.default);
 
 /** What a field is, its range and default. */
 export function helpText(field) {
   const { min, max, kind } = field;
   const boundless = min <= -1e6 && max >= 1e6; // only there to keep arithmetic finite
-  const range =
-    boundless ? "" : min != null && max != null ? `${plainNumber(min)} to ${plainNumber(max)}` : min != null ? `At least ${plainNumber(min)}` : max != null ? `At most ${plainNumber(max)}` : "";
+  const range = boundless
+    ? ""
+    : min != null && max != null
+      ? `${plainNumber(min)} to ${plainNumber(max)}`
+      : min != null
+        ? `At least ${plainNumber(min)}`
+        : max != null
+          ? `At most ${plainNumber(max)}`
+          : "";
   const standard = ["table", "text"].includes(kind) ? "" : `default ${inWords(field, field.default)}`;
   const hint = [range, standard].filter(Boolean).join(", ");
   return [field.help, hint && `${hint[0].toUpperCase()}${hint.slice(1)}.`].filter(Boolean).join(" ");

@@ -1,4 +1,5 @@
-// The core's drawing on the page. What is data can be moved within the plot, until the exact drawing arrives.
+// The core's drawing on the page. What is data can be moved within the plot, until the exact
+// drawing arrives.
 
 import { makeSvg } from "../dom.js";
 import { fractionOf } from "./view.js";
@@ -13,7 +14,12 @@ export function drawingOf(chart) {
   svg.querySelectorAll(":scope > :is(title, desc)").forEach((element) => element.remove());
   const { left, top, width, height } = chart.plot;
   const id = `clip-${chart.name}`;
-  const room = makeSvg("rect", { x: left - SPILL, y: top - SPILL, width: width + 2 * SPILL, height: height + 2 * SPILL });
+  const room = makeSvg("rect", {
+    x: left - SPILL,
+    y: top - SPILL,
+    width: width + 2 * SPILL,
+    height: height + 2 * SPILL,
+  });
   for (const layer of svg.querySelectorAll(":scope > g:not(.axis)")) {
     const clip = makeSvg("g", { "clip-path": `url(#${id})` });
     layer.replaceWith(clip);
@@ -38,7 +44,8 @@ export function moveDrawing(svg, { plot, x: drawnX, y: drawnY }, { x, y }) {
   const [left, right] = [fractionOf(drawnX, x.min), fractionOf(drawnX, x.max)];
   const [low, high] = [fractionOf(drawnY, y.min), fractionOf(drawnY, y.max)];
   const [sx, sy] = [1 / (right - left), 1 / (high - low)];
-  const same = Math.abs(sx - 1) + Math.abs(sy - 1) + Math.abs(left) + Math.abs(low) < 1e-9 || ![sx, sy].every(Number.isFinite);
+  const same =
+    Math.abs(sx - 1) + Math.abs(sy - 1) + Math.abs(left) + Math.abs(low) < 1e-9 || ![sx, sy].every(Number.isFinite);
   const tx = plot.left - (plot.left + left * plot.width) * sx;
   const ty = plot.top - (plot.top + (1 - high) * plot.height) * sy;
   for (const layer of svg.querySelectorAll(".moving")) {

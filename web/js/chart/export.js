@@ -2,12 +2,24 @@
 
 import { make, makeSvg } from "../dom.js";
 
-const LOOK = ["fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width", "stroke-dasharray", "stroke-linejoin", "paint-order"];
+const LOOK = [
+  "fill",
+  "fill-opacity",
+  "stroke",
+  "stroke-opacity",
+  "stroke-width",
+  "stroke-dasharray",
+  "stroke-linejoin",
+  "paint-order",
+];
 const MARGIN = 12;
 const TITLE = 28; // height of the title's line
 const LINE = 20; // and of one of the legend
 
-/** The chart as SVG text with title and legend, looking as it does now. `legend` is [{ label, sample }]. */
+/**
+ * The chart as SVG text with title and legend, looking as it does now. `legend` is [{ label, sample
+ * }].
+ */
 export function svgText(chart, plot, legend) {
   const style = getComputedStyle(plot);
   const family = style.fontFamily.replaceAll('"', "'");
@@ -20,16 +32,34 @@ export function svgText(chart, plot, legend) {
     if (x > MARGIN && x + width > chart.width + MARGIN) [x, row] = [MARGIN, row + 1];
     const line = dressed(sample);
     line.setAttribute("transform", `translate(0 -8)`);
-    const entry = makeSvg("g", { transform: `translate(${x} ${TITLE + MARGIN + row * LINE + 4})` }, line, makeSvg("text", { x: 36, fill: ink }, label));
+    const entry = makeSvg(
+      "g",
+      { transform: `translate(${x} ${TITLE + MARGIN + row * LINE + 4})` },
+      line,
+      makeSvg("text", { x: 36, fill: ink }, label),
+    );
     x += width;
     return entry;
   });
   const top = TITLE + MARGIN + (legend.length ? (row + 1) * LINE : 0);
   const [width, height] = [chart.width + 2 * MARGIN, chart.height + top + MARGIN];
-  const root = makeSvg("svg", { xmlns: "http://www.w3.org/2000/svg", viewBox: `0 0 ${width} ${height}`, width, height, role: "img", "font-family": family, "font-size": 12 },
-    makeSvg("title", {}, chart.title), makeSvg("desc", {}, chart.description),
+  const root = makeSvg(
+    "svg",
+    {
+      xmlns: "http://www.w3.org/2000/svg",
+      viewBox: `0 0 ${width} ${height}`,
+      width,
+      height,
+      role: "img",
+      "font-family": family,
+      "font-size": 12,
+    },
+    makeSvg("title", {}, chart.title),
+    makeSvg("desc", {}, chart.description),
     makeSvg("rect", { width, height, fill: getComputedStyle(plot.closest("figure")).backgroundColor }),
-    makeSvg("text", { x: MARGIN, y: TITLE - 4, "font-size": 15, "font-weight": 600, fill: ink }, chart.title), ...entries);
+    makeSvg("text", { x: MARGIN, y: TITLE - 4, "font-size": 15, "font-weight": 600, fill: ink }, chart.title),
+    ...entries,
+  );
   const drawing = dressed(plot);
   root.append(makeSvg("g", { transform: `translate(${MARGIN} ${top})` }, ...drawing.childNodes));
   return `<?xml version="1.0" encoding="UTF-8"?>\n${new XMLSerializer().serializeToString(root)}\n`;

@@ -41,7 +41,10 @@ export class Figure {
   #width = 0; // that was drawn at
   #room = 0; // that there is to draw in, measured when it may have changed: to ask makes the browser lay out the page
 
-  /** `link(figure, range)` is called when the range of time changes, to take the other charts along. `values` draws it and has its values: the shown result. */
+  /**
+   * `link(figure, range)` is called when the range of time changes, to take the other charts along.
+   * `values` draws it and has its values: the shown result.
+   */
   constructor({ name, title, figure, kind }, link, values = core) {
     this.#values = values;
     this.name = name;
@@ -62,9 +65,15 @@ export class Figure {
     this.#plot.setAttribute("aria-label", title);
     this.#plot.setAttribute("aria-valuenow", "0");
     this.#table.setAttribute("aria-label", `Table: ${title}`);
-    this.node = make("figure", { className: "chart-figure", id: `chart-${name}` },
-      make("header", {}, this.#title, source), make("div", { className: "chart-head" }, this.#legend.node, tools),
-      this.#plot, this.#table, make("div", { className: "below" }, this.#readout.node, this.#caption));
+    this.node = make(
+      "figure",
+      { className: "chart-figure", id: `chart-${name}` },
+      make("header", {}, this.#title, source),
+      make("div", { className: "chart-head" }, this.#legend.node, tools),
+      this.#plot,
+      this.#table,
+      make("div", { className: "below" }, this.#readout.node, this.#caption),
+    );
     listen(this.#plot, this);
   }
 
@@ -83,7 +92,13 @@ export class Figure {
       this.#width = size.width;
       this.#plot.style.setProperty("min-height", `${size.height}px`);
       const { x, y } = this.#view;
-      const options = { ...size, ...units(), hidden: this.#legend.hidden, ...(x && { x_range: x }), ...(y && { y_range: y }) };
+      const options = {
+        ...size,
+        ...units(),
+        hidden: this.#legend.hidden,
+        ...(x && { x_range: x }),
+        ...(y && { y_range: y }),
+      };
       try {
         this.#show(await this.#drawn(options));
       } catch (error) {
@@ -92,7 +107,10 @@ export class Figure {
     }
   }
 
-  /** The core's drawing, and the other result's on the same axes, which then hold both. Pictures of space magnify too differently for that. */
+  /**
+   * The core's drawing, and the other result's on the same axes, which then hold both. Pictures of
+   * space magnify too differently for that.
+   */
   async #drawn(options) {
     const { beside } = this; // it may be unpinned while it draws
     const own = await this.#values.chart(this.name, options);
@@ -100,7 +118,10 @@ export class Figure {
     if (!other) return { own };
     const [x, y] = ["x", "y"].map((axis) => joined(own[axis].full, other[axis].full));
     const both = { ...options, x_range: this.#view.x ?? x, y_range: this.#view.y ?? y };
-    const drawn = await Promise.all([this.#values.chart(this.name, both), beside.chart(this.name, both).catch(() => null)]);
+    const drawn = await Promise.all([
+      this.#values.chart(this.name, both),
+      beside.chart(this.name, both).catch(() => null),
+    ]);
     if (!drawn[1]) return { own };
     [drawn[0].x.full, drawn[0].y.full] = [x, y];
     return { own: drawn[0], other: drawn[1] };
@@ -131,7 +152,8 @@ export class Figure {
     if (other) layBelow(this.#svg, drawingOf(other));
     this.#plot.replaceChildren(this.#svg, this.#marks.node);
     const { width, height } = chart;
-    for (const [name, value] of Object.entries({ width, height, viewBox: `0 0 ${width} ${height}` })) this.#marks.node.setAttribute(name, value);
+    for (const [name, value] of Object.entries({ width, height, viewBox: `0 0 ${width} ${height}` }))
+      this.#marks.node.setAttribute(name, value);
     this.#title.textContent = chart.title;
     this.#caption.textContent = chart.description;
     this.#legend.show(chart.series, Boolean(other));
@@ -229,7 +251,8 @@ export class Figure {
   /** Where keys and buttons zoom: at the cursor if it is seen. */
   #middle() {
     const { x } = this.#axes;
-    const at = this.plane || this.#index === null || !this.#data ? NaN : fractionOf(x, this.#data[0].values[this.#index]);
+    const at =
+      this.plane || this.#index === null || !this.#data ? NaN : fractionOf(x, this.#data[0].values[this.#index]);
     return [at >= 0 && at <= 1 ? at : 0.5, 0.5];
   }
 
@@ -400,7 +423,10 @@ export class Figure {
     }
     const hidden = this.#legend.hidden;
     const shown = this.#chart.series.filter(({ key }) => !hidden.includes(key));
-    const legend = shown.map((series) => ({ label: series.label, sample: this.#legend.node.querySelector(`[data-key="${CSS.escape(series.key)}"] .sample`) ?? sample(series) }));
+    const legend = shown.map((series) => ({
+      label: series.label,
+      sample: this.#legend.node.querySelector(`[data-key="${CSS.escape(series.key)}"] .sample`) ?? sample(series),
+    }));
     const svg = svgText(this.#chart, this.#svg, legend);
     file(format === "svg" ? "image/svg+xml" : "image/png", format === "svg" ? svg : await pngOf(svg));
   }

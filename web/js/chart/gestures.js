@@ -1,8 +1,9 @@
 // What mouse, fingers, wheel and keys do to a chart.
 //
-// `chart` has: `place(event)` -> fractions [across, up] of the plot, `enter()`, `point(place)`, `leave()`, `pin(place)`, `scale([fx, fy], place)`,
-// `shift(dx, dy)` (fractions), `zoomBox(a, b)`, `box(corners)`, `reset()`, `step(samples, share)`, `ends(last)`, `clear()`, `go()`,
-// `grab()` -> token and `drag(token, dx, dy, scale, place)`: the view as it was when grabbed, moved; `zoomed`.
+// `chart` has: `place(event)` -> fractions [across, up] of the plot, `enter()`, `point(place)`,
+// `leave()`, `pin(place)`, `scale([fx, fy], place)`, `shift(dx, dy)` (fractions), `zoomBox(a, b)`,
+// `box(corners)`, `reset()`, `step(samples, share)`, `ends(last)`, `clear()`, `go()`, `grab()` ->
+// token and `drag(token, dx, dy, scale, place)`: the view as it was when grabbed, moved; `zoomed`.
 
 const CLICK_PX = 4; // a press that moves less is a click
 const THIN_PX = 12; // a box thinner than this zooms one axis only
@@ -59,7 +60,11 @@ export function listen(plot, chart) {
   plot.addEventListener("pointerleave", (event) => event.pointerType !== "touch" && !pressed.size && chart.leave());
   plot.addEventListener("dblclick", () => chart.reset());
   // Two fingers are ours; one that goes up or down scrolls the page (touch-action).
-  plot.addEventListener("touchmove", (event) => event.touches.length > 1 && event.cancelable && event.preventDefault(), { passive: false });
+  plot.addEventListener(
+    "touchmove",
+    (event) => event.touches.length > 1 && event.cancelable && event.preventDefault(),
+    { passive: false },
+  );
 
   function release(event) {
     pressed.delete(event.pointerId);
@@ -76,7 +81,13 @@ export function listen(plot, chart) {
     const [a, b] = [...pressed.values()];
     const now = middle(a, b);
     const factor = held.apart / Math.max(20, distance(a, b));
-    chart.drag(held.grip, now.clientX - held.middle.clientX, now.clientY - held.middle.clientY, factor, chart.place(held.middle, true));
+    chart.drag(
+      held.grip,
+      now.clientX - held.middle.clientX,
+      now.clientY - held.middle.clientY,
+      factor,
+      chart.place(held.middle, true),
+    );
   }
 
   /** A box that is thin in one direction covers the whole plot in it. */
@@ -84,24 +95,39 @@ export function listen(plot, chart) {
     const { left, top, width, height } = chart.area;
     const clamp = ([x, y]) => [Math.min(left + width, Math.max(left, x)), Math.min(top + height, Math.max(top, y))];
     const [[x1, y1], [x2, y2]] = [clamp(a), clamp(b)];
-    if (Math.abs(y2 - y1) < THIN_PX) return [[x1, top], [x2, top + height]];
-    if (Math.abs(x2 - x1) < THIN_PX) return [[left, y1], [left + width, y2]];
-    return [[x1, y1], [x2, y2]];
+    if (Math.abs(y2 - y1) < THIN_PX)
+      return [
+        [x1, top],
+        [x2, top + height],
+      ];
+    if (Math.abs(x2 - x1) < THIN_PX)
+      return [
+        [left, y1],
+        [left + width, y2],
+      ];
+    return [
+      [x1, y1],
+      [x2, y2],
+    ];
   }
 
-  plot.addEventListener("wheel", (event) => {
-    const asked = event.ctrlKey || event.metaKey;
-    if (!asked && document.activeElement !== plot) return; // the page's own scrolling
-    const unit = [1, 16, size().height][event.deltaMode];
-    const [dx, dy] = [event.deltaX * unit, event.deltaY * unit];
-    const sideways = Math.abs(dx) > Math.abs(dy) || event.shiftKey;
-    if (!asked && !chart.zoomed && (sideways || dy > 0)) return; // nothing to do here: the page may scroll
-    event.preventDefault();
-    if (sideways) return chart.shift((Math.abs(dx) > Math.abs(dy) ? dx : dy) / size().width, 0);
-    const factor = Math.exp(dy * (event.ctrlKey && Math.abs(dy) < 30 ? PINCH : WHEEL));
-    const onAxis = event.clientX - size().left < chart.area.left;
-    chart.scale(onAxis ? [1, factor] : [factor, chart.plane ? factor : 1], chart.place(event, true));
-  }, { passive: false });
+  plot.addEventListener(
+    "wheel",
+    (event) => {
+      const asked = event.ctrlKey || event.metaKey;
+      if (!asked && document.activeElement !== plot) return; // the page's own scrolling
+      const unit = [1, 16, size().height][event.deltaMode];
+      const [dx, dy] = [event.deltaX * unit, event.deltaY * unit];
+      const sideways = Math.abs(dx) > Math.abs(dy) || event.shiftKey;
+      if (!asked && !chart.zoomed && (sideways || dy > 0)) return; // nothing to do here: the page may scroll
+      event.preventDefault();
+      if (sideways) return chart.shift((Math.abs(dx) > Math.abs(dy) ? dx : dy) / size().width, 0);
+      const factor = Math.exp(dy * (event.ctrlKey && Math.abs(dy) < 30 ? PINCH : WHEEL));
+      const onAxis = event.clientX - size().left < chart.area.left;
+      chart.scale(onAxis ? [1, factor] : [factor, chart.plane ? factor : 1], chart.place(event, true));
+    },
+    { passive: false },
+  );
 
   const keys = {
     ArrowLeft: (shift) => (shift ? chart.shift(-0.1, 0) : chart.step(-1, 0)),
@@ -114,7 +140,7 @@ export function listen(plot, chart) {
     "=": () => chart.scale([0.5, chart.plane ? 0.5 : 1]),
     "-": () => chart.scale([2, chart.plane ? 2 : 1]),
     0: () => chart.reset(),
-    Escape: () => (release({}), (pressed.clear()), chart.clear()),
+    Escape: () => (release({}), pressed.clear(), chart.clear()),
     Enter: () => chart.go(),
   };
   plot.addEventListener("keydown", (event) => {

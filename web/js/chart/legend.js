@@ -28,7 +28,15 @@ export class Legend {
     this.node.dataset.series = said;
     this.#keys = series.map(({ key }) => key);
     this.node.replaceChildren(...series.map(entry));
-    if (pinned) this.node.append(make("li", { className: "pinned", title: "The pinned result: thin lines" }, sample({ key: "", class: "" }), "A"));
+    if (pinned)
+      this.node.append(
+        make(
+          "li",
+          { className: "pinned", title: "The pinned result: thin lines" },
+          sample({ key: "", class: "" }),
+          "A",
+        ),
+      );
     rove(this.node);
     this.#mark();
   }
@@ -54,11 +62,19 @@ export class Legend {
 
 /** A short line in the look of a series. */
 export const sample = ({ key, class: name }) =>
-  makeSvg("svg", { viewBox: "0 0 28 8", class: "sample", "aria-hidden": "true" },
-    makeSvg("g", { class: `series ${name}`, "data-key": key }, makeSvg("path", { d: "M0 4H28" })));
+  makeSvg(
+    "svg",
+    { viewBox: "0 0 28 8", class: "sample", "aria-hidden": "true" },
+    makeSvg("g", { class: `series ${name}`, "data-key": key }, makeSvg("path", { d: "M0 4H28" })),
+  );
 
 function entry(series) {
-  const button = make("button", { type: "button", title: "Click: hide or show. Double-click or Shift: show alone, or all again." }, sample(series), series.label);
+  const button = make(
+    "button",
+    { type: "button", title: "Click: hide or show. Double-click or Shift: show alone, or all again." },
+    sample(series),
+    series.label,
+  );
   button.dataset.key = series.key;
   return make("li", {}, button);
 }

@@ -19,7 +19,8 @@ export function readAlong(values, index) {
 }
 
 /** The columns of a chart's series: one each, or x, y and z. */
-export const columnsOf = (chart, data) => chart.series.map((_, i) => (chart.camera ? data.slice(1 + 3 * i, 4 + 3 * i) : [data[1 + i]]));
+export const columnsOf = (chart, data) =>
+  chart.series.map((_, i) => (chart.camera ? data.slice(1 + 3 * i, 4 + 3 * i) : [data[1 + i]]));
 
 /** Line of text under a chart. */
 export class Readout {
@@ -77,15 +78,20 @@ export class Marks {
     const at = index === null || chart.camera ? NaN : fractionOf(x, data[0].values[index]);
     this.#line.classList.toggle("on", inside(at));
     if (inside(at)) set(this.#line, { x1: left + at * width, x2: left + at * width, y1: top, y2: top + height });
-    const dots = index === null ? [] : columnsOf(chart, data).flatMap((columns, i) => {
-      const series = chart.series[i];
-      if (hidden.includes(series.key)) return [];
-      const [right, up] = chart.camera ? project(chart.camera, columns, index) : [data[0].values[index], columns[0].values[index]];
-      const [across, high] = [fractionOf(x, right), fractionOf(y, up)];
-      if (!inside(across) || !inside(high)) return [];
-      const dot = makeSvg("circle", { cx: left + across * width, cy: top + (1 - high) * height, r: 4 });
-      return [makeSvg("g", { class: `series ${series.class}`, "data-key": series.key }, dot)];
-    });
+    const dots =
+      index === null
+        ? []
+        : columnsOf(chart, data).flatMap((columns, i) => {
+            const series = chart.series[i];
+            if (hidden.includes(series.key)) return [];
+            const [right, up] = chart.camera
+              ? project(chart.camera, columns, index)
+              : [data[0].values[index], columns[0].values[index]];
+            const [across, high] = [fractionOf(x, right), fractionOf(y, up)];
+            if (!inside(across) || !inside(high)) return [];
+            const dot = makeSvg("circle", { cx: left + across * width, cy: top + (1 - high) * height, r: 4 });
+            return [makeSvg("g", { class: `series ${series.class}`, "data-key": series.key }, dot)];
+          });
     this.#dots.replaceChildren(...dots);
   }
 
@@ -107,7 +113,10 @@ function project(camera, columns, index) {
   return camera.map((axis) => axis.reduce((sum, part, k) => sum + part * columns[k].values[index], 0));
 }
 
-/** The sample of a path whose picture is nearest to a place (fractions of the plot), and how far away it is [px]. */
+/**
+ * The sample of a path whose picture is nearest to a place (fractions of the plot), and how far
+ * away it is [px].
+ */
 export function nearestInSpace({ chart, data, hidden }, { x, y }, [across, high]) {
   const { camera, plot } = chart;
   let best = { index: null, distance: Infinity };

@@ -10,11 +10,16 @@ const ROWS = 16; // besides the extremes
 export function tableOf({ chart, data, hidden }, { x }) {
   const [first] = data;
   const columns = columnsOf(chart, data).flatMap((group, i) => (hidden.includes(chart.series[i].key) ? [] : group));
-  const [from, to] = chart.camera ? [0, first.values.length - 1] : [nearest(first.values, x.min), nearest(first.values, x.max)];
+  const [from, to] = chart.camera
+    ? [0, first.values.length - 1]
+    : [nearest(first.values, x.min), nearest(first.values, x.max)];
   const extremes = columns.map(({ values }) => extremesOf(values, from, to));
-  const even = Array.from({ length: Math.min(ROWS, to - from + 1) }, (_, k, n = Math.min(ROWS, to - from + 1)) => Math.round(from + (k * (to - from)) / Math.max(1, n - 1)));
+  const even = Array.from({ length: Math.min(ROWS, to - from + 1) }, (_, k, n = Math.min(ROWS, to - from + 1)) =>
+    Math.round(from + (k * (to - from)) / Math.max(1, n - 1)),
+  );
   const rows = [...new Set([...even, ...extremes.flatMap(({ low, high }) => [low, high])])].sort((a, b) => a - b);
-  const head = ({ label, unit }) => make("th", { scope: "col" }, label, unit && make("span", { className: "unit" }, ` ${unit}`));
+  const head = ({ label, unit }) =>
+    make("th", { scope: "col" }, label, unit && make("span", { className: "unit" }, ` ${unit}`));
   const cell = (column, k, index) => {
     const { low, high } = extremes[k];
     const mark = low === high ? "" : index === low ? "min" : index === high ? "max" : "";
@@ -23,10 +28,24 @@ export function tableOf({ chart, data, hidden }, { x }) {
     return value;
   };
   const caption = `${chart.title}: ${rows.length} of ${to - from + 1} samples, the least and the greatest of each series among them.`;
-  return make("table", {}, make("caption", {}, caption),
+  return make(
+    "table",
+    {},
+    make("caption", {}, caption),
     make("thead", {}, make("tr", {}, head(first), ...columns.map(head))),
-    make("tbody", {}, ...rows.map((index) =>
-      make("tr", {}, make("th", { scope: "row" }, readAlong(first.values, index)), ...columns.map((column, k) => cell(column, k, index))))));
+    make(
+      "tbody",
+      {},
+      ...rows.map((index) =>
+        make(
+          "tr",
+          {},
+          make("th", { scope: "row" }, readAlong(first.values, index)),
+          ...columns.map((column, k) => cell(column, k, index)),
+        ),
+      ),
+    ),
+  );
 }
 
 function extremesOf(values, from, to) {

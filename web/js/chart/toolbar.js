@@ -10,9 +10,13 @@ const ICONS = {
   save: "M10 3V12M6 9L10 13L14 9M4 16H16",
 };
 
-const icon = (name) => makeSvg("svg", { viewBox: "0 0 20 20", class: "icon", "aria-hidden": "true" }, makeSvg("path", { d: ICONS[name] }));
+const icon = (name) =>
+  makeSvg("svg", { viewBox: "0 0 20 20", class: "icon", "aria-hidden": "true" }, makeSvg("path", { d: ICONS[name] }));
 
-/** The toolbar; `act` has what its buttons do: `zoomIn`, `zoomOut`, `reset`, `table(on)`, `save(format)`. */
+/**
+ * The toolbar; `act` has what its buttons do: `zoomIn`, `zoomOut`, `reset`, `table(on)`,
+ * `save(format)`.
+ */
 export function toolbar(title, act) {
   const button = (name, label, action) => {
     const made = make("button", { type: "button", title: label, "aria-label": label }, icon(name));
@@ -21,7 +25,11 @@ export function toolbar(title, act) {
   };
   const save = button("save", "Save the chart", () => open(menu.hidden));
   const menu = make("div", { className: "menu", hidden: true });
-  for (const [format, note] of [["SVG", "drawing"], ["PNG", "picture"], ["CSV", "all samples"]]) {
+  for (const [format, note] of [
+    ["SVG", "drawing"],
+    ["PNG", "picture"],
+    ["CSV", "all samples"],
+  ]) {
     const item = make("button", { type: "button" }, format, make("span", { className: "unit" }, ` ${note}`));
     item.addEventListener("click", () => (open(false), save.focus(), act.save(format.toLowerCase())));
     menu.append(item);
@@ -38,10 +46,19 @@ export function toolbar(title, act) {
   });
   table.setAttribute("aria-pressed", "false");
   save.setAttribute("aria-expanded", "false");
-  const bar = make("div", { role: "toolbar", className: "chart-tools", "aria-label": `Chart tools: ${title}` },
-    button("in", "Zoom in", act.zoomIn), button("out", "Zoom out", act.zoomOut), button("reset", "Show all", act.reset), table,
-    make("span", { className: "save" }, save, menu));
-  bar.addEventListener("focusout", ({ relatedTarget }) => menu.contains(relatedTarget) || relatedTarget === save || open(false));
+  const bar = make(
+    "div",
+    { role: "toolbar", className: "chart-tools", "aria-label": `Chart tools: ${title}` },
+    button("in", "Zoom in", act.zoomIn),
+    button("out", "Zoom out", act.zoomOut),
+    button("reset", "Show all", act.reset),
+    table,
+    make("span", { className: "save" }, save, menu),
+  );
+  bar.addEventListener(
+    "focusout",
+    ({ relatedTarget }) => menu.contains(relatedTarget) || relatedTarget === save || open(false),
+  );
   bar.addEventListener("keydown", (event) => {
     if (event.key !== "Escape" || menu.hidden) return;
     event.stopPropagation();

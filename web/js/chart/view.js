@@ -1,19 +1,27 @@
-// The part of an axis that is shown. An axis is { min, max, log, full: [low, high] }; a fraction counts from 0 at min to 1 at max.
+// The part of an axis that is shown. An axis is { min, max, log, full: [low, high] }; a fraction
+// counts from 0 at min to 1 at max.
 
 const FINEST = 1e-6; // the least part of the whole that can be shown
 const DIGITS = 1e-8; // and of the values themselves: what a double still tells apart
 
-export const valueAt = ({ min, max, log }, fraction) => (log ? min * (max / min) ** fraction : min + fraction * (max - min));
+export const valueAt = ({ min, max, log }, fraction) =>
+  log ? min * (max / min) ** fraction : min + fraction * (max - min);
 
-export const fractionOf = ({ min, max, log }, value) => (log ? Math.log(value / min) / Math.log(max / min) : (value - min) / (max - min));
+export const fractionOf = ({ min, max, log }, value) =>
+  log ? Math.log(value / min) / Math.log(max / min) : (value - min) / (max - min);
 
-/** The range between two fractions of what is shown, moved and grown to lie inside the whole; null if it is the whole. */
+/**
+ * The range between two fractions of what is shown, moved and grown to lie inside the whole; null
+ * if it is the whole.
+ */
 export function between(axis, from, to) {
   const [low, high] = axis.full;
   const whole = { min: low, max: high, log: axis.log };
   const a = fractionOf(whole, valueAt(axis, from));
   const b = fractionOf(whole, valueAt(axis, to));
-  const finest = axis.log ? FINEST : Math.max(FINEST, (DIGITS * Math.max(Math.abs(low), Math.abs(high))) / (high - low));
+  const finest = axis.log
+    ? FINEST
+    : Math.max(FINEST, (DIGITS * Math.max(Math.abs(low), Math.abs(high))) / (high - low));
   const size = Math.max(b - a, finest);
   if (!(size < 1 - 1e-9)) return null;
   const start = Math.min(1 - size, Math.max(0, (a + b - size) / 2));
@@ -21,7 +29,8 @@ export function between(axis, from, to) {
 }
 
 /** The range that is `factor` times as long, with the value at a fraction staying where it is. */
-export const scaled = (axis, fraction, factor) => between(axis, fraction - fraction * factor, fraction + (1 - fraction) * factor);
+export const scaled = (axis, fraction, factor) =>
+  between(axis, fraction - fraction * factor, fraction + (1 - fraction) * factor);
 
 /** The range moved by a fraction of its length. */
 export const shifted = (axis, by) => between(axis, by, 1 + by);

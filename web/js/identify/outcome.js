@@ -1,4 +1,5 @@
-// What both parts of the view do with a text: compute when it changes, latest wins; show the result and its chart, or what is wrong.
+// What both parts of the view do with a text: compute when it changes, latest wins; show the result
+// and its chart, or what is wrong.
 
 import { Figure } from "../chart/figure.js";
 import { debounced, make } from "../dom.js";
@@ -15,13 +16,18 @@ export class Outcome {
   #asked = ""; // what was asked last
   #found = null;
 
-  /** `source` is the text, `show(found)` gives the nodes of a result; `chart` is { name, title }. */
+  /**
+   * `source` is the text, `show(found)` gives the nodes of a result; `chart` is { name, title }.
+   */
   constructor({ ask, kind, source, chart, show }) {
     this.#ask = ask;
     this.#kind = kind;
     this.#source = source;
     this.#show = show;
-    const drawn = { chart: (_, options) => ask("identified_chart", kind, options), chartData: (_, units) => ask("identified_data", kind, units) };
+    const drawn = {
+      chart: (_, options) => ask("identified_chart", kind, options),
+      chartData: (_, units) => ask("identified_data", kind, units),
+    };
     this.#figure = new Figure({ ...chart, figure: "", kind: "curve" }, () => {}, drawn);
     this.node = make("div", { className: "outcome", "aria-live": "polite" }, this.#result);
     const redraw = debounced(() => this.#figure.fits || this.#draw(), 120);
@@ -80,4 +86,5 @@ export class Outcome {
 }
 
 /** Sentences that make a result doubtful. */
-export const remarks = (texts) => (texts.length ? [make("ul", { className: "remarks" }, ...texts.map((text) => make("li", {}, text)))] : []);
+export const remarks = (texts) =>
+  texts.length ? [make("ul", { className: "remarks" }, ...texts.map((text) => make("li", {}, text)))] : [];

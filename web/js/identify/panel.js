@@ -1,4 +1,5 @@
-// The view Identify: joint compliances from measured loads, frequency and damping from a measured response.
+// The view Identify: joint compliances from measured loads, frequency and damping from a measured
+// response.
 
 import * as core from "../core.js";
 import { makeResponse } from "./response.js";
@@ -20,7 +21,10 @@ async function ask(...question) {
   }
 }
 
-/** Fills `node`. `job()` gives the job as plain data, `use(job)` takes another one over. `look()` of what comes back brings the view up to date. */
+/**
+ * Fills `node`. `job()` gives the job as plain data, `use(job)` takes another one over. `look()` of
+ * what comes back brings the view up to date.
+ */
 export function makeIdentify(node, { job, use }) {
   const parts = [makeStiffness({ ask, job, use }), makeResponse({ ask, job, use })];
   node.append(...parts.map((part) => part.node));

@@ -7,7 +7,12 @@ import { Outcome, remarks } from "./outcome.js";
 import { Source } from "./source.js";
 
 export function makeResponse({ ask, job, use }) {
-  const from = make("input", { id: "identify-from", className: "value", inputMode: "decimal", placeholder: "largest peak" });
+  const from = make("input", {
+    id: "identify-from",
+    className: "value",
+    inputMode: "decimal",
+    placeholder: "largest peak",
+  });
   const source = new Source({
     id: "identify-response",
     label: "Measured response",
@@ -15,15 +20,26 @@ export function makeResponse({ ask, job, use }) {
     exampleName: "Example: computed response",
     changed: () => look(),
     example: () => source.read("identify-response.csv").then(look, (error) => source.fail(error)),
-    more: [make("label", { htmlFor: "identify-from" }, "Free decay from ", make("span", { className: "unit" }, "s "), from)],
+    more: [
+      make("label", { htmlFor: "identify-from" }, "Free decay from ", make("span", { className: "unit" }, "s "), from),
+    ],
   });
-  const outcome = new Outcome({ ask, kind: "response", source, chart: { name: "response", title: "Measured response and fitted vibration" }, show });
+  const outcome = new Outcome({
+    ask,
+    kind: "response",
+    source,
+    chart: { name: "response", title: "Measured response and fitted vibration" },
+    show,
+  });
   from.addEventListener("change", () => look());
 
   function look() {
     const start = from.value.trim() ? parseNumber(from.value) : undefined;
     from.setAttribute("aria-invalid", String(Number.isNaN(start)));
-    if (Number.isNaN(start)) return source.fail({ message: "The free decay starts at a number of seconds, such as 0.25; empty: at the largest peak." });
+    if (Number.isNaN(start))
+      return source.fail({
+        message: "The free decay starts at a number of seconds, such as 0.25; empty: at the largest peak.",
+      });
     outcome.compute(start);
   }
 
@@ -31,31 +47,72 @@ export function makeResponse({ ask, job, use }) {
     const next = job();
     const digits = (value) => Number(value.toPrecision(6));
     const before = typeof next.shaper === "object" ? next.shaper : { kind: "zvd" };
-    const frequency = before.frequency_hz === undefined ? { frequency_rad_s: digits(frequency_rad_s) } : { frequency_hz: digits(frequency_hz) };
+    const frequency =
+      before.frequency_hz === undefined
+        ? { frequency_rad_s: digits(frequency_rad_s) }
+        : { frequency_hz: digits(frequency_hz) };
     next.shaper = { kind: before.kind, ...frequency, damping: digits(damping) };
     use(next);
     notify("The job’s shaper has this frequency and damping. Undo takes them back.");
   }
 
   function show(found) {
-    const button = make("button", { type: "button", className: "primary", id: "use-mode" }, "Use this frequency and damping in the job");
+    const button = make(
+      "button",
+      { type: "button", className: "primary", id: "use-mode" },
+      "Use this frequency and damping in the job",
+    );
     button.addEventListener("click", () => take(found));
-    const fact = (id, name, unit, value, [low, high]) => make("div", {}, make("dt", {}, name, make("span", { className: "unit" }, ` ${unit}`)),
-      make("dd", {}, make("output", { id }, formatNumber(value, 5)), make("span", { className: "unit" }, ` ± ${formatNumber((high - low) / 2, 2)}`)));
+    const fact = (id, name, unit, value, [low, high]) =>
+      make(
+        "div",
+        {},
+        make("dt", {}, name, make("span", { className: "unit" }, ` ${unit}`)),
+        make(
+          "dd",
+          {},
+          make("output", { id }, formatNumber(value, 5)),
+          make("span", { className: "unit" }, ` ± ${formatNumber((high - low) / 2, 2)}`),
+        ),
+      );
     return [
-      make("dl", { className: "mode" },
+      make(
+        "dl",
+        { className: "mode" },
         fact("identified-hz", "Natural frequency", "Hz", found.frequency_hz, found.frequency_interval_hz),
         fact("identified-rad", "Natural frequency", "rad/s", found.frequency_rad_s, found.frequency_interval_rad_s),
-        fact("identified-damping", "Damping ratio", "", found.damping, found.damping_interval)),
-      make("p", { className: "found" }, `${found.sentence} By the peaks alone (logarithmic decrement): ${formatNumber(found.decrement.frequency_rad_s)} rad/s and ${formatNumber(found.decrement.damping)}.`),
+        fact("identified-damping", "Damping ratio", "", found.damping, found.damping_interval),
+      ),
+      make(
+        "p",
+        { className: "found" },
+        `${found.sentence} By the peaks alone (logarithmic decrement): ` +
+          `${formatNumber(found.decrement.frequency_rad_s)} rad/s and ${formatNumber(found.decrement.damping)}.`,
+      ),
       ...remarks(found.remarks.map(({ message }) => sentence(message))),
-      make("p", { className: "note" }, "± is half a 95 % interval, if what is left by the fit is noise. The frequency is the undamped one, which the shaper takes."),
+      make(
+        "p",
+        { className: "note" },
+        "± is half a 95 % interval, if what is left by the fit is noise. The frequency is the undamped one, which the shaper takes.",
+      ),
       make("div", { className: "identify-tools" }, button),
     ];
   }
 
-  return { node: make("section", { className: "identify", "aria-labelledby": "identify-mode" },
-    make("h2", { id: "identify-mode" }, "Frequency and damping from a measured response"),
-    make("p", { className: "lead" }, "Let the arm stop hard, or strike it, and record an acceleration until it is still. One row an instant: time and signal. The signal’s unit does not matter."),
-    source.node, outcome.node), look };
+  return {
+    node: make(
+      "section",
+      { className: "identify", "aria-labelledby": "identify-mode" },
+      make("h2", { id: "identify-mode" }, "Frequency and damping from a measured response"),
+      make(
+        "p",
+        { className: "lead" },
+        "Let the arm stop hard, or strike it, and record an acceleration until it is still. One row an instant: time " +
+          "and signal. The signal’s unit does not matter.",
+      ),
+      source.node,
+      outcome.node,
+    ),
+    look,
+  };
 }

@@ -1,4 +1,5 @@
-// A text of measurements: pasted, opened, dropped or an example; and where in it something is wrong.
+// A text of measurements: pasted, opened, dropped or an example; and where in it something is
+// wrong.
 
 import { debounced, make, sentence } from "../dom.js";
 import { readText } from "../files.js";
@@ -12,7 +13,10 @@ export class Source {
   #note = make("p", { className: "note" });
   #aside = null; // a long text, kept out of the textarea
 
-  /** `changed()` is called when there is another text, `example()` when the example is asked for; `more` stands beside the buttons. */
+  /**
+   * `changed()` is called when there is another text, `example()` when the example is asked for;
+   * `more` stands beside the buttons.
+   */
   constructor({ id, label, placeholder, exampleName, changed, example, more = [] }) {
     const file = make("input", { type: "file", id: `${id}-file`, hidden: true, "aria-label": `${label}: file` });
     const open = make("button", { type: "button", id: `${id}-open` }, "Open file…");
@@ -33,8 +37,14 @@ export class Source {
       event.preventDefault();
       this.#take(text, changed);
     });
-    this.node = make("div", { className: "source" },
-      make("div", { className: "identify-tools" }, open, show, file, ...more), this.#area, this.#note, this.#error);
+    this.node = make(
+      "div",
+      { className: "source" },
+      make("div", { className: "identify-tools" }, open, show, file, ...more),
+      this.#area,
+      this.#note,
+      this.#error,
+    );
     this.node.addEventListener("dragover", (event) => event.preventDefault());
     this.node.addEventListener("drop", async (event) => {
       const [dropped] = event.dataTransfer.files;

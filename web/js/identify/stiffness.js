@@ -14,18 +14,30 @@ const JOINTS = { table: "as the robot’s table does", "coupled-j3": "joint 3 fr
 
 export function makeStiffness({ ask, job, use }) {
   let example = null; // the measured robot, as long as it is looked at instead of the job's
-  const joints = make("select", { id: "identify-joints" }, ...Object.entries(JOINTS).map(([value, name]) => make("option", { value }, name)));
+  const joints = make(
+    "select",
+    { id: "identify-joints" },
+    ...Object.entries(JOINTS).map(([value, name]) => make("option", { value }, name)),
+  );
   const whose = make("p", { className: "whose" });
   const source = new Source({
     id: "identify-loads",
     label: "Measured loads and displacements",
-    placeholder: "q1_deg, q2_deg, q3_deg, q4_deg, q5_deg, q6_deg, fx_n, fy_n, fz_n, dx_mm, dy_mm, dz_mm\n10, -20, 100, 0, 45, 0, 150, 0, -300, 0.42, 0.03, -0.61\n…",
+    placeholder:
+      "q1_deg, q2_deg, q3_deg, q4_deg, q5_deg, q6_deg, fx_n, fy_n, fz_n, dx_mm, dy_mm, dz_mm\n10, -20, 100, 0, 45, 0, " +
+      "150, 0, -300, 0.42, 0.03, -0.61\n…",
     exampleName: "Example: FANUC, 43 postures",
     changed: () => look(),
     example: () => showExample().catch((error) => source.fail(error)),
     more: [make("label", { htmlFor: "identify-joints" }, "Pendant counts joints ", joints)],
   });
-  const outcome = new Outcome({ ask, kind: "stiffness", source, chart: { name: "stiffness", title: "Displacement of each row, and what the fit leaves of it" }, show });
+  const outcome = new Outcome({
+    ask,
+    kind: "stiffness",
+    source,
+    chart: { name: "stiffness", title: "Displacement of each row, and what the fit leaves of it" },
+    show,
+  });
   joints.addEventListener("change", () => look());
 
   const robotOf = ({ version = 1, robot, tool_frame }) => ({ version, robot, tool_frame });
@@ -33,7 +45,11 @@ export function makeStiffness({ ask, job, use }) {
   function look() {
     const own = make("button", { type: "button", className: "quiet" }, "Use the job’s robot instead");
     own.addEventListener("click", () => ((example = null), look()));
-    whose.replaceChildren(...(example ? [`The robot is the example’s, a ${example.robot.name}, with the tip where the load was. `, own] : ["The robot and its tool frame are the job’s."]));
+    whose.replaceChildren(
+      ...(example
+        ? [`The robot is the example’s, a ${example.robot.name}, with the tip where the load was. `, own]
+        : ["The robot and its tool frame are the job’s."]),
+    );
     outcome.compute(JSON.stringify(robotOf(example ?? job())), joints.value);
   }
 
@@ -46,47 +62,129 @@ export function makeStiffness({ ask, job, use }) {
 
   function take(found) {
     const next = job();
-    if (example) Object.assign(next, structuredClone({ robot: example.robot, tool_frame: example.tool_frame, workpiece_frame: example.workpiece_frame }));
+    if (example)
+      Object.assign(
+        next,
+        structuredClone({
+          robot: example.robot,
+          tool_frame: example.tool_frame,
+          workpiece_frame: example.workpiece_frame,
+        }),
+      );
     const name = found.robot.replace(/, compliance identified.*$/, "");
     next.robot.name = `${name}, compliance ${found.source}`;
     next.robot.joint_compliance_rad_per_nm = found.joint_compliance_rad_per_nm.map((c) => Number(c.toPrecision(6)));
     use(next);
-    notify(`The job has the compliances ${found.source}${example ? ", with the robot, its tool and a workpiece in its reach" : ""}. Undo takes them back.`);
+    notify(
+      `The job has the compliances ${found.source}` +
+        `${example ? ", with the robot, its tool and a workpiece in its reach" : ""}. Undo takes them back.`,
+    );
   }
 
   function show(found) {
-    const button = make("button", { type: "button", className: "primary", id: "use-compliance" }, example ? "Use this robot and these compliances in the job" : "Use these compliances in the job");
+    const button = make(
+      "button",
+      { type: "button", className: "primary", id: "use-compliance" },
+      example ? "Use this robot and these compliances in the job" : "Use these compliances in the job",
+    );
     button.addEventListener("click", () => take(found));
-    const unsure = found.joints.filter(({ verdict }) => verdict === "idle" || verdict === "entangled").map(({ joint }) => joint);
-    const warning = unsure.length ? [`${unsure.length > 1 ? "Joints" : "Joint"} ${unsure.join(", ")} cannot be identified from these postures: the value in the table is not to be relied on.`] : [];
+    const unsure = found.joints
+      .filter(({ verdict }) => verdict === "idle" || verdict === "entangled")
+      .map(({ joint }) => joint);
+    const warning = unsure.length
+      ? [
+          `${unsure.length > 1 ? "Joints" : "Joint"} ${unsure.join(", ")} cannot be identified from these postures: ` +
+            `the value in the table is not to be relied on.`,
+        ]
+      : [];
     return [
       make("p", { className: "found" }, found.sentence),
       ...remarks([...warning, ...found.remarks.map(sentence)]),
       tableOf(found.joints),
-      make("p", { className: "note" },
-        `Intervals hold 95 %, if errors are independent and equally large and nothing but the joints gives way. Inflation: how many times the variance grows because the joints look alike in these postures. Condition number ${formatNumber(found.condition ?? Infinity)}${found.condition === null ? " infinite" : ""}, residual ${lengthText(found.residual_rms_mm)} ${lengthUnit()} rms a component, ${found.degrees_of_freedom} degrees of freedom.`.replace("– infinite", "infinite")),
+      make(
+        "p",
+        { className: "note" },
+        `Intervals hold 95 %, if errors are independent and equally large and nothing but the joints gives way. ` +
+          `Inflation: how many times the variance grows because the joints look alike in these postures. Condition number ` +
+          `${formatNumber(found.condition ?? Infinity)}${found.condition === null ? " infinite" : ""}, residual ` +
+          `${lengthText(found.residual_rms_mm)} ${lengthUnit()} rms a component, ${found.degrees_of_freedom} degrees of freedom.`.replace(
+            "– infinite",
+            "infinite",
+          ),
+      ),
       make("div", { className: "identify-tools" }, button),
     ];
   }
 
-  return { node: make("section", { className: "identify", "aria-labelledby": "identify-stiffness" },
-    make("h2", { id: "identify-stiffness" }, "Joint compliances from measured loads"),
-    make("p", { className: "lead" }, "Load the tip in twenty postures or more, as different as the cell allows, and measure how far it gives way. One row a load: six joint angles, force on the tip and displacement of the tip in the robot’s base frame. A first line may name columns and units; moments (mx_nm, my_nm, mz_nm) may be added, displacements left out."),
-    source.node, whose, outcome.node), look };
+  return {
+    node: make(
+      "section",
+      { className: "identify", "aria-labelledby": "identify-stiffness" },
+      make("h2", { id: "identify-stiffness" }, "Joint compliances from measured loads"),
+      make(
+        "p",
+        { className: "lead" },
+        "Load the tip in twenty postures or more, as different as the cell allows, and measure how far it gives way. " +
+          "One row a load: six joint angles, force on the tip and displacement of the tip in the robot’s base frame. A " +
+          "first line may name columns and units; moments (mx_nm, my_nm, mz_nm) may be added, displacements left out.",
+      ),
+      source.node,
+      whose,
+      outcome.node,
+    ),
+    look,
+  };
 }
 
 function tableOf(joints) {
   const micro = (value) => (value === null ? "∞" : formatNumber(value * MICRO));
-  const row = ({ joint, compliance_rad_per_nm, interval_rad_per_nm: [low, high], stiffness_nm_per_rad, variance_inflation, verdict, sentence: words }) =>
-    make("tr", { className: verdict }, make("th", { scope: "row" }, `Joint ${joint}`),
+  const row = ({
+    joint,
+    compliance_rad_per_nm,
+    interval_rad_per_nm: [low, high],
+    stiffness_nm_per_rad,
+    variance_inflation,
+    verdict,
+    sentence: words,
+  }) =>
+    make(
+      "tr",
+      { className: verdict },
+      make("th", { scope: "row" }, `Joint ${joint}`),
       make("td", { "data-label": "Compliance" }, micro(compliance_rad_per_nm)),
       make("td", { "data-label": "95 % interval" }, `${micro(low)} to ${micro(high)}`),
-      make("td", { "data-label": "Stiffness, kN m/rad" }, stiffness_nm_per_rad === null ? "rigid" : formatNumber(Math.round(stiffness_nm_per_rad / 1000))),
-      make("td", { "data-label": "Inflation" }, variance_inflation === null ? "∞" : formatNumber(variance_inflation, 2)),
-      make("td", {}, sentence(words)));
-  const head = (text, unit) => make("th", { scope: "col" }, text, unit ? make("span", { className: "unit" }, ` ${unit}`) : "");
-  return make("table", { id: "identified" },
+      make(
+        "td",
+        { "data-label": "Stiffness, kN m/rad" },
+        stiffness_nm_per_rad === null ? "rigid" : formatNumber(Math.round(stiffness_nm_per_rad / 1000)),
+      ),
+      make(
+        "td",
+        { "data-label": "Inflation" },
+        variance_inflation === null ? "∞" : formatNumber(variance_inflation, 2),
+      ),
+      make("td", {}, sentence(words)),
+    );
+  const head = (text, unit) =>
+    make("th", { scope: "col" }, text, unit ? make("span", { className: "unit" }, ` ${unit}`) : "");
+  return make(
+    "table",
+    { id: "identified" },
     make("caption", {}, "Joint compliances ", make("span", { className: "unit" }, "10⁻⁶ rad/(N m)")),
-    make("thead", {}, make("tr", {}, head("Joint"), head("Compliance"), head("95 % interval"), head("Stiffness", "kN m/rad"), head("Inflation"), head("How far it is known"))),
-    make("tbody", {}, ...joints.map(row)));
+    make(
+      "thead",
+      {},
+      make(
+        "tr",
+        {},
+        head("Joint"),
+        head("Compliance"),
+        head("95 % interval"),
+        head("Stiffness", "kN m/rad"),
+        head("Inflation"),
+        head("How far it is known"),
+      ),
+    ),
+    make("tbody", {}, ...joints.map(row)),
+  );
 }

@@ -13,7 +13,10 @@ const PLANES = { xy: [0, 1, 2], xz: [0, 2, 1], yz: [1, 2, 0] };
 const STEPS = [11, 21, 31, 41];
 const CALM_MS = 400;
 
-/** Builds the view into `node`; `job()` is the present one, `use(job)` shows another (and can be undone). */
+/**
+ * Builds the view into `node`; `job()` is the present one, `use(job)` shows another (and can be
+ * undone).
+ */
 export function makePlacement(node, { job, use }) {
   let map = null; // { key, plane, columns, rows, values, at }
   let pick = null; // from a point of the drawing to a cell
@@ -25,27 +28,72 @@ export function makePlacement(node, { job, use }) {
   const plane = select("placement-plane", { xy: "x and y", xz: "x and z", yz: "y and z" });
   const steps = select("placement-steps", Object.fromEntries(STEPS.map((n) => [n, `${n} × ${n}`])));
   steps.value = "21";
-  const numbers = ["a-from", "a-to", "b-from", "b-to", "at"].map((id) => make("input", { id: `placement-${id}`, type: "text", inputMode: "decimal", className: "value" }));
+  const numbers = ["a-from", "a-to", "b-from", "b-to", "at"].map((id) =>
+    make("input", { id: `placement-${id}`, type: "text", inputMode: "decimal", className: "value" }),
+  );
   const labels = numbers.map((input) => make("label", { for: input.id }));
-  const fields = make("div", { className: "placement-fields" },
-    ...[["Plane", plane], ["Steps", steps]].map(([text, input]) => make("div", {}, make("label", { for: input.id }, text), input)),
-    ...numbers.map((input, i) => make("div", {}, labels[i], input)));
+  const fields = make(
+    "div",
+    { className: "placement-fields" },
+    ...[
+      ["Plane", plane],
+      ["Steps", steps],
+    ].map(([text, input]) => make("div", {}, make("label", { for: input.id }, text), input)),
+    ...numbers.map((input, i) => make("div", {}, labels[i], input)),
+  );
   const again = make("button", { type: "button", id: "placement-compute" }, "Compute the map");
   const cancel = make("button", { type: "button", id: "placement-cancel", disabled: true }, "Cancel");
   const whole = make("button", { type: "button", className: "quiet", id: "placement-reset" }, "Whole reach");
   const bar = make("progress", { max: 1, value: 0, hidden: true, "aria-label": "Progress of the map" });
   const status = make("p", { id: "placement-status", role: "status" });
-  const svg = makeSvg("svg", { id: "placement-map", role: "application", tabindex: "0", "aria-roledescription": "map", "aria-label": "Predicted error over places of the part", "aria-describedby": "placement-keys placement-read" });
+  const svg = makeSvg("svg", {
+    id: "placement-map",
+    role: "application",
+    tabindex: "0",
+    "aria-roledescription": "map",
+    "aria-label": "Predicted error over places of the part",
+    "aria-describedby": "placement-keys placement-read",
+  });
   const read = make("p", { id: "placement-read", role: "status" });
-  const scale = make("div", { className: "placement-scale" }, make("div", { className: "bar" }), make("span", { className: "low" }), make("span", { className: "high" }));
+  const scale = make(
+    "div",
+    { className: "placement-scale" },
+    make("div", { className: "bar" }),
+    make("span", { className: "low" }),
+    make("span", { className: "high" }),
+  );
   const legend = make("ul", { className: "placement-legend" }, ...legendItems());
   const verdict = make("p", { id: "placement-verdict" });
-  const best = make("button", { type: "button", id: "placement-best", className: "primary", disabled: true }, "Place the part at the best");
+  const best = make(
+    "button",
+    { type: "button", id: "placement-best", className: "primary", disabled: true },
+    "Place the part at the best",
+  );
   const table = make("table", { id: "placement-table" });
-  const details = make("details", { className: "placement-values" }, make("summary", {}, "As a table"), make("div", { className: "scroll" }, table));
-  const keys = make("p", { id: "placement-keys", className: "hint" }, "Click a cell to place the part there; undo takes it back. Arrow keys move over the cells, Enter places the part.");
-  node.replaceChildren(fields, make("div", { className: "placement-actions" }, again, cancel, whole, bar), status,
-    make("div", { className: "placement-view" }, svg, make("div", { className: "placement-side" }, verdict, best, scale, legend, read)), keys, details);
+  const details = make(
+    "details",
+    { className: "placement-values" },
+    make("summary", {}, "As a table"),
+    make("div", { className: "scroll" }, table),
+  );
+  const keys = make(
+    "p",
+    { id: "placement-keys", className: "hint" },
+    "Click a cell to place the part there; undo takes it back. Arrow keys move over the cells, Enter places the part.",
+  );
+  node.replaceChildren(
+    fields,
+    make("div", { className: "placement-actions" }, again, cancel, whole, bar),
+    status,
+    make(
+      "div",
+      { className: "placement-view" },
+      svg,
+      make("div", { className: "placement-side" }, verdict, best, scale, legend, read),
+    ),
+    keys,
+    details,
+  );
 
   const axes = () => PLANES[plane.value];
   const place = () => job().workpiece_frame.xyz_mm;
@@ -53,7 +101,9 @@ export function makePlacement(node, { job, use }) {
   /** The labels of the plane, and its ranges where none are typed. */
   function fill() {
     const [a, b, fixed] = axes().map((axis) => AXES[axis]);
-    [`${a} from`, `${a} to`, `${b} from`, `${b} to`, `At ${fixed}`].forEach((text, i) => labels[i].replaceChildren(text, " ", make("span", { className: "unit" }, "mm")));
+    [`${a} from`, `${a} to`, `${b} from`, `${b} to`, `At ${fixed}`].forEach((text, i) =>
+      labels[i].replaceChildren(text, " ", make("span", { className: "unit" }, "mm")),
+    );
     if (typed || !ranges) return;
     const [i, k, rest] = axes();
     [...ranges[i], ...ranges[k], place()[rest]].forEach((value, n) => (numbers[n].value = plainNumber(value)));
@@ -73,9 +123,11 @@ export function makePlacement(node, { job, use }) {
 
   async function compute(always = false) {
     const values = numbers.map((input) => parseNumber(input.value));
-    const wrong = numbers.findIndex((_, i) => !Number.isFinite(values[i])) ;
+    const wrong = numbers.findIndex((_, i) => !Number.isFinite(values[i]));
     const turned = values[0] >= values[1] ? 1 : values[2] >= values[3] ? 3 : -1;
-    numbers.forEach((input, i) => (i === wrong || i === turned ? input.setAttribute("aria-invalid", "true") : input.removeAttribute("aria-invalid")));
+    numbers.forEach((input, i) =>
+      i === wrong || i === turned ? input.setAttribute("aria-invalid", "true") : input.removeAttribute("aria-invalid"),
+    );
     if (wrong >= 0) return say(`${labels[wrong].textContent}: a number is needed.`);
     if (turned >= 0) return say(`${labels[turned].textContent}: more than the start is needed.`);
     const own = job();
@@ -90,11 +142,15 @@ export function makePlacement(node, { job, use }) {
     const line = (from, to) => Array.from({ length: count }, (_, n) => from + ((to - from) * n) / (count - 1));
     const [i, k, rest] = axes();
     const [columns, rows] = [line(values[0], values[1]), line(values[2], values[3])];
-    const bands = rows.map((row) => Float64Array.from(columns.flatMap((column) => {
-      const at = [0, 0, 0];
-      [at[i], at[k], at[rest]] = [column, row, values[4]];
-      return at;
-    })));
+    const bands = rows.map((row) =>
+      Float64Array.from(
+        columns.flatMap((column) => {
+          const at = [0, 0, 0];
+          [at[i], at[k], at[rest]] = [column, row, values[4]];
+          return at;
+        }),
+      ),
+    );
     const found = rows.map(() => null);
     const at = (c, r) => found[r] && { max: found[r][3 * c], mean: found[r][3 * c + 1], mark: found[r][3 * c + 2] };
     map = { key: null, axes: [i, k, rest], fixed: values[4], columns, rows, at, here: xyz };
@@ -105,12 +161,17 @@ export function makePlacement(node, { job, use }) {
     const began = performance.now();
     let done = 0;
     try {
-      await survey(json, bands, (index, numbers) => {
-        if (mine !== running) return;
-        found[index] = numbers;
-        bar.value = ++done / rows.length;
-        soon();
-      }, mine.signal);
+      await survey(
+        json,
+        bands,
+        (index, numbers) => {
+          if (mine !== running) return;
+          found[index] = numbers;
+          bar.value = ++done / rows.length;
+          soon();
+        },
+        mine.signal,
+      );
       if (mine !== running) return;
       map.key = key;
       say(`${count * count} places in ${formatNumber((performance.now() - began) / 1000, 2)} s.`);
@@ -129,7 +190,10 @@ export function makePlacement(node, { job, use }) {
   function show() {
     if (!map) return;
     const places = map.rows.flatMap((_, k) => map.columns.map((_, i) => ({ i, k, ...map.at(i, k) })));
-    const errors = places.filter(({ mark }) => mark < 3).map(({ max }) => max).sort((a, b) => a - b);
+    const errors = places
+      .filter(({ mark }) => mark < 3)
+      .map(({ max }) => max)
+      .sort((a, b) => a - b);
     // A few places near singularities would take the whole scale.
     const limit = errors[Math.floor(0.95 * (errors.length - 1))] ?? 0;
     const good = places.filter(({ mark }) => mark === 0).sort((a, b) => a.max - b.max);
@@ -147,19 +211,28 @@ export function makePlacement(node, { job, use }) {
     scale.querySelector(".high").textContent = `${lengthText(limit)} ${lengthUnit()} and more`;
     verdict.textContent = top
       ? `Best on this map: ${spot(top.i, top.k)}, at most ${lengthText(top.max)} ${lengthUnit()} off the path before compensation.`
-      : errors.length ? "No place on this map is free of limits and singularities." : running ? "" : "No place on this map is within reach.";
+      : errors.length
+        ? "No place on this map is free of limits and singularities."
+        : running
+          ? ""
+          : "No place on this map is within reach.";
     best.disabled = !top;
     best.onclick = () => top && put(top.i, top.k);
     tell();
     if (details.open) fillTable();
   }
 
-  const spot = (i, k) => `${AXES[map.axes[0]]} ${plainNumber(Math.round(map.columns[i] * 10) / 10)}, ${AXES[map.axes[1]]} ${plainNumber(Math.round(map.rows[k] * 10) / 10)} mm`;
+  const spot = (i, k) =>
+    `${AXES[map.axes[0]]} ${plainNumber(Math.round(map.columns[i] * 10) / 10)}, ${AXES[map.axes[1]]} ` +
+    `${plainNumber(Math.round(map.rows[k] * 10) / 10)} mm`;
 
   function tell() {
     const at = cursor && map.at(...cursor);
     if (!at) return void (read.textContent = "");
-    const what = at.mark === 3 ? MARKS[3] : `at most ${lengthText(at.max)} ${lengthUnit()}, mean ${lengthText(at.mean)}${at.mark ? `; ${MARKS[at.mark]}` : ""}`;
+    const what =
+      at.mark === 3
+        ? MARKS[3]
+        : `at most ${lengthText(at.max)} ${lengthUnit()}, mean ${lengthText(at.mean)}${at.mark ? `; ${MARKS[at.mark]}` : ""}`;
     read.textContent = `${spot(...cursor)}: ${what}.`;
   }
 
@@ -176,13 +249,37 @@ export function makePlacement(node, { job, use }) {
 
   function fillTable() {
     if (!map) return;
-    const head = make("tr", {}, make("th", { scope: "col" }, `${map.names?.[1] ?? ""} \\ ${map.names?.[0] ?? ""}, mm`), ...map.columns.map((v) => make("th", { scope: "col" }, plainNumber(Math.round(v)))));
+    const head = make(
+      "tr",
+      {},
+      make("th", { scope: "col" }, `${map.names?.[1] ?? ""} \\ ${map.names?.[0] ?? ""}, mm`),
+      ...map.columns.map((v) => make("th", { scope: "col" }, plainNumber(Math.round(v)))),
+    );
     const short = ["", " ·", " ⁄", "–"];
-    const body = map.rows.map((row, k) => make("tr", {}, make("th", { scope: "row" }, plainNumber(Math.round(row))), ...map.columns.map((_, i) => {
-      const at = map.at(i, k);
-      return make("td", { title: at ? MARKS[at.mark] : "" }, !at ? "" : at.mark === 3 ? short[3] : lengthText(at.max) + short[at.mark]);
-    })));
-    table.replaceChildren(make("caption", {}, `Largest error before compensation, ${lengthUnit()}; · near a singularity, ⁄ a joint leaves its range, – out of reach`), make("thead", {}, head), make("tbody", {}, ...body.reverse()));
+    const body = map.rows.map((row, k) =>
+      make(
+        "tr",
+        {},
+        make("th", { scope: "row" }, plainNumber(Math.round(row))),
+        ...map.columns.map((_, i) => {
+          const at = map.at(i, k);
+          return make(
+            "td",
+            { title: at ? MARKS[at.mark] : "" },
+            !at ? "" : at.mark === 3 ? short[3] : lengthText(at.max) + short[at.mark],
+          );
+        }),
+      ),
+    );
+    table.replaceChildren(
+      make(
+        "caption",
+        {},
+        `Largest error before compensation, ${lengthUnit()}; · near a singularity, ⁄ a joint leaves its range, – out of reach`,
+      ),
+      make("thead", {}, head),
+      make("tbody", {}, ...body.reverse()),
+    );
   }
 
   const cellAt = (event) => {
@@ -229,8 +326,18 @@ function select(id, words) {
 
 function legendItems() {
   const sample = (...inside) => makeSvg("svg", { viewBox: "0 0 20 20", "aria-hidden": "true" }, ...inside);
-  const mark = (n) => sample(makeSvg("rect", { class: `swatch mark-${n}`, width: 20, height: 20 }), makeSvg("rect", { class: "mark", width: 20, height: 20, fill: `url(#placement-mark-${n})` }));
-  const path = (name, d) => sample(...["under", "over"].map((layer) => makeSvg("path", { class: `${name} ${layer}`, d })));
-  return [[path("current", "M2 10h16M10 2v16"), "the part now"], [path("best", "M10 2l8 8-8 8-8-8z"), "best place"],
-    [mark(1), MARKS[1]], [mark(2), MARKS[2]], [mark(3), MARKS[3]]].map(([picture, text]) => make("li", {}, picture, text));
+  const mark = (n) =>
+    sample(
+      makeSvg("rect", { class: `swatch mark-${n}`, width: 20, height: 20 }),
+      makeSvg("rect", { class: "mark", width: 20, height: 20, fill: `url(#placement-mark-${n})` }),
+    );
+  const path = (name, d) =>
+    sample(...["under", "over"].map((layer) => makeSvg("path", { class: `${name} ${layer}`, d })));
+  return [
+    [path("current", "M2 10h16M10 2v16"), "the part now"],
+    [path("best", "M10 2l8 8-8 8-8-8z"), "best place"],
+    [mark(1), MARKS[1]],
+    [mark(2), MARKS[2]],
+    [mark(3), MARKS[3]],
+  ].map(([picture, text]) => make("li", {}, picture, text));
 }

@@ -1,4 +1,5 @@
-// The map as a drawing: a cell a place, coloured by its error; hatched, dotted or empty where something is the matter.
+// The map as a drawing: a cell a place, coloured by its error; hatched, dotted or empty where
+// something is the matter.
 
 import { makeSvg } from "../dom.js";
 import { colour, gradient } from "../scene/ramp.js";
@@ -36,20 +37,45 @@ export function draw(svg, map, limit) {
       if (!place) continue;
       const box = { x: x(map.columns[i]) - w / 2, y: y(map.rows[k]) - h / 2, width: w + 0.3, height: h + 0.3 };
       if (place.mark !== 3) cells.push(makeSvg("rect", { ...box, fill: paint(place.max, limit) }));
-      if (place.mark) cells.push(makeSvg("rect", { ...box, class: "mark", fill: `url(#placement-mark-${place.mark})` }));
+      if (place.mark)
+        cells.push(makeSvg("rect", { ...box, class: "mark", fill: `url(#placement-mark-${place.mark})` }));
     }
   }
   const frame = makeSvg("rect", { class: "frame", x: EDGE.left, y: EDGE.top, width, height });
-  const ticks = [...ticksOf(map.columns).map((v) => label(x(v), EDGE.top + height + 16, v, "middle")),
-    ...ticksOf(map.rows).map((v) => label(EDGE.left - 6, y(v) + 4, v, "end"))];
-  const names = [makeSvg("text", { x: EDGE.left + width / 2, y: EDGE.top + height + 36, "text-anchor": "middle" }, `${map.names[0]}, mm`),
-    makeSvg("text", { x: 0, y: 0, "text-anchor": "middle", transform: `translate(13 ${EDGE.top + height / 2}) rotate(-90)` }, `${map.names[1]}, mm`)];
-  const inside = ([a, b]) => a >= map.columns[0] - step(map.columns) / 2 && a <= map.columns[nx - 1] + step(map.columns) / 2
-    && b >= map.rows[0] - step(map.rows) / 2 && b <= map.rows[ny - 1] + step(map.rows) / 2;
+  const ticks = [
+    ...ticksOf(map.columns).map((v) => label(x(v), EDGE.top + height + 16, v, "middle")),
+    ...ticksOf(map.rows).map((v) => label(EDGE.left - 6, y(v) + 4, v, "end")),
+  ];
+  const names = [
+    makeSvg(
+      "text",
+      { x: EDGE.left + width / 2, y: EDGE.top + height + 36, "text-anchor": "middle" },
+      `${map.names[0]}, mm`,
+    ),
+    makeSvg(
+      "text",
+      { x: 0, y: 0, "text-anchor": "middle", transform: `translate(13 ${EDGE.top + height / 2}) rotate(-90)` },
+      `${map.names[1]}, mm`,
+    ),
+  ];
+  const inside = ([a, b]) =>
+    a >= map.columns[0] - step(map.columns) / 2 &&
+    a <= map.columns[nx - 1] + step(map.columns) / 2 &&
+    b >= map.rows[0] - step(map.rows) / 2 &&
+    b <= map.rows[ny - 1] + step(map.rows) / 2;
   const signs = [];
   if (map.best) signs.push(diamond(x(map.best[0]), y(map.best[1])));
   if (inside(map.current)) signs.push(...cross(x(map.current[0]), y(map.current[1])));
-  if (map.cursor) signs.push(makeSvg("rect", { class: "cursor", x: x(map.columns[map.cursor[0]]) - w / 2, y: y(map.rows[map.cursor[1]]) - h / 2, width: w, height: h }));
+  if (map.cursor)
+    signs.push(
+      makeSvg("rect", {
+        class: "cursor",
+        x: x(map.columns[map.cursor[0]]) - w / 2,
+        y: y(map.rows[map.cursor[1]]) - h / 2,
+        width: w,
+        height: h,
+      }),
+    );
   svg.replaceChildren(patterns(), ...cells, frame, ...ticks, ...names, ...signs);
   /** The cell under a point of the drawing, or undefined. */
   return (px, py) => {
@@ -67,19 +93,44 @@ function ticksOf(values) {
   const decade = 10 ** Math.floor(Math.log10(rough));
   const every = [1, 2, 5, 10].find((n) => n * decade >= rough) * decade;
   const first = Math.ceil(low / every) * every;
-  return Array.from({ length: Math.max(0, Math.floor((high - first) / every + 1e-9) + 1) }, (_, n) => first + n * every);
+  return Array.from(
+    { length: Math.max(0, Math.floor((high - first) / every + 1e-9) + 1) },
+    (_, n) => first + n * every,
+  );
 }
 
-const label = (x, y, value, anchor) => makeSvg("text", { x, y, "text-anchor": anchor }, String(Math.round(value)).replace("-", "−"));
+const label = (x, y, value, anchor) =>
+  makeSvg("text", { x, y, "text-anchor": anchor }, String(Math.round(value)).replace("-", "−"));
 
 const diamond = (x, y) => makeSvg("path", { class: "best", d: `M${x} ${y - 9}l9 9-9 9-9-9z` });
 
-const cross = (x, y) => ["under", "over"].map((layer) => makeSvg("path", { class: `current ${layer}`, d: `M${x - 13} ${y}h26M${x} ${y - 13}v26` }));
+const cross = (x, y) =>
+  ["under", "over"].map((layer) =>
+    makeSvg("path", { class: `current ${layer}`, d: `M${x - 13} ${y}h26M${x} ${y - 13}v26` }),
+  );
 
 function patterns() {
-  const pattern = (id, size, ...inside) => makeSvg("pattern", { id: `placement-mark-${id}`, width: size, height: size, patternUnits: "userSpaceOnUse" }, ...inside);
-  return makeSvg("defs", {},
+  const pattern = (id, size, ...inside) =>
+    makeSvg(
+      "pattern",
+      { id: `placement-mark-${id}`, width: size, height: size, patternUnits: "userSpaceOnUse" },
+      ...inside,
+    );
+  return makeSvg(
+    "defs",
+    {},
     pattern(1, 8, makeSvg("circle", { cx: 4, cy: 4, r: 1.4, class: "dot" })),
-    pattern(2, 8, makeSvg("path", { d: "M-2 2l4-4M0 8l8-8M6 10l4-4", class: "hatch under" }), makeSvg("path", { d: "M-2 2l4-4M0 8l8-8M6 10l4-4", class: "hatch" })),
-    pattern(3, 10, makeSvg("rect", { width: 10, height: 10, class: "ground" }), makeSvg("path", { d: "M3 5h4", class: "empty" })));
+    pattern(
+      2,
+      8,
+      makeSvg("path", { d: "M-2 2l4-4M0 8l8-8M6 10l4-4", class: "hatch under" }),
+      makeSvg("path", { d: "M-2 2l4-4M0 8l8-8M6 10l4-4", class: "hatch" }),
+    ),
+    pattern(
+      3,
+      10,
+      makeSvg("rect", { width: 10, height: 10, class: "ground" }),
+      makeSvg("path", { d: "M3 5h4", class: "empty" }),
+    ),
+  );
 }

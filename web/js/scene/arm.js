@@ -1,5 +1,5 @@
-// The arm as a figure: tubes for links and joints, a spindle, a cutter. Only the joints' places and axes are the robot's own; how thick
-// its links are nobody has said.
+// The arm as a figure: tubes for links and joints, a spindle, a cutter. Only the joints' places and
+// axes are the robot's own; how thick its links are nobody has said.
 
 import { cross, dot, length, minus, plus } from "./camera.js";
 
@@ -23,7 +23,8 @@ export function armParts({ base, joints, tcp }) {
   const size = lengths.reduce((sum, each) => sum + each, 0) || 1;
   // From the shoulder to the wrist an arm gets slimmer.
   const radius = (i) => size * [0.062, 0.056, 0.047, 0.04, 0.031, 0.021, 0.02][i];
-  // A joint that shares its place with the next one (shoulder, wrist) keeps to the side it comes from.
+  // A joint that shares its place with the next one (shoulder, wrist) keeps to the side it comes
+  // from.
   const housing = (origin, z, i) => {
     const [wide, half] = [1.14 * radius(i + 1), i === JOINTS - 1 ? 0.4 * radius(i + 1) : 1.35 * radius(i)];
     const shared = lengths[i + 1] < 1;
@@ -31,18 +32,20 @@ export function armParts({ base, joints, tcp }) {
     const [from, to] = shared ? [1.3 * back * half, -0.6 * back * half] : [-half, half];
     return tubeBetween(plus(origin, z, from), plus(origin, z, to), wide, 1, "joint");
   };
-  const parts = [
-    tubeBetween(base.origin, plus(base.origin, base.z, 0.02 * size), 1.55 * radius(0), 1, "joint"),
-  ];
+  const parts = [tubeBetween(base.origin, plus(base.origin, base.z, 0.02 * size), 1.55 * radius(0), 1, "joint")];
   const bare = length(minus(joints[5].origin, tcp.origin)) < 1; // the tip is at the flange: the tool takes the last link's place
   joints.slice(0, bare ? JOINTS - 1 : JOINTS).forEach(({ origin, z }, i) => {
-    if (lengths[i] > 1) parts.push(tubeBetween(stations[i].origin, origin, radius(i), radius(i + 1) / radius(i), "link"));
+    if (lengths[i] > 1)
+      parts.push(tubeBetween(stations[i].origin, origin, radius(i), radius(i + 1) / radius(i), "link"));
     parts.push(housing(origin, z, i));
   });
   return [...parts, ...toolParts(joints, tcp, size, bare)];
 }
 
-/** Cutter and spindle on the tool's axis; where the tip is off the flange's axis, a bracket between the two. */
+/**
+ * Cutter and spindle on the tool's axis; where the tip is off the flange's axis, a bracket between
+ * the two.
+ */
 function toolParts(joints, tcp, size, bare) {
   const [wrist, flange] = [joints[4].origin, joints[5].origin];
   const axis = tcp.z.map((v) => -v);
@@ -65,7 +68,16 @@ function tubeBetween(from, to, radius, top, tone) {
   const beside = cross(along, Math.abs(along[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0]);
   const x = beside.map((v) => v / length(beside));
   const y = cross(along, x);
-  const model = new Float32Array([...x.map((v) => v * radius), 0, ...y.map((v) => v * radius), 0, ...way, 0, ...from, 1]);
+  const model = new Float32Array([
+    ...x.map((v) => v * radius),
+    0,
+    ...y.map((v) => v * radius),
+    0,
+    ...way,
+    0,
+    ...from,
+    1,
+  ]);
   return { model, top, tone };
 }
 

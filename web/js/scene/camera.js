@@ -22,7 +22,12 @@ export class Camera {
 
   /** The unit vectors to the right, up and out of the picture, towards the eye. */
   axes() {
-    const [ca, sa, ce, se] = [Math.cos(this.azimuth), Math.sin(this.azimuth), Math.cos(this.elevation), Math.sin(this.elevation)];
+    const [ca, sa, ce, se] = [
+      Math.cos(this.azimuth),
+      Math.sin(this.azimuth),
+      Math.cos(this.elevation),
+      Math.sin(this.elevation),
+    ];
     return { right: [-sa, ca, 0], up: [-se * ca, -se * sa, ce], out: [ce * ca, ce * sa, se] };
   }
 
@@ -64,7 +69,10 @@ export class Camera {
     this.target = low.map((v, i) => (v + high[i]) / 2);
     this.distance = 1;
     for (let corner = 0; corner < 8; corner++) {
-      const way = minus(low.map((v, i) => ((corner >> i) & 1 ? high[i] : v)), this.target);
+      const way = minus(
+        low.map((v, i) => ((corner >> i) & 1 ? high[i] : v)),
+        this.target,
+      );
       const needed = Math.max(Math.abs(dot(way, right)) / aspect, Math.abs(dot(way, up))) / HALF;
       this.distance = Math.max(this.distance, dot(way, out) + 1.1 * needed);
     }
@@ -79,12 +87,18 @@ export class Camera {
     const [tx, ty, tz] = [dot(right, this.target), dot(up, this.target), dot(out, this.target) + this.distance];
     return new Float32Array([
       ...[0, 1, 2].flatMap((i) => [sx * right[i], sy * up[i], a * out[i], -out[i]]),
-      -sx * tx, -sy * ty, b - a * tz, tz,
+      -sx * tx,
+      -sy * ty,
+      b - a * tz,
+      tz,
     ]);
   }
 }
 
-/** Where a point stands in the picture [px], and its depth; a depth that is not positive is behind the eye. */
+/**
+ * Where a point stands in the picture [px], and its depth; a depth that is not positive is behind
+ * the eye.
+ */
 export function project(m, point, width, height) {
   const [x, y, z] = point;
   const w = m[3] * x + m[7] * y + m[11] * z + m[15];

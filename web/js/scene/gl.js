@@ -1,14 +1,20 @@
 // Draws thick lines and plain solids with WebGL2.
 //
-// A line's points lie in a texture, and a quad is spanned around each of its pieces: so one buffer serves any thinning, and machines without
-// graphics hardware draw it tens of times as fast as with instances. A point is VERTEX numbers: its place, the value that gives its colour, a way that is
+// A line's points lie in a texture, and a quad is spanned around each of its pieces: so one buffer
+// serves any thinning, and machines without graphics hardware draw it tens of times as fast as with
+// instances. A point is VERTEX numbers: its place, the value that gives its colour, a way that is
 // added `factor` times, and the length so far (minus that and one where it is drawn faintly).
 
 export const VERTEX = 8;
 const WIDTH = 1024; // of a texture of points: 512 points
 
 /** The numbers of a point. */
-export const vertex = (place, { way = [0, 0, 0], value = 0, along = 0, faint = false } = {}) => [...place, value, ...way, faint ? -1 - along : along];
+export const vertex = (place, { way = [0, 0, 0], value = 0, along = 0, faint = false } = {}) => [
+  ...place,
+  value,
+  ...way,
+  faint ? -1 - along : along,
+];
 
 const LINE_VERTEX = `#version 300 es
 uniform highp sampler2D points;
@@ -54,7 +60,8 @@ void main() {
   pixel = vec4(mix(own, paper, max(fade, facts.y < 0.0 ? 0.6 : 0.0)), cover);
 }`;
 
-// A tube from z = 0 to 1 of radius 1, narrowed towards its top; lit from over the reader's shoulder.
+// A tube from z = 0 to 1 of radius 1, narrowed towards its top; lit from over the reader's
+// shoulder.
 const SOLID_VERTEX = `#version 300 es
 layout(location = 0) in vec3 place; layout(location = 1) in vec3 normal;
 uniform mat4 camera, model; uniform float top;
@@ -114,7 +121,9 @@ class Painter {
     gl.activeTexture(gl.TEXTURE1);
   }
 
-  /** A line to draw later: each point joined to the next, or (`pairs`) every second one to its next. */
+  /**
+   * A line to draw later: each point joined to the next, or (`pairs`) every second one to its next.
+   */
   line(points, pairs = false) {
     const gl = this.#gl;
     const line = { texture: gl.createTexture(), pairs };
@@ -162,19 +171,37 @@ class Painter {
   /**
    * Draws a line; lengths in pixels but for `radius` and `dash` [mm]. Of points that crowd in a pixel only `every` so many
    * need to be joined. */
-  draw(line, { factor = 0, width = 2, radius = 0, colour = [0, 0, 0], largest = 0, dash = 0, fade = 0, bias = 0, every = 1 }) {
+  draw(
+    line,
+    { factor = 0, width = 2, radius = 0, colour = [0, 0, 0], largest = 0, dash = 0, fade = 0, bias = 0, every = 1 },
+  ) {
     const gl = this.#gl;
     gl.useProgram(this.#line.program);
     const { texture, pairs, count } = line;
     const [stride, ahead] = pairs ? [2, 1] : [every, every];
     const pieces = pairs ? count / 2 : Math.ceil((count - 1) / every);
-    this.#line.set({ factor, halfWidth: width / 2, radius, colour, largest, dash, fade, bias, stride, ahead, last: count - 1 });
+    this.#line.set({
+      factor,
+      halfWidth: width / 2,
+      radius,
+      colour,
+      largest,
+      dash,
+      fade,
+      bias,
+      stride,
+      ahead,
+      last: count - 1,
+    });
     gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.bindVertexArray(this.#nothing);
     gl.drawArrays(gl.TRIANGLES, 0, 6 * pieces);
   }
 
-  /** Draws one piece of a line that is not kept, from its two points; a piece without length is a dot. Nothing hides it. */
+  /**
+   * Draws one piece of a line that is not kept, from its two points; a piece without length is a
+   * dot. Nothing hides it.
+   */
   dot(points, style) {
     const gl = this.#gl;
     if (this.#piece) this.#fill(this.#piece, points);
@@ -222,7 +249,12 @@ class Painter {
 }
 
 function parameters(gl, filter) {
-  for (const [key, value] of [["MIN_FILTER", filter], ["MAG_FILTER", filter], ["WRAP_S", gl.CLAMP_TO_EDGE], ["WRAP_T", gl.CLAMP_TO_EDGE]]) {
+  for (const [key, value] of [
+    ["MIN_FILTER", filter],
+    ["MAG_FILTER", filter],
+    ["WRAP_S", gl.CLAMP_TO_EDGE],
+    ["WRAP_T", gl.CLAMP_TO_EDGE],
+  ]) {
     gl.texParameteri(gl.TEXTURE_2D, gl[`TEXTURE_${key}`], value);
   }
 }
@@ -258,9 +290,27 @@ function tube(gl) {
   const rim = (i) => [Math.cos((2 * Math.PI * i) / SIDES), Math.sin((2 * Math.PI * i) / SIDES)];
   for (let i = 0; i < SIDES; i++) {
     const [[ax, ay], [bx, by]] = [rim(i), rim(i + 1)];
-    for (const [x, y, z] of [[ax, ay, 0], [bx, by, 0], [ax, ay, 1], [ax, ay, 1], [bx, by, 0], [bx, by, 1]]) numbers.push(x, y, z, x, y, 0);
-    for (const [x, y] of [[0, 0], [ax, ay], [bx, by]]) numbers.push(x, y, 1, 0, 0, 1);
-    for (const [x, y] of [[0, 0], [bx, by], [ax, ay]]) numbers.push(x, y, 0, 0, 0, -1);
+    for (const [x, y, z] of [
+      [ax, ay, 0],
+      [bx, by, 0],
+      [ax, ay, 1],
+      [ax, ay, 1],
+      [bx, by, 0],
+      [bx, by, 1],
+    ])
+      numbers.push(x, y, z, x, y, 0);
+    for (const [x, y] of [
+      [0, 0],
+      [ax, ay],
+      [bx, by],
+    ])
+      numbers.push(x, y, 1, 0, 0, 1);
+    for (const [x, y] of [
+      [0, 0],
+      [bx, by],
+      [ax, ay],
+    ])
+      numbers.push(x, y, 0, 0, 0, -1);
   }
   const array = gl.createVertexArray();
   gl.bindVertexArray(array);

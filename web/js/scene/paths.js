@@ -1,4 +1,5 @@
-// The paths of a run, as the core hands them out for a picture: made into lines, measured, picked from.
+// The paths of a run, as the core hands them out for a picture: made into lines, measured, picked
+// from.
 
 import { length, plus } from "./camera.js";
 import { VERTEX, vertex } from "./gl.js";
@@ -34,7 +35,10 @@ export class Paths {
     return this.#track[row * ROW];
   }
 
-  /** The point where the tool should be, the closest point of the path to where it is, and the ways from there to the tip. */
+  /**
+   * The point where the tool should be, the closest point of the path to where it is, and the ways
+   * from there to the tip.
+   */
   desired = (row) => this.#vector(row, DESIRED);
   closest = (row) => this.#vector(row, CLOSEST);
   before = (row) => this.#vector(row, BEFORE);
@@ -52,7 +56,10 @@ export class Paths {
     return low > 0 && sample - this.sample(low - 1) < this.sample(low) - sample ? low - 1 : low;
   }
 
-  /** 1, 2 or 5 times a power of ten, so that the largest deviation shows as about a tenth of the path's size: as the charts do. */
+  /**
+   * 1, 2 or 5 times a power of ten, so that the largest deviation shows as about a tenth of the
+   * path's size: as the charts do.
+   */
   factor() {
     if (this.largest < 1e-6) return 1;
     const wanted = Math.max(1, (0.1 * this.#size) / this.largest);
@@ -62,9 +69,15 @@ export class Paths {
 
   /** The box [low, high] around the desired and the magnified paths. */
   box(factor) {
-    const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+    const [low, high] = [
+      [Infinity, Infinity, Infinity],
+      [-Infinity, -Infinity, -Infinity],
+    ];
     for (let row = 0; row < this.count; row++) {
-      for (const [place, way] of [[this.desired(row), this.correction(row)], [this.closest(row), this.before(row)]]) {
+      for (const [place, way] of [
+        [this.desired(row), this.correction(row)],
+        [this.closest(row), this.before(row)],
+      ]) {
         for (let i = 0; i < 3; i++) {
           const moved = place[i] + factor * way[i];
           low[i] = Math.min(low[i], place[i], moved);
@@ -113,7 +126,10 @@ export class Paths {
     return sum;
   }
 
-  /** The row whose drawn point is nearest to a place in the picture, or -1 if none is within `reach` pixels; `m` is the camera's matrix. */
+  /**
+   * The row whose drawn point is nearest to a place in the picture, or -1 if none is within `reach`
+   * pixels; `m` is the camera's matrix.
+   */
   pick(m, [x, y], { width, height, factor, shown, reach }) {
     const drawn = [];
     if (shown.desired) drawn.push([DESIRED, BEFORE, 0]);
@@ -123,8 +139,11 @@ export class Paths {
     let [best, least] = [-1, reach * reach];
     for (const [place, way, times] of drawn) {
       for (let row = 0; row < this.count; row++) {
-        const p = row * ROW + place, w = row * ROW + way;
-        const px = track[p] + times * track[w], py = track[p + 1] + times * track[w + 1], pz = track[p + 2] + times * track[w + 2];
+        const p = row * ROW + place,
+          w = row * ROW + way;
+        const px = track[p] + times * track[w],
+          py = track[p + 1] + times * track[w + 1],
+          pz = track[p + 2] + times * track[w + 2];
         const depth = m[3] * px + m[7] * py + m[11] * pz + m[15];
         const right = (((m[0] * px + m[4] * py + m[8] * pz + m[12]) / depth + 1) * width) / 2 - x;
         const down = ((1 - (m[1] * px + m[5] * py + m[9] * pz + m[13]) / depth) * height) / 2 - y;

@@ -1,4 +1,5 @@
-// Runs the page's cursor along the path, at the speed of the run or a multiple of it. It starts only when somebody asks.
+// Runs the page's cursor along the path, at the speed of the run or a multiple of it. It starts
+// only when somebody asks.
 
 import { cursor, onCursor, setCursor } from "../cursor.js";
 import { make } from "../dom.js";
@@ -10,12 +11,21 @@ export class Player {
   #playing = false;
   #last = 0; // when the last picture was shown [ms]
   #button = make("button", { type: "button", className: "play" });
-  #slider = make("input", { type: "range", min: "0", max: "1", step: "any", value: "0", "aria-label": "Time of the run" });
+  #slider = make("input", {
+    type: "range",
+    min: "0",
+    max: "1",
+    step: "any",
+    value: "0",
+    "aria-label": "Time of the run",
+  });
   #time = make("output", { className: "time" });
   #speed = make("select", { "aria-label": "Speed of play" });
 
   constructor() {
-    this.#speed.append(...SPEEDS.map((speed) => make("option", { value: String(speed), selected: speed === 1 }, `× ${speed}`)));
+    this.#speed.append(
+      ...SPEEDS.map((speed) => make("option", { value: String(speed), selected: speed === 1 }, `× ${speed}`)),
+    );
     this.node = make("div", { className: "player" }, this.#button, this.#slider, this.#time, this.#speed);
     this.#button.addEventListener("click", () => this.toggle());
     this.#slider.addEventListener("input", () => {

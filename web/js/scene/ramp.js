@@ -1,7 +1,19 @@
-// The scale of colours for errors: viridis (van der Walt and Smith, 2015), perceptually even and safe for the colour-blind, without
-// the end that would drown in the paper.
+// The scale of colours for errors: viridis (van der Walt and Smith, 2015), perceptually even and
+// safe for the colour-blind, without the end that would drown in the paper.
 
-const VIRIDIS = ["440154", "482475", "414487", "355f8d", "2a788e", "21918c", "22a884", "44bf70", "7ad151", "bddf26", "fde725"].map(rgb);
+const VIRIDIS = [
+  "440154",
+  "482475",
+  "414487",
+  "355f8d",
+  "2a788e",
+  "21918c",
+  "22a884",
+  "44bf70",
+  "7ad151",
+  "bddf26",
+  "fde725",
+].map(rgb);
 
 function rgb(hex) {
   return [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16));

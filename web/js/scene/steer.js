@@ -1,7 +1,8 @@
 // Moves a camera by mouse, touch and keys.
 //
-// The page must stay scrollable: a finger that starts upwards or downwards scrolls it (`touch-action: pan-y`), one that starts sideways orbits;
-// two fingers pan and pinch. The wheel zooms once the picture has the focus, or with Ctrl.
+// The page must stay scrollable: a finger that starts upwards or downwards scrolls it (`touch-
+// action: pan-y`), one that starts sideways orbits; two fingers pan and pinch. The wheel zooms once
+// the picture has the focus, or with Ctrl.
 
 const TURN = Math.PI / 450; // a pixel of dragging [rad]
 const STEP = Math.PI / 36; // an arrow key [rad]
@@ -18,7 +19,14 @@ export function steer(canvas, camera, on) {
 
   canvas.addEventListener("pointerdown", (event) => {
     const [x, y] = place(event);
-    down.set(event.pointerId, { x, y, start: [x, y], moved: 0, free: event.pointerType !== "touch", pans: event.button !== 0 || event.shiftKey });
+    down.set(event.pointerId, {
+      x,
+      y,
+      start: [x, y],
+      moved: 0,
+      free: event.pointerType !== "touch",
+      pans: event.button !== 0 || event.shiftKey,
+    });
     canvas.setPointerCapture(event.pointerId);
   });
   canvas.addEventListener("pointermove", (event) => {
@@ -45,7 +53,10 @@ export function steer(canvas, camera, on) {
   canvas.addEventListener("pointerup", up);
   canvas.addEventListener("pointercancel", up);
 
-  /** One of two fingers moves by (dx, dy): the middle moves by half of that, the distance says the zoom. */
+  /**
+   * One of two fingers moves by (dx, dy): the middle moves by half of that, the distance says the
+   * zoom.
+   */
   function pinch(own, other, dx, dy) {
     const before = Math.hypot(own.x - other.x, own.y - other.y);
     const after = Math.hypot(own.x + dx - other.x, own.y + dy - other.y);
@@ -54,14 +65,20 @@ export function steer(canvas, camera, on) {
   }
 
   // Two fingers are for the picture, whatever way they start.
-  canvas.addEventListener("touchstart", (event) => event.touches.length > 1 && event.preventDefault(), { passive: false });
+  canvas.addEventListener("touchstart", (event) => event.touches.length > 1 && event.preventDefault(), {
+    passive: false,
+  });
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
-  canvas.addEventListener("wheel", (event) => {
-    if (document.activeElement !== canvas && !event.ctrlKey) return;
-    event.preventDefault();
-    camera.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015) * (event.ctrlKey ? 4 : 1)));
-    on.move();
-  }, { passive: false });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      if (document.activeElement !== canvas && !event.ctrlKey) return;
+      event.preventDefault();
+      camera.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015) * (event.ctrlKey ? 4 : 1)));
+      on.move();
+    },
+    { passive: false },
+  );
 
   canvas.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;

@@ -1,4 +1,5 @@
-// The run in space: paths with their deviation magnified, the arm at the cursor, a floor to stand on.
+// The run in space: paths with their deviation magnified, the arm at the cursor, a floor to stand
+// on.
 
 import * as core from "../core.js";
 import { cursor, onCursor, setCursor } from "../cursor.js";
@@ -69,7 +70,9 @@ class Scene {
     canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();
       this.#painter = null;
-      this.#panel.say("The graphics were lost; waiting for the browser to give them back. The charts below show the same paths.");
+      this.#panel.say(
+        "The graphics were lost; waiting for the browser to give them back. The charts below show the same paths.",
+      );
     });
     canvas.addEventListener("webglcontextrestored", () => this.#begin());
     onCursor(() => this.#follow());
@@ -101,7 +104,11 @@ class Scene {
 
   #begin() {
     this.#painter = painterOn(this.#panel.canvas);
-    this.#panel.say(this.#painter ? "" : "This browser does not offer WebGL 2, so the paths are not drawn in space here. The charts below show them.");
+    this.#panel.say(
+      this.#painter
+        ? ""
+        : "This browser does not offer WebGL 2, so the paths are not drawn in space here. The charts below show them.",
+    );
     if (this.#painter) this.#recolour();
     if (this.#painter && this.#paths) this.#upload();
   }
@@ -140,12 +147,21 @@ class Scene {
 
   /** The grid and the axes of base and workpiece. */
   #floor() {
-    const box = around(this.#paths.box(0), [this.#frames.base.origin, ...this.#frames.joints.map((joint) => joint.origin)]);
+    const box = around(this.#paths.box(0), [
+      this.#frames.base.origin,
+      ...this.#frames.joints.map((joint) => joint.origin),
+    ]);
     const { spacing, points } = grid(box, 1 / inLength(1));
     const size = Math.max(...box[1].map((v, i) => v - box[0][i])) / 7;
     this.#panel.floor.textContent = `Grid ${spacing} ${lengthUnit()}`;
-    const axes = [["base", this.#frames.base, size * 1.25], ["workpiece", this.#frames.workpiece, size]].map(([name, frame, long]) => ({
-      name, frame, long, lines: axesOf(frame, long).map((line) => this.#painter.line(line, true)),
+    const axes = [
+      ["base", this.#frames.base, size * 1.25],
+      ["workpiece", this.#frames.workpiece, size],
+    ].map(([name, frame, long]) => ({
+      name,
+      frame,
+      long,
+      lines: axesOf(frame, long).map((line) => this.#painter.line(line, true)),
     }));
     return { grid: this.#painter.line(points, true), axes };
   }
@@ -237,13 +253,18 @@ class Scene {
     const { right, up, out } = camera.axes();
     const light = plus(plus(out, up, 0.7), right, -0.4);
     painter.begin({
-      camera: matrix, width: canvas.width, height: canvas.height, paper: tones.paper,
-      light: light.map((v) => v / length(light)), pixelsPerMm: (canvas.height / 2) * Math.hypot(matrix[1], matrix[5], matrix[9]),
+      camera: matrix,
+      width: canvas.width,
+      height: canvas.height,
+      paper: tones.paper,
+      light: light.map((v) => v / length(light)),
+      pixelsPerMm: (canvas.height / 2) * Math.hypot(matrix[1], matrix[5], matrix[9]),
     });
     const parts = shown.arm ? armParts(this.#frames) : [];
     painter.stains(parts.map((part) => ({ ...shadow(part), colour: tones.shadow })));
     painter.draw(lines.grid, { width: sharp, colour: tones.grid });
-    for (const { lines: axes } of lines.axes) axes.forEach((axis, i) => painter.draw(axis, { width: 2.5 * sharp, colour: tones.axes[i], bias: 1e-6 }));
+    for (const { lines: axes } of lines.axes)
+      axes.forEach((axis, i) => painter.draw(axis, { width: 2.5 * sharp, colour: tones.axes[i], bias: 1e-6 }));
 
     const dash = 10 * camera.pixel();
     const largest = this.#paths.largest || 1e-9;
@@ -254,7 +275,8 @@ class Scene {
       drawn.push([lines.desired, { width: 1.75 * sharp, colour: tones.desired, bias: 1e-6 }]);
     }
     if (shown.actual) drawn.push([lines.whiskers, { factor, largest, width: 1 * sharp, fade: 0.45, bias: 1e-6 }]);
-    if (shown.compensated) drawn.push([lines.compensated, { factor, width: 2 * sharp, colour: tones.command, dash, bias: 2e-6 }]);
+    if (shown.compensated)
+      drawn.push([lines.compensated, { factor, width: 2 * sharp, colour: tones.command, dash, bias: 2e-6 }]);
     if (shown.after) drawn.push([lines.after, { factor, largest, width: 2 * sharp, bias: 3e-6 }]);
     if (shown.actual) drawn.push([lines.actual, { factor, largest, width: 3.25 * sharp, bias: 3e-6 }]);
     for (const [line, style] of drawn) painter.draw(line, { ...style, every });
@@ -269,7 +291,8 @@ class Scene {
     const [from, way] = [this.#paths.closest(row), this.#paths.before(row)];
     const to = plus(from, way, factor);
     const [painter, { ink, paper }] = [this.#painter, this.#tones];
-    const dot = (point, width, colour) => painter.dot(new Float32Array([...vertex(point), ...vertex(point)]), { width: width * sharp, colour });
+    const dot = (point, width, colour) =>
+      painter.dot(new Float32Array([...vertex(point), ...vertex(point)]), { width: width * sharp, colour });
     painter.dot(new Float32Array([...vertex([...from]), ...vertex(to)]), { width: 1.5 * sharp, colour: ink });
     dot([...from], 8, ink);
     dot([...from], 4.5, paper);
@@ -285,13 +308,29 @@ class Scene {
     const [row, sample] = [this.#paths.rowOf(this.#sample()), this.#sample()];
     const time = (sample / (this.#summary.samples - 1)) * this.#summary.duration_s;
     const line = lineAt(time);
-    const [before, after] = [this.#paths.before(row), this.#paths.after(row)].map((way) => `${lengthText(length(way))} ${lengthUnit()}`);
-    const where = [...this.#paths.desired(row)].map((v, i) => `${"xyz"[i]} ${inLength(v).toFixed(lengthUnit() === "mm" ? 1 : 3).replace("-", "\u2212")}`).join(", ");
-    readout.textContent = `At ${time.toFixed(2)} s${line ? `, line ${line} of the program` : ""}: ${where} ${lengthUnit()}; contour error ${before} before, ${after} after`;
+    const [before, after] = [this.#paths.before(row), this.#paths.after(row)].map(
+      (way) => `${lengthText(length(way))} ${lengthUnit()}`,
+    );
+    const where = [...this.#paths.desired(row)]
+      .map(
+        (v, i) =>
+          `${"xyz"[i]} ${inLength(v)
+            .toFixed(lengthUnit() === "mm" ? 1 : 3)
+            .replace("-", "\u2212")}`,
+      )
+      .join(", ");
+    readout.textContent =
+      `At ${time.toFixed(2)} s${line ? `, line ${line} of the program` : ""}: ${where} ` +
+      `${lengthUnit()}; contour error ${before} before, ${after} after`;
     Object.assign(node.dataset, {
-      azimuth: ((camera.azimuth * 180) / Math.PI).toFixed(2), elevation: ((camera.elevation * 180) / Math.PI).toFixed(2),
-      distance: camera.distance.toFixed(2), target: camera.target.map((v) => v.toFixed(2)).join(" "),
-      sample: String(sample), factor: String(factor), points: String(this.#paths.count), tip: this.#frames.tcp.origin.map((v) => v.toFixed(6)).join(" "),
+      azimuth: ((camera.azimuth * 180) / Math.PI).toFixed(2),
+      elevation: ((camera.elevation * 180) / Math.PI).toFixed(2),
+      distance: camera.distance.toFixed(2),
+      target: camera.target.map((v) => v.toFixed(2)).join(" "),
+      sample: String(sample),
+      factor: String(factor),
+      points: String(this.#paths.count),
+      tip: this.#frames.tcp.origin.map((v) => v.toFixed(6)).join(" "),
     });
   }
 
@@ -303,8 +342,10 @@ class Scene {
     this.#panel.scale(inLength(largest), inLength(this.#summary.tolerance_mm), unit, this.#tones.dark);
     const { path_length_mm, after_mm } = this.#summary;
     this.#panel.text.textContent =
-      `The desired path is ${lengthText(path_length_mm, 4)} ${unit} long. The actual one leaves it by at most ${lengthText(largest)} ${unit} before compensation ` +
-      `and ${lengthText(after_mm.max)} ${unit} after; the deviation is drawn ${this.#factor()} times as large as it is. The charts below show the same paths.`;
+      `The desired path is ${lengthText(path_length_mm, 4)} ${unit} long. The actual one leaves it by at most ` +
+      `${lengthText(largest)} ${unit} before compensation ` +
+      `and ${lengthText(after_mm.max)} ${unit} after; the deviation is drawn ${this.#factor()} times as large as it ` +
+      `is. The charts below show the same paths.`;
   }
 }
 
@@ -314,7 +355,9 @@ function around([low, high], points) {
   return [every(Math.min, low), every(Math.max, high)];
 }
 
-/** Whether a box is so different from another that a picture of one does not show the other well. */
+/**
+ * Whether a box is so different from another that a picture of one does not show the other well.
+ */
 function isElsewhere([low, high], [newLow, newHigh]) {
   const size = Math.max(...high.map((v, i) => v - low[i]), ...newHigh.map((v, i) => v - newLow[i]));
   return [...low, ...high].some((v, i) => Math.abs(v - [...newLow, ...newHigh][i]) > 0.1 * size);
@@ -347,16 +390,28 @@ function tonesOf(node) {
   node.append(probe);
   const read = (token) => {
     probe.style.setProperty("color", `var(--${token})`);
-    return getComputedStyle(probe).color.match(/[\d.]+/g).slice(0, 3).map((v) => Number(v) / 255);
+    return getComputedStyle(probe)
+      .color.match(/[\d.]+/g)
+      .slice(0, 3)
+      .map((v) => Number(v) / 255);
   };
   const mixed = (a, b, share) => a.map((v, i) => v + (b[i] - v) * share);
   const [paper, ink, line, faint, accent, band] = ["surface", "ink", "line", "line-2", "accent", "band"].map(read);
   const axes = ["vermillion", "green", "blue"].map(read);
   const dark = paper[0] + paper[1] + paper[2] < 1.5;
   const tones = {
-    paper, ink, axes, dark, band, grid: line, desired: dark ? ink : read("ink-2"), command: read("after"),
+    paper,
+    ink,
+    axes,
+    dark,
+    band,
+    grid: line,
+    desired: dark ? ink : read("ink-2"),
+    command: read("after"),
     shadow: mixed(paper, dark ? [0, 0, 0] : ink, dark ? 0.35 : 0.07),
-    link: dark ? mixed(paper, ink, 0.55) : mixed(paper, faint, 0.38), joint: mixed(mixed(paper, ink, dark ? 0.55 : 0.45), accent, 0.22), tool: mixed(ink, faint, 0.35),
+    link: dark ? mixed(paper, ink, 0.55) : mixed(paper, faint, 0.38),
+    joint: mixed(mixed(paper, ink, dark ? 0.55 : 0.45), accent, 0.22),
+    tool: mixed(ink, faint, 0.35),
   };
   probe.remove();
   return tones;
