@@ -52,12 +52,11 @@ pub fn each(path: &Path, timing: &TimingLaw, mut at: impl FnMut(usize, Vector3<f
     let across = |heading: &Vector3<f64>, axis: &Vector3<f64>| {
         (heading - axis * axis.dot(heading)).try_normalize(1e-6)
     };
-    let axis_at = |k: usize| path.axis_at(path.within(timing.index[k] as usize, timing.arc_length[k]));
     let samples = || timing.heading.iter().enumerate();
-    let first = samples().find_map(|(k, heading)| across(heading, &axis_at(k)));
+    let first = samples().find_map(|(k, heading)| across(heading, &timing.axis(path, k)));
     let mut x = first.unwrap_or_else(|| path.reference(&path.axis(0.0)));
     for (k, heading) in samples() {
-        let axis = axis_at(k);
+        let axis = timing.axis(path, k);
         x = across(heading, &axis).or_else(|| across(&x, &axis)).unwrap_or(x);
         at(k, x, axis);
     }

@@ -75,6 +75,11 @@ impl TimingLaw {
         }
     }
 
+    /// The path's tool axis at the sample `k`, from tip to spindle.
+    pub fn axis(&self, path: &Path, k: usize) -> Vector3<f64> {
+        path.axis_at(path.within(self.index[k] as usize, self.arc_length[k]))
+    }
+
     /// The path's points, one per sample [m].
     pub fn points(&self, path: &Path) -> Vec<Vector3<f64>> {
         let places = self.index.iter().zip(&self.arc_length);

@@ -105,8 +105,8 @@ pub fn run(report: &Report, commanded_path: &CommandedPath, program: &Program) -
     let timing = plan.timing(Sources::ALL).into_owned();
     let share = plan.shaper().apply(&share, own.sample_time);
     let mut force = along::forces(&plan.path, &timing, &plan.setup.mean_force, &plan.setup.chip);
-    for ((force, share), &s) in force.iter_mut().zip(share).zip(&timing.arc_length) {
-        let axis = plan.path.axis(s);
+    for (k, (force, share)) in force.iter_mut().zip(share).enumerate() {
+        let axis = timing.axis(&plan.path, k);
         let along = axis * axis.dot(force);
         *force = along + (*force - along) * share;
     }
