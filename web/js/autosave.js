@@ -46,7 +46,7 @@ export async function kept() {
   return undefined;
 }
 
-/** Keeps inputs that nobody has changed yet: for this tab alone. */
+/** Keeps inputs that have not been changed yet, for this tab alone. */
 export const keepHere = (state) => void write(() => sessionStorage, state);
 
 /** Keeps inputs, a moment from now. */

@@ -7,10 +7,7 @@ let now = null; // seconds from the start, or null while nothing is pointed at
 /** The instant pointed at [s], or null. */
 export const cursor = () => now;
 
-/**
- * Points at an instant [s], or at none; `from` is told to everyone who follows, so that they can
- * tell their own moves.
- */
+/** Points at an instant [s], or at none; `from` lets listeners ignore their own updates. */
 export function setCursor(time, from) {
   if (time === now) return;
   now = time;

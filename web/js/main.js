@@ -30,8 +30,7 @@ const PUSHED = 4000; // samples of a run that follows a number while it is pushe
 const COARSE_S = 0.005; // but no further apart than this
 const PATIENCE_MS = 150; // a run that takes longer shows its progress
 const READ_BACK = ["gcode", "apt", "path-csv"]; // programs that Armill reads itself
-// Of a run that has begun and was not heard of for so long the page says so: nobody tells it that a
-// Worker was taken away
+// Warn after this long without progress; browsers do not report a killed Worker.
 const SILENCE_MS = 30_000;
 
 await begun;

@@ -1,5 +1,5 @@
 // The arm as a figure: tubes for links and joints, a spindle, a cutter. Only the joints' places and
-// axes are the robot's own; how thick its links are nobody has said.
+// axes are the robot's own; the thickness of its links is unknown.
 
 import { cross, dot, length, minus, plus } from "./camera.js";
 
