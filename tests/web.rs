@@ -140,19 +140,34 @@ fn options_are_refused_with_their_key() {
         (text(&error, "code"), text(&error, "field"), text(&error, "message"))
     };
     for (options, code, field, part) in [
-        (r#"{"width":"wide","height":300}"#, "invalid", "width", "\"wide\"; expected a number"),
-        (r#"{"width":640}"#, "missing", "height", "need it"),
-        (r#"{"width":640,"height":300,"widht":1}"#, "invalid", "widht", "`height`"),
-        (r#"{"width":640,"height":300,"x_range":[1]}"#, "invalid", "x_range", "[1]"),
-        (r#"{"width":640,"height":300,"x_range":[1,"b"]}"#, "invalid", "x_range[1]", "a number"),
-        (r#"{"width":640,"height":300,"hidden":"all"}"#, "invalid", "hidden", "\"all\""),
-        (r#"{"width":640,"height":300,"length":"yard"}"#, "invalid", "length", "`mm` or `inch`"),
+        (r#"{"width":"wide","height":300}"#, "invalid", "width", "\"wide\"; a number of pixels is expected"),
+        (r#"{"width":640}"#, "missing", "height", "a number of pixels"),
+        (r#"{"width":null,"height":300}"#, "missing", "width", "a number of pixels"),
+        (r#"{"width":640,"height":300,"widht":1}"#, "invalid", "widht", "width, height"),
+        (r#"{"width":640,"height":300,"x_range":[1]}"#, "invalid", "x_range", "two numbers"),
+        (r#"{"width":640,"height":300,"x_range":[1,2,3]}"#, "invalid", "x_range", "two numbers"),
+        (r#"{"width":640,"height":300,"x_range":[1,"b"]}"#, "invalid", "x_range", "[1,\"b\"]"),
+        (r#"{"width":640,"height":300,"x_range":5}"#, "invalid", "x_range", "5; two numbers"),
+        (r#"{"width":640,"height":300,"hidden":"all"}"#, "invalid", "hidden", "\"all\"; a list"),
+        (r#"{"width":640,"height":300,"length":"yard"}"#, "invalid", "length", "mm or inch"),
+        (r#"{"width":640,"height":300,"force":[]}"#, "invalid", "force", "N or lbf"),
+        (r#""wide""#, "invalid", "options", "an object is expected"),
         (r#"{"width":20,"height":300}"#, "invalid", "chart", "between 120 and 8000"),
     ] {
         let (is, at, message) = refused(options);
         assert_eq!((is.as_str(), at.as_str()), (code, field), "{options}: {message}");
         assert!(message.contains(part), "{options}: {message}");
     }
+    // A key that is undefined is absent, what JSON cannot write is refused all the same, and the run
+    // stays in one piece.
+    let evaluated = |text: &str| js_sys::eval(text).unwrap();
+    let absent = "({ width: 640, height: 300, length: undefined, hidden: undefined, x_range: null })";
+    assert!(run.chart("before-after", evaluated(absent)).is_ok());
+    for odd in ["({ width: undefined, height: 300 })", "({ width: () => 1, height: 300 })", "(() => 1)"] {
+        assert!(run.chart("before-after", evaluated(odd)).is_err(), "{odd}");
+    }
+    let whole = js_sys::JSON::parse(r#"{"width":640,"height":300,"length":"inch"}"#).unwrap();
+    assert!(run.chart_data("before-after", whole).is_ok(), "a chart's options hold its units");
     assert!(run.chart_data("before-after", JsValue::UNDEFINED).is_ok(), "units may be left out");
 }
 

@@ -48,8 +48,9 @@ impl<'a> Node<'a> {
     /// The root of a text, which must be an object.
     pub(super) fn of(text: &'a str) -> Result<Self, Error> {
         let whole = Node { text, raw: text, parent: None, members: None };
-        let members = Some(whole.members(OBJECT)?);
-        Ok(Node { raw: text.trim_matches([' ', '\t', '\r', '\n']), members, ..whole })
+        let raw: &RawValue = whole.value()?;
+        let root = Node { raw: raw.get(), ..whole };
+        Ok(Node { members: Some(root.members(OBJECT)?), ..root })
     }
 
     /// The member of an object with this key, if it has one.

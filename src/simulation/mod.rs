@@ -34,10 +34,8 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     let reference = Reference::along(&plan, Sources::ALL);
     let mut model = steps.part(progress, "deflection and shaping", 1.0, 2.0);
     let before = simulate_by_source(&plan, &reference, &q, &mut model);
-    let (compensation, after, deflection_only) =
-        correct(&plan, reference.clone(), &q, &before, &steps, progress);
     let force = reference.force.clone();
-    drop(reference);
+    let (compensation, after, deflection_only) = correct(&plan, reference, &q, &before, &steps, progress);
     let roll = roll::gain(&plan, &q, &before.total);
     let ErrorsBySource { total: before, shaping: shaping_only, deflection } = before;
     let mut report = Report {

@@ -68,9 +68,8 @@ impl Programs {
         let tolerance = report.setup().goal.tolerance;
         let met = reached <= tolerance;
         let sentence = format!(
-            "As {} {} program, with its own timing: at most {} mm, {} the tolerance of {} mm.",
-            article(format),
-            format.name,
+            "As {}, with its own timing: at most {} mm, {} the tolerance of {} mm.",
+            in_words(format),
             millimetres(reached),
             if met { "within" } else { "beyond" },
             millimetres(tolerance)
@@ -84,7 +83,11 @@ impl Programs {
     }
 }
 
-/// The indefinite article before a format's name.
-fn article(format: &Format) -> &'static str {
-    if format.name.starts_with('A') { "an" } else { "a" }
+/// A format as a sentence names it.
+fn in_words(format: &Format) -> String {
+    let article = if format.name.starts_with('A') { "an" } else { "a" };
+    match format.id {
+        "path-csv" => "a list of points".to_owned(),
+        _ => format!("{article} {} program", format.name),
+    }
 }

@@ -15,10 +15,11 @@ export interface Promised { max_mm: number; met: boolean; sentence: string; }
 
 #[wasm_bindgen]
 impl Run {
-    /// The file in one of [`formats`](super::formats); `thinning_mm` is how far its points may
+    /// The file in one of the `formats()`; `thinning_mm` is how far its points may
     /// stray from the samples (by default a tenth of the tolerance).
     pub fn export(&self, format: &str, thinning_mm: Option<f64>) -> Result<String, JsValue> {
         let options = ExportOptions { thinning: thinning_mm.map(|thinning| thinning * MM) };
+        self.reserve();
         let file = self.programs.export(&self.report, format, &options);
         file.map(|file| file.text).map_err(|error| thrown(&error))
     }
@@ -26,12 +27,13 @@ impl Run {
     /// Rows of `columns-csv` for the samples `from` up to, but not including, `to`; rows from
     /// sample 0 include the header.
     pub fn columns_csv(&self, from: usize, to: usize) -> String {
-        export::csv::rows(&self.report, from..to)
+        export::csv::rows(&self.report, from..to.max(from))
     }
 
     /// Accuracy of the path as a program of a format (`gcode` by default), timed by its own moves.
     #[wasm_bindgen(unchecked_return_type = "Promised")]
     pub fn promise(&self, format: Option<String>) -> Result<JsValue, JsValue> {
+        self.reserve();
         let accuracy = self.programs.accuracy(&self.report, format.as_deref().unwrap_or("gcode"));
         object(&accuracy.map_err(|error| thrown(&error))?)
     }
@@ -39,8 +41,25 @@ impl Run {
     /// Contour error [mm] of a program (`gcode`, `apt` or `path-csv`), read back and simulated.
     #[wasm_bindgen(unchecked_return_type = "Statistics")]
     pub fn replay(&self, format: &str) -> Result<JsValue, JsValue> {
+        self.reserve();
         let outcome =
             verification::read_back(&self.report, &self.programs, format, &ExportOptions::default());
         object(&outcome.map_err(|error| thrown(&error))?.statistics())
+    }
+}
+
+/// Memory that a program's rehearsal takes for each move of its path [bytes].
+const REHEARSAL_BYTES: usize = 2048;
+
+impl Run {
+    /// Grows the WebAssembly memory once for a rehearsal. Its many small allocations would grow it in
+    /// hundreds of steps, and after each the JavaScript engine may collect garbage: a first export of
+    /// 180,000 moves took five times as long.
+    fn reserve(&self) {
+        let bytes = self.report.plan.path.moves().len() * REHEARSAL_BYTES;
+        let mut room = Vec::<u8>::new();
+        // Where this much is not to be had at once, the rehearsal may still fit in pieces.
+        let _ = room.try_reserve_exact(bytes);
+        drop(std::hint::black_box(room));
     }
 }

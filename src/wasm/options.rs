@@ -5,8 +5,8 @@ use crate::error::Error;
 use crate::path::unit::LengthUnit;
 use crate::wasm::error::thrown;
 use js_sys::{JSON, Object, Reflect};
-use serde::de::{DeserializeOwned, Deserializer, Error as _, Visitor};
-use serde::{Deserialize, forward_to_deserialize_any};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
 
@@ -18,7 +18,18 @@ export interface ChartOptions extends ChartUnits {
 }
 "#;
 
-/// `length` of the options.
+/// The keys of the options, and what each may be.
+const KEYS: [(&str, &str); 7] = [
+    ("width", "a number of pixels"),
+    ("height", "a number of pixels"),
+    ("x_range", "two numbers: the ends of the range"),
+    ("y_range", "two numbers: the ends of the range"),
+    ("hidden", "a list of keys of series"),
+    ("length", "mm or inch"),
+    ("force", "N or lbf"),
+];
+
+/// The choices of `length`.
 #[derive(Clone, Copy, Default, Deserialize)]
 enum Length {
     #[default]
@@ -28,7 +39,7 @@ enum Length {
     Inch,
 }
 
-/// `force` of the options.
+/// The choices of `force`.
 #[derive(Clone, Copy, Default, Deserialize)]
 enum Force {
     #[default]
@@ -37,109 +48,99 @@ enum Force {
     Lbf,
 }
 
-/// Units of a chart; mm and N by default.
-#[derive(Deserialize)]
-#[serde(default)]
-#[derive(Default)]
-struct Reading {
-    length: Length,
-    force: Force,
-}
-
-/// How to draw a chart.
-#[derive(Deserialize)]
-struct Drawing {
-    width: f64,
-    height: f64,
-    x_range: Option<(f64, f64)>,
-    y_range: Option<(f64, f64)>,
-    #[serde(default)]
-    hidden: Vec<String>,
-    #[serde(default)]
-    length: Length,
-    #[serde(default)]
-    force: Force,
-}
-
-/// Reads `ChartUnits`.
+/// Reads the units of `ChartUnits`; those of a chart's whole options serve as well.
 pub(super) fn units(options: JsValue) -> Result<Units, JsValue> {
-    read(options).map(|Reading { length, force }| chosen(length, force))
+    let options = Options::of(options).map_err(|error| thrown(&error))?;
+    options.units().map_err(|error| thrown(&error))
 }
 
 /// Reads `ChartOptions`.
 pub(super) fn chart(options: JsValue) -> Result<chart::ChartOptions, JsValue> {
-    let Drawing { width, height, x_range, y_range, hidden, length, force } = read(options)?;
-    Ok(chart::ChartOptions { width, height, x_range, y_range, hidden, units: chosen(length, force) })
-}
-
-fn chosen(length: Length, force: Force) -> Units {
-    let length = match length {
-        Length::Mm => LengthUnit::Mm,
-        Length::Inch => LengthUnit::Inch,
+    let read = |options: JsValue| {
+        let options = Options::of(options)?;
+        Ok(chart::ChartOptions {
+            width: options.required("width")?,
+            height: options.required("height")?,
+            x_range: options.range("x_range")?,
+            y_range: options.range("y_range")?,
+            hidden: options.get("hidden")?.unwrap_or_default(),
+            units: options.units()?,
+        })
     };
-    let force = match force {
-        Force::N => ForceUnit::Newton,
-        Force::Lbf => ForceUnit::PoundForce,
-    };
-    Units { length, force }
+    read(options).map_err(|error: Error| thrown(&error))
 }
 
-/// Reads a struct; `undefined` counts as an empty object.
-fn read<T: DeserializeOwned>(options: JsValue) -> Result<T, JsValue> {
-    let options = if options.is_undefined() { Object::new().into() } else { options };
-    serde_path_to_error::deserialize(Strict(&options)).map_err(|error| {
-        let path = error.path().to_string();
-        thrown(&refused(&path, &error.into_inner().to_string(), &options))
-    })
+/// An object with known keys only.
+struct Options(JsValue);
+
+impl Options {
+    /// Options from JavaScript; undefined and null count as none.
+    fn of(options: JsValue) -> Result<Self, Error> {
+        if options.is_undefined() || options.is_null() {
+            return Ok(Self(Object::new().into()));
+        }
+        let Some(object) = options.dyn_ref::<Object>() else {
+            return Err(Error::invalid("options", shown(&options), "an object is expected"));
+        };
+        let known = |key: &String| KEYS.iter().any(|(name, _)| name == key);
+        let mut keys =
+            Object::keys(object).iter().filter_map(|key| key.as_string()).collect::<Vec<_>>().into_iter();
+        match keys.find(|key| !known(key)) {
+            Some(key) => {
+                let names = KEYS.map(|(name, _)| name).join(", ");
+                Err(Error::invalid(key, "given", format!("the keys are {names}")))
+            }
+            None => Ok(Self(options)),
+        }
+    }
+
+    /// The value of a key; `None` if it is absent, undefined or null.
+    fn get<T: DeserializeOwned>(&self, key: &str) -> Result<Option<T>, Error> {
+        let value = Reflect::get(&self.0, &key.into()).unwrap_or(JsValue::UNDEFINED);
+        if value.is_undefined() || value.is_null() {
+            return Ok(None);
+        }
+        let wrong = || Error::invalid(key, shown(&value), format!("{} is expected", expected(key)));
+        serde_wasm_bindgen::from_value(value.clone()).map(Some).map_err(|_| wrong())
+    }
+
+    /// The value of a key that must be there.
+    fn required<T: DeserializeOwned>(&self, key: &str) -> Result<T, Error> {
+        self.get(key)?.ok_or_else(|| Error::missing(key, expected(key)))
+    }
+
+    /// Two numbers.
+    fn range(&self, key: &str) -> Result<Option<(f64, f64)>, Error> {
+        match self.get::<Vec<f64>>(key)?.as_deref() {
+            None => Ok(None),
+            Some(&[from, to]) => Ok(Some((from, to))),
+            Some(other) => {
+                Err(Error::invalid(key, format!("{other:?}"), format!("{} are expected", expected(key))))
+            }
+        }
+    }
+
+    fn units(&self) -> Result<Units, Error> {
+        let length = match self.get("length")?.unwrap_or_default() {
+            Length::Mm => LengthUnit::Mm,
+            Length::Inch => LengthUnit::Inch,
+        };
+        let force = match self.get("force")?.unwrap_or_default() {
+            Force::N => ForceUnit::Newton,
+            Force::Lbf => ForceUnit::PoundForce,
+        };
+        Ok(Units { length, force })
+    }
 }
 
-/// The error for a key, from serde's message: `invalid type: string "wide", expected f64`.
-fn refused(path: &str, message: &str, options: &JsValue) -> Error {
-    let message = message.trim_start_matches("Error: ");
-    let quoted = message.split('`').nth(1);
-    let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));
-    let expected = expected.replace("f64", "a number");
-    match (quoted, problem.split(' ').next()) {
-        (Some(key), Some("missing")) => Error::missing(key, "these options need it"),
-        (Some(key), Some("unknown")) if problem.starts_with("unknown field") => {
-            Error::invalid(key, "given", format!("the keys are {expected}"))
-        }
-        _ => {
-            let key = path.split(['.', '[']).next().unwrap_or(path);
-            let value = Reflect::get(options, &key.into()).and_then(|value| JSON::stringify(&value));
-            let value = value.map_or_else(|_| "unreadable".to_owned(), String::from);
-            Error::invalid(path, value, format!("expected {expected}"))
-        }
-    }
+/// What a key may be.
+fn expected(key: &str) -> &'static str {
+    KEYS.iter().find(|(name, _)| *name == key).map_or("", |(_, expected)| expected)
 }
 
-/// serde-wasm-bindgen's deserializer ignores keys that a struct does not have; this one refuses
-/// them.
-struct Strict<'a>(&'a JsValue);
-
-impl<'de> Deserializer<'de> for Strict<'_> {
-    type Error = serde_wasm_bindgen::Error;
-
-    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Self::Error> {
-        serde_wasm_bindgen::Deserializer::from(self.0.clone()).deserialize_any(visitor)
-    }
-
-    fn deserialize_struct<V: Visitor<'de>>(
-        self,
-        name: &'static str,
-        fields: &'static [&'static str],
-        visitor: V,
-    ) -> Result<V::Value, Self::Error> {
-        let keys = self.0.dyn_ref::<Object>().map(Object::keys).unwrap_or_default();
-        let mut keys = keys.iter().filter_map(|key| key.as_string());
-        if let Some(key) = keys.find(|key| !fields.contains(&key.as_str())) {
-            return Err(Self::Error::unknown_field(&key, fields));
-        }
-        serde_wasm_bindgen::Deserializer::from(self.0.clone()).deserialize_struct(name, fields, visitor)
-    }
-
-    forward_to_deserialize_any! {
-        bool i8 i16 i32 i64 u8 u16 u32 u64 f32 f64 char str string bytes byte_buf option unit
-        unit_struct newtype_struct seq tuple tuple_struct map enum identifier ignored_any
-    }
+/// A value as it is written in JavaScript, or its type where that cannot be written.
+fn shown(value: &JsValue) -> String {
+    let plain = !(value.is_undefined() || value.is_function() || value.is_symbol());
+    let text = plain.then(|| JSON::stringify(value).ok()).flatten();
+    text.map_or_else(|| value.js_typeof().as_string().unwrap_or_default(), String::from)
 }
