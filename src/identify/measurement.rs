@@ -71,7 +71,8 @@ impl Convention {
     /// [`Error::Invalid`] with the available keys.
     pub fn of(id: &str) -> Result<Self, Error> {
         let found = Self::ALL.iter().find(|(key, _)| *key == id);
-        let refused = || Error::unknown_name("convention", id, "legal are", Self::ALL.map(|(key, _)| key));
+        let refused =
+            || Error::unknown_name("convention", id, "the conventions are", Self::ALL.map(|(key, _)| key));
         found.map(|(_, convention)| *convention).ok_or_else(refused)
     }
 

@@ -11,7 +11,7 @@ import { formatNumber } from "./number.js";
 const FORMS = {
   link: {
     title: "Link",
-    note: "The whole job is in the link itself. Whoever opens it computes the same result; nothing is stored on a server.",
+    note: "The whole job is in the link itself. Anyone who opens it gets the same result; nothing is stored on a server.",
   },
   markdown: {
     title: "Markdown",
