@@ -118,12 +118,7 @@ fn material_model(given: &job::Material) -> Result<(Option<&'static Material>, M
             Some(preset) => (Some(preset), preset.model),
             None => {
                 let known = material::library().iter().map(|material| material.id);
-                let known = known.collect::<Vec<_>>().join(", ");
-                return Err(Error::invalid(
-                    "material.preset",
-                    format!("\"{id}\""),
-                    format!("the library has {known}"),
-                ));
+                return Err(Error::unknown_name("material.preset", id, "the library has", known));
             }
         },
         None if linear_given && kienzle_given => return one_of("material.kc11_n_mm2"),
