@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::export::command::{Command, CommandedMove};
 use crate::export::header;
 use crate::path::SourceProgram;
+use crate::path::gcode::after_slash;
 use crate::path::gcode::token::{Kind, tokens};
 use crate::report::Report;
 
@@ -132,6 +133,8 @@ struct OriginalLine {
     after: String,
     /// Its comments.
     comments: String,
+    /// Whether it is marked for block delete.
+    optional: bool,
     /// Whether some of its words are dropped.
     dropped: bool,
     /// Whether the dropped words are only a motion, its plane, positions and a feed.
@@ -147,10 +150,11 @@ impl OriginalLine {
             before: String::new(),
             after: String::new(),
             comments,
+            optional: after_slash(line) > 0,
             dropped: false,
             simple: true,
         };
-        if original.is_optional() {
+        if original.optional {
             // A switch on the control decides whether its words act; a move could not follow that.
             (original.dropped, original.simple) = (true, false);
             return original;
@@ -179,15 +183,10 @@ impl OriginalLine {
         original
     }
 
-    /// Whether it starts with the slash of block delete.
-    fn is_optional(&self) -> bool {
-        self.code.starts_with('/')
-    }
-
     /// Whether the header may follow this line, if it makes no move: the tape mark and the
     /// program's number must come first, and lines without effect may precede them.
     fn precedes_header(&self) -> bool {
-        self.code.is_empty() || self.is_optional() || self.before.contains(['%', 'O'])
+        self.code.is_empty() || self.optional || self.before.contains(['%', 'O'])
     }
 }
 
@@ -264,7 +263,9 @@ mod tests {
         assert_eq!((line.after.as_str(), line.dropped, line.simple), ("M05", true, true));
         let line = OriginalLine::of("G54 G1 X2");
         assert!(line.dropped && !line.simple);
-        let line = OriginalLine::of("/M8");
-        assert!(line.is_optional() && line.dropped && line.before.is_empty());
+        for line in ["/M8", "N10 /M8", "n 7/70 M8", " /2 M8"] {
+            let line = OriginalLine::of(line);
+            assert!(line.optional && line.dropped && line.before.is_empty());
+        }
     }
 }

@@ -128,7 +128,7 @@ fn run_line<'t>(
 
 /// The byte after the slash of a line marked for block delete (`/G1`, `/2 G1`, `N10 /G1`); 0
 /// without a slash.
-fn after_slash(line: &str) -> usize {
+pub(crate) fn after_slash(line: &str) -> usize {
     let blank = |text: &str| text.len() - text.trim_start().len();
     let mut at = blank(line);
     if line[at..].starts_with(['N', 'n']) {
