@@ -62,13 +62,15 @@ fn tip_and_axis_go_where_the_turned_joints_put_them() {
             let axis = -bent.rotation.column(2);
             // Levers are taken before the joints turn: the error is the square of the turn, on 1.5
             // m.
-            let square = turns.norm_squared() * 1.5;
+            let square = turns.norm_squared() * 1.5 + 1e-15;
             assert!((before.actual[k] - bent.position).norm() <= square, "sample {k}");
             // A path with one constant axis stores only the angle to it.
             if report.plan.path.is_multi_axis() {
                 assert!((before.axis[k] - axis).norm() <= square, "sample {k}");
             }
-            assert!((tip(q) - bent.position).norm() > 20.0 * square, "and it is no little thing at {k}");
+            // At rest nothing is bent.
+            let little = force.norm() < 0.1 * report.mean_force().norm();
+            assert!(little || (tip(q) - bent.position).norm() > 20.0 * square, "no little thing at {k}");
         }
     }
 }

@@ -218,7 +218,7 @@ fn every_program_says_where_it_comes_from_and_what_it_does_not_promise() {
             assert!(
                 // An arc of 200 deg: few arcs replace many chords.
                 export.points > if format.id == "gcode" { 20 } else { 50 }
-                    && export.points < report.samples() / 5,
+                    && export.points < report.samples() / 4,
                 "{}: {}",
                 format.id,
                 export.points

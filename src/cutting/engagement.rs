@@ -28,39 +28,36 @@ pub enum Engagement {
 const AT_WALL: f64 = 1e-9;
 
 impl Engagement {
-    /// Entry and exit [rad] of an edge at the radius `r` on a tool of the radius `outer` [m];
-    /// `None` if it does not reach the material.
+    /// Entry and exit [rad] of an edge at the radius `r` [m].
     ///
-    /// The part ends at a plane along the feed, at `outer` minus the radial depth from the axis.
-    /// Climb milling at the full radius thus enters at pi - acos(1 - 2 a_e / D) (Altintas 2012,
-    /// section 2.7).
-    pub fn at(&self, r: f64, outer: f64) -> Option<(f64, f64)> {
-        // The angle from the wall's side at which the edge crosses that plane.
-        let reach = |depth: f64| {
-            let plane = outer - depth;
-            (plane < r).then(|| math::acos((plane / r).clamp(-1.0, 1.0)))
-        };
+    /// The pass before left the same profile, the radial depth a_e further. At each height the part
+    /// thus ends at a plane along the feed, at r - a_e from the axis: climb milling enters at pi -
+    /// acos(1 - a_e / r) (Altintas 2012, section 2.7, at the local radius). Where a_e exceeds 2 r,
+    /// as near the tip of a ball, the edge cuts a slot.
+    pub fn at(&self, r: f64) -> (f64, f64) {
+        // The angle from the wall's side at which the edge crosses that plane; at the very tip r is 0.
+        let reach = |depth: f64| if depth < 2.0 * r { math::acos(1.0 - depth / r) } else { PI };
         match *self {
-            Self::Angles { entry, exit } => Some((entry, exit)),
-            Self::Slot => Some((0.0, PI)),
-            Self::Climb(depth) => reach(depth).map(|angle| (PI - angle, PI)),
-            Self::Conventional(depth) => reach(depth).map(|angle| (0.0, angle)),
+            Self::Angles { entry, exit } => (entry, exit),
+            Self::Slot => (0.0, PI),
+            Self::Climb(depth) => (PI - reach(depth), PI),
+            Self::Conventional(depth) => (0.0, reach(depth)),
         }
     }
 
-    /// Distance of the part's plane from the tool's axis [m], minus infinity without a plane. Edges
-    /// at a smaller radius do not reach it.
-    pub fn plane(&self, outer: f64) -> f64 {
+    /// The radius below which an edge has material all round ahead because the pass before left some
+    /// there [m]; 0 if that is the same at every radius.
+    pub(super) fn slot_below(&self) -> f64 {
         match *self {
-            Self::Climb(depth) | Self::Conventional(depth) => outer - depth,
-            _ => f64::NEG_INFINITY,
+            Self::Angles { .. } | Self::Slot => 0.0,
+            Self::Climb(depth) | Self::Conventional(depth) => depth / 2.0,
         }
     }
 
-    /// Immersion angles [rad] of the walls that a tooth at the full radius leaves: 0 (left of the
-    /// feed) or pi (right of it).
+    /// Immersion angles [rad] of the walls that a tooth at the radius `outer` [m] leaves: 0 (left of
+    /// the feed) or pi (right of it).
     pub fn walls(&self, outer: f64) -> Vec<f64> {
-        let Some((entry, exit)) = self.at(outer, outer) else { return Vec::new() };
+        let (entry, exit) = self.at(outer);
         [0.0, PI]
             .into_iter()
             .filter(|wall| (wall - entry).abs() < AT_WALL || (wall - exit).abs() < AT_WALL)

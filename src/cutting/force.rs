@@ -6,7 +6,7 @@
 //! effect on the chip.
 
 use crate::cutting::tool::Slice;
-use crate::cutting::{Coefficients, Engagement};
+use crate::cutting::{Coefficients, CutLoad, Engagement, Hand};
 use crate::math::{self, TAU};
 use nalgebra::Vector3;
 
@@ -19,6 +19,8 @@ pub struct Cut {
     pub flutes: u32,
     /// Helix angle beta [rad]; every edge winds evenly about the axis, on the corner too.
     pub helix: f64,
+    /// Hand of the helix.
+    pub hand: Hand,
     /// Radius of the corner between side and bottom [m]: 0 of a flat end mill, D / 2 of a ball
     /// nose, between them of a bull nose.
     pub corner_radius: f64,
@@ -44,7 +46,12 @@ pub struct LinearForce {
 impl LinearForce {
     /// Force [N] in {T} at the feed per tooth `c` [m].
     pub fn at(&self, c: f64) -> Vector3<f64> {
-        self.cutting * c + self.edge
+        self.under(&CutLoad { chip: c, edge: 1.0 })
+    }
+
+    /// Force [N] in {T} under a load.
+    pub fn under(&self, load: &CutLoad) -> Vector3<f64> {
+        self.cutting * load.chip + self.edge * load.edge
     }
 
     fn zero() -> Self {
@@ -61,15 +68,14 @@ impl LinearForce {
 const FINE: usize = 256;
 /// Slices of a corner for the force at an instant.
 const COARSE: usize = 48;
-/// Steps of the immersion angle in the search for the largest force.
-const STEPS: usize = 360;
 
 /// The angle reduced to the first turn [rad].
 fn wrapped(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).floor()
 }
 
-/// Tangential, radial and axial force at the immersion angle `phi` as a vector in {T} (eq. 4.3).
+/// Tangential and radial force, and the force towards the spindle, at the immersion angle `phi` as a
+/// vector in {T} (eq. 4.3; the thesis's axial force always points to the spindle).
 fn project(phi: f64, t: f64, r: f64, a: f64) -> Vector3<f64> {
     let (sin, cos) = math::sin_cos(phi);
     Vector3::new(-t * cos - r * sin, t * sin - r * cos, a)
@@ -88,9 +94,9 @@ fn primitive(k: &Coefficients, phi: f64) -> (Vector3<f64>, Vector3<f64>) {
 }
 
 impl Cut {
-    /// Lag of the edge per height: 2 tan(beta) / D [rad/m].
+    /// Lag of the edge per height: 2 tan(beta) / D [rad/m]; a left-hand helix leads.
     pub(super) fn lag(&self) -> f64 {
-        2.0 * math::tan(self.helix) / self.diameter
+        self.hand.sign() * 2.0 * math::tan(self.helix) / self.diameter
     }
 
     /// The edge in slices for means.
@@ -98,13 +104,20 @@ impl Cut {
         self.slices(FINE, 1)
     }
 
-    /// The edge in slices for an instant.
+    /// The edge in slices for an instant without runout.
     pub(super) fn coarse(&self) -> Vec<Slice> {
         self.slices(COARSE, 1)
     }
 
-    /// Mean force over a revolution (eqs. 4.6, 4.7), in closed form over the angle. Neither helix
-    /// nor runout changes it: what one tooth leaves, the next one cuts.
+    /// The edge in slices for an instant with runout, `above` of them on the cylinder.
+    pub(super) fn thin(&self, above: usize) -> Vec<Slice> {
+        self.slices(COARSE, above)
+    }
+
+    /// Mean force over a revolution (eqs. 4.6, 4.7), in closed form over the angle. The helix does
+    /// not change it. Runout is left out: what one tooth leaves, the next one cuts, but a tooth that
+    /// passes without cutting misses its edge force. In aluminium, that is up to 3 % of the mean at
+    /// 15 um and 12 to 17 % at 50 um.
     pub fn mean_force(&self) -> LinearForce {
         let mut mean = LinearForce::zero();
         for slice in self.profile() {
@@ -126,13 +139,14 @@ impl Cut {
     /// The force in {T} at an instant without runout, with each slice integrated over its height in
     /// closed form.
     pub(super) fn instant(&self, slices: &[Slice], phi: f64) -> LinearForce {
-        let pitch = TAU / f64::from(self.flutes);
+        let (pitch, lag) = (TAU / f64::from(self.flutes), self.lag());
         let mut total = LinearForce::zero();
         for tooth in 0..self.flutes {
             for slice in slices {
                 let k = &slice.coefficients;
-                let swept = self.lag() * slice.height;
-                let top = wrapped(phi + pitch * f64::from(tooth) - self.lag() * slice.from);
+                let (from, to) = (lag * slice.from, lag * (slice.from + slice.height));
+                let swept = lag.abs() * slice.height;
+                let top = wrapped(phi + pitch * f64::from(tooth) - from.min(to));
                 if swept < 1e-9 {
                     if top >= slice.entry && top <= slice.exit {
                         let cutting = math::sin(top);
@@ -149,7 +163,7 @@ impl Cut {
                     let from = (slice.entry - turn * TAU).max(top - swept);
                     let to = (slice.exit - turn * TAU).min(top);
                     if to > from {
-                        total.add(primitive(k, from), primitive(k, to), 1.0 / self.lag());
+                        total.add(primitive(k, from), primitive(k, to), 1.0 / lag.abs());
                     }
                     turn += 1.0;
                 }
@@ -163,7 +177,7 @@ impl Cut {
     /// The radius of tooth i is R_i = R + rho cos(angle between it and the offset). Its chip along
     /// the radius is the minimum over m of (m c sin(phi) + R_i - R_(i-m)), or none if that is
     /// negative (W. Kline, R. DeVor, Int. J. Mach. Tool Des. Res. 23 (1983)).
-    fn instant_with_runout(&self, slices: &[Slice], phi: f64, c: f64) -> Vector3<f64> {
+    pub(super) fn instant_with_runout(&self, slices: &[Slice], phi: f64, c: f64) -> Vector3<f64> {
         let pitch = TAU / f64::from(self.flutes);
         let mut total = Vector3::zeros();
         for slice in slices {
@@ -204,17 +218,12 @@ impl Cut {
 
     fn revolution_at(&self, angles: &[f64], c: f64) -> (Vec<f64>, Vec<Vector3<f64>>) {
         let force: Vec<_> = if self.runout > 0.0 {
-            let slices = self.slices(COARSE, COARSE);
+            let slices = self.thin(COARSE);
             angles.iter().map(|&phi| self.instant_with_runout(&slices, phi, c)).collect()
         } else {
             let slices = self.coarse();
             angles.iter().map(|&phi| self.instant(&slices, phi).at(c)).collect()
         };
         (angles.to_vec(), force)
-    }
-
-    /// Largest force on the tool within a revolution [N].
-    pub fn peak_force(&self, c: f64) -> f64 {
-        self.revolution(STEPS, c).1.iter().map(Vector3::norm).fold(0.0, f64::max)
     }
 }

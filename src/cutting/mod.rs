@@ -7,12 +7,16 @@ pub mod oblique;
 pub mod engagement;
 pub mod tool;
 pub mod force;
+pub mod peak;
 pub mod spindle;
 pub mod surface;
+pub mod run_in;
+pub mod load;
 pub mod along;
 
 pub use engagement::Engagement;
 pub use force::{Cut, LinearForce};
 pub use kienzle::Kienzle;
+pub use load::{ChipLoad, CutLoad, Loading};
 pub use material::Coefficients;
-pub use tool::Bending;
+pub use tool::{Bending, Hand};

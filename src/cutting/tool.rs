@@ -5,6 +5,26 @@ use crate::math;
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
+/// Hand of the helix of a tool that turns clockwise, seen from the spindle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Hand {
+    /// The chip rises towards the spindle and pulls the tool out of its holder.
+    #[default]
+    Right,
+    /// The chip is pushed down and the tool up, into its holder.
+    Left,
+}
+
+impl Hand {
+    /// 1 for right, -1 for left.
+    pub(super) fn sign(self) -> f64 {
+        match self {
+            Hand::Right => 1.0,
+            Hand::Left => -1.0,
+        }
+    }
+}
+
 /// A piece of every edge that cuts like a cylinder's, with its own coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Slice {
@@ -16,7 +36,7 @@ pub(super) struct Slice {
     pub(super) edge: f64,
     /// Distance of the edge from the axis [m].
     pub(super) radius: f64,
-    /// Coefficients for force per height.
+    /// Coefficients for force per height, those of the axial force for the one towards the spindle.
     pub(super) coefficients: Coefficients,
     /// Entry and exit [rad].
     pub(super) entry: f64,
@@ -35,33 +55,34 @@ impl Cut {
     /// On a corner of radius r_c the edge's normal is at the angle kappa to the tool axis: height
     /// r_c (1 - cos kappa), chip h = c sin(phi) sin(kappa), chip width dz / sin(kappa). A slice of
     /// height dz thus takes the chip section c sin(phi) dz of a cylinder. Radial force acts along
-    /// the normal, axial force along the profile (P. Lee, Y. Altintas, Int. J. Mach. Tools
-    /// Manufact. 36 (1996), eqs. 8 to 14; Altintas 2012, section 2.9; the axial force has the
-    /// thesis's sign). Turned by kappa, they are those of a cylinder with other coefficients.
+    /// the normal, axial force along the profile: inward F_r sin kappa + F_a cos kappa, towards the
+    /// spindle F_r cos kappa - F_a sin kappa for a right-hand helix (P. Lee, Y. Altintas, Int. J.
+    /// Mach. Tools Manufact. 36 (1996), eqs. 8 to 14; S. Engin, Y. Altintas, Int. J. Mach. Tools
+    /// Manufact. 41 (2001), eq. 19). A left-hand helix turns F_a round. Turned by kappa, the forces
+    /// are those of a cylinder with other coefficients.
     pub(super) fn slices(&self, count: usize, above: usize) -> Vec<Slice> {
         let (outer, corner, depth) = (self.radius(), self.corner_radius, self.axial_depth);
+        let down = self.hand.sign();
+        let own = Coefficients {
+            kac: -down * self.coefficients.kac,
+            kae: -down * self.coefficients.kae,
+            ..self.coefficients
+        };
         let mut slices = Vec::new();
         let mut add = |from: f64, height: f64, edge: f64, radius: f64, coefficients: Coefficients| {
-            if let Some((entry, exit)) = self.engagement.at(radius, outer)
-                && height > 0.0
-            {
+            if height > 0.0 {
+                let (entry, exit) = self.engagement.at(radius);
                 slices.push(Slice { from, height, edge, radius, coefficients, entry, exit });
             }
         };
         if corner > 0.0 {
-            // Below this the corner does not reach the part's plane.
-            let short = ((self.engagement.plane(outer) - (outer - corner)) / corner).clamp(0.0, 1.0);
-            let low = FRAC_PI_2 - math::acos(short);
-            let high = math::acos((1.0 - depth / corner).max(0.0));
             let height = |kappa: f64| corner * (1.0 - math::cos(kappa));
-            let step = (high - low) / count as f64;
-            for k in 0..count {
-                let kappa = low + step * (k as f64 + 0.5);
-                let from = height(kappa - step / 2.0);
-                let (sin, cos) = math::sin_cos(kappa);
-                let tall = height(kappa + step / 2.0) - from;
-                let edge = corner * step / tall;
-                let own = &self.coefficients;
+            for pair in self.corner_angles(count).windows(2) {
+                let (low, high) = (pair[0], pair[1]);
+                let from = height(low);
+                let tall = height(high) - from;
+                let (sin, cos) = math::sin_cos((low + high) / 2.0);
+                let edge = corner * (high - low) / tall;
                 let turned = Coefficients {
                     ktc: own.ktc,
                     krc: own.krc * sin - own.kac * cos,
@@ -70,15 +91,35 @@ impl Cut {
                     kre: (own.kre * sin - own.kae * cos) * edge,
                     kae: (own.kae * sin + own.kre * cos) * edge,
                 };
-                add(from, tall, corner * step, outer - corner + corner * sin, turned);
+                add(from, tall, corner * (high - low), outer - corner + corner * sin, turned);
             }
         }
         let rest = depth - corner;
         for k in 0..above {
             let tall = rest / above as f64;
-            add(corner + tall * k as f64, tall, tall, outer, self.coefficients);
+            add(corner + tall * k as f64, tall, tall, outer, own);
         }
         slices
+    }
+
+    /// The borders of `count` slices of the corner as angles kappa [rad].
+    ///
+    /// Where the engagement begins to leave the slot it changes like a square root, so the slices
+    /// grow from there.
+    fn corner_angles(&self, count: usize) -> Vec<f64> {
+        let (outer, corner) = (self.radius(), self.corner_radius);
+        let top = math::acos((1.0 - self.axial_depth / corner).max(0.0));
+        let reached = (self.engagement.slot_below() - (outer - corner)) / corner;
+        let slot = (FRAC_PI_2 - math::acos(reached.clamp(0.0, 1.0))).min(top);
+        let even = |from: f64, to: f64, count: usize| {
+            (0..count).map(move |k| from + (to - from) * k as f64 / count as f64)
+        };
+        if slot <= 0.0 || slot >= top {
+            return even(0.0, top, count).chain([top]).collect();
+        }
+        let below = count / 4;
+        let above = even(0.0, 1.0, count - below).map(|part| slot + (top - slot) * part * part);
+        even(0.0, slot, below).chain(above).chain([top]).collect()
     }
 }
 

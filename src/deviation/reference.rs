@@ -65,5 +65,5 @@ fn force(plan: &Plan, timing: &TimingLaw, acting: Sources) -> Vec<Vector3<f64>> 
     if !acting.deflection {
         return Vec::new();
     }
-    along::forces(&plan.path, timing, &plan.setup.mean_force, &plan.setup.chip)
+    along::forces(&plan.path, timing, &plan.setup.mean_force, &plan.setup.loading)
 }

@@ -15,6 +15,16 @@ choice! {
     }
 }
 choice! {
+    /// Hand of the helix.
+    HelixHand {
+        /// The usual one: the chip rises.
+        #[default]
+        Right = "right",
+        /// The chip is pushed down.
+        Left = "left",
+    }
+}
+choice! {
     /// How the engagement is given.
     Engaged {
         /// By entry and exit.
@@ -48,6 +58,9 @@ pub struct Tool {
     pub flutes: u32,
     /// Helix angle.
     pub helix_deg: f64,
+    /// Hand of the helix; default right.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hand: Option<HelixHand>,
     /// Corner radius between side and bottom; default 0, a flat end mill.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub corner_radius_mm: Option<CornerRadius>,
@@ -80,6 +93,7 @@ impl Default for Tool {
             diameter_mm: 10.0,
             flutes: 4,
             helix_deg: 30.0,
+            hand: None,
             corner_radius_mm: None,
             rake_deg: None,
             runout_mm: None,
@@ -180,6 +194,7 @@ keys!(Tool {
     diameter_mm,
     flutes,
     helix_deg,
+    hand,
     corner_radius_mm,
     rake_deg,
     runout_mm,

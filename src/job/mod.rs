@@ -15,7 +15,7 @@ pub mod presets;
 pub mod fields;
 
 pub use choice::{ChipThickness, Choice, CornerDwell, CornerRadius, FeedPerTooth, SpindlePower};
-pub use cutting::{Cutting, Engaged, Line, Material, Tool, ToolBending};
+pub use cutting::{Cutting, Engaged, HelixHand, Line, Material, Tool, ToolBending};
 pub use input::{
     Branch, Compensation, DhRow, Elbow, Frame, Job, Joint3, Motion, Opw, Robot, SagZero, Shaper, ShaperKind,
     ShaperSpec, Shoulder, Spin, SpinGoal, SpinMode, Wrist,

@@ -1,6 +1,7 @@
 //! The columns of a report: one row per sample, with the unit in each key.
 
 use crate::column::Column;
+use crate::cutting::run_in::RunIn;
 use crate::path::Axes;
 use crate::report::{Report, norms_mm};
 use crate::units::{DEG, MM};
@@ -89,6 +90,7 @@ impl Report {
         series.push(scaled("axis_error_deg", "Tool axis error before", "deg", before, DEG));
         series.push(scaled("after_axis_error_deg", "Tool axis error after", "deg", after, DEG));
         series.push(self.cuts());
+        series.push(self.run_in());
         let (path, timing) = (&self.plan.path, &trajectory.timing);
         series.push(Series::new("program_line", "Line of the program", "", count, move |samples| {
             timing.index[samples].iter().map(|&index| path.moves()[index as usize].line as f64).collect()
@@ -117,6 +119,22 @@ impl Report {
             let whole =
                 |share: f64| if (share - share.round()).abs() < 1e-12 { share.round() } else { share };
             samples.map(|k| whole(cuts.at(k))).collect()
+        })
+    }
+
+    /// Share of the force where a cut begins; see [`RunIn`].
+    fn run_in(&self) -> Series<'_> {
+        let (path, trajectory) = (&self.plan.path, &self.plan.trajectory);
+        let run_in = RunIn::along(path, self.setup().loading.run_in);
+        let place = self.plan.shaper().shaped(&trajectory.timing.arc_length, trajectory.sample_time);
+        Series::new("run_in", "Run-in of the cut", "", trajectory.len(), move |samples| {
+            let mut near = 0;
+            let share = |k: usize| {
+                let s = place.at(k);
+                (near, _) = path.locate_near(s, near);
+                run_in.at(near, s)
+            };
+            samples.map(share).collect()
         })
     }
 

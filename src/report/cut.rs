@@ -1,9 +1,9 @@
 //! Cutting figures: coefficients, engagement, spindle load, and the error of the walls, by the mean
 //! force and at the instants when the edge generates them.
 
-use crate::cutting::along;
 use crate::cutting::material::Model;
 use crate::cutting::surface::Wall;
+use crate::cutting::{CutLoad, along};
 use crate::deviation::Sources;
 use crate::math;
 use crate::plan::Plan;
@@ -50,15 +50,12 @@ pub struct CutFigures {
     pub tooth_passing_hz: f64,
     /// Mean cutting power [kW].
     pub power_kw: f64,
-    /// Entry immersion angle on the tool's cylinder [deg]; absent without contact there.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub entry_deg: Option<f64>,
+    /// Entry immersion angle on the tool's cylinder [deg].
+    pub entry_deg: f64,
     /// Exit immersion angle on the tool's cylinder [deg].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub exit_deg: Option<f64>,
+    pub exit_deg: f64,
     /// Radial depth of cut [mm].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub radial_depth_mm: Option<f64>,
+    pub radial_depth_mm: f64,
     /// Rated power of the spindle [kW], if given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spindle_power_kw: Option<f64>,
@@ -105,7 +102,7 @@ pub struct WallFigures {
 impl Report {
     /// Feed per tooth of the job [m]; at full feed, if the chip load follows the feed.
     pub fn feed_per_tooth(&self) -> f64 {
-        self.setup().chip.at(self.setup().limits.feed, None)
+        self.setup().loading.feed_per_tooth()
     }
 
     /// Mean cutting power [W] at [`Report::feed_per_tooth`] and the job's spindle speed: torque
@@ -124,8 +121,7 @@ impl Report {
         let feed = c * setup.teeth_per_second;
         // On the cylinder: at the full radius, which the corner does not reach, it is exact.
         let radius = cut.radius();
-        let engaged = cut.engagement.at(radius, radius);
-        let radial = |(entry, exit): (f64, f64)| radius * (math::cos(entry) - math::cos(exit));
+        let (entry, exit) = cut.engagement.at(radius);
         let kienzle = match &setup.material.model {
             Model::Kienzle(kienzle) => Some(kienzle),
             _ => None,
@@ -148,9 +144,9 @@ impl Report {
             torque_nm: cut.torque(c),
             tooth_passing_hz: setup.teeth_per_second,
             power_kw: self.spindle_power() / KILOWATT,
-            entry_deg: engaged.map(|(entry, _)| entry / DEG),
-            exit_deg: engaged.map(|(_, exit)| exit / DEG),
-            radial_depth_mm: engaged.map(|engaged| radial(engaged) / MM),
+            entry_deg: entry / DEG,
+            exit_deg: exit / DEG,
+            radial_depth_mm: radius * (math::cos(entry) - math::cos(exit)) / MM,
             spindle_power_kw: setup.spindle_power.map(|power| power / KILOWATT),
             tool_bending_um_n: setup.bending.map(|bending| bending.displacement / (1e-3 * MM)),
             made_at_chip_mm: setup.material.chip.map(|chip| chip / MM),
@@ -170,6 +166,7 @@ impl Report {
         let Plan { path, robot, trajectory, .. } = &self.plan;
         let timing = self.plan.timing(Sources::ALL);
         let mut budget = budget::Sum::default();
+        let loads = self.setup().loading.along(path);
         let mut walls: Vec<_> = self.setup().cut.walls().into_iter().map(Standing::new).collect();
         let shaped = self.shaped(&self.q);
         along::each(path, &timing, |k, x, axis| {
@@ -181,9 +178,8 @@ impl Report {
                 return;
             }
             let y = axis.cross(&x);
-            let spindle = path.moves()[timing.index[k] as usize].spindle;
-            let c = self.setup().chip.at(timing.speed[k], spindle);
-            let mean_of_turn = self.setup().mean_force.at(c);
+            let load = loads.at(&timing, k);
+            let mean_of_turn = self.setup().mean_force.under(&load);
             let base = x * mean_of_turn.x + y * mean_of_turn.y + axis * mean_of_turn.z;
             let by =
                 |force: Vector3<f64>| compliance::deflection(robot, &q, &frames, &tip.position, &force).0;
@@ -202,7 +198,7 @@ impl Report {
             }
             let moved = Vector3::new(moved.dot(&x), moved.dot(&y), moved.dot(&axis));
             for wall in &mut walls {
-                wall.take(c, mean_of_turn, |force| constant + moved.dot(force));
+                wall.take(load, mean_of_turn, |force| constant + moved.dot(force));
             }
         });
         (budget.budget(trajectory.sample_time), walls.iter().map(Standing::figures).collect())
@@ -212,8 +208,8 @@ impl Report {
 /// A wall with its running statistics.
 struct Standing {
     wall: Wall,
-    /// Feed per tooth of the last sample [m], for which `instants` holds the wall's forces [N].
-    chip: f64,
+    /// Load at the last sample, for which `instants` holds the wall's forces [N].
+    load: CutLoad,
     instants: Vec<Vector3<f64>>,
     mean_force: Spread,
     instant_force: Spread,
@@ -224,16 +220,16 @@ struct Standing {
 impl Standing {
     fn new(wall: Wall) -> Self {
         let [mean_force, instant_force, by_mean, at_instant] = [Spread::default(); 4];
-        let instants = Vec::new();
-        Self { wall, chip: f64::NAN, instants, mean_force, instant_force, by_mean, at_instant }
+        let instants = vec![Vector3::zeros(); wall.instants.len()];
+        Self { wall, load: CutLoad::default(), instants, mean_force, instant_force, by_mean, at_instant }
     }
 
-    /// Adds a sample with feed per tooth `c` [m] and mean force `mean` [N] in {T}; `across` gives
-    /// the displacement of the tip along y of {T} under a force [m].
-    fn take(&mut self, c: f64, mean: Vector3<f64>, across: impl Fn(&Vector3<f64>) -> f64) {
-        if c != self.chip {
-            self.chip = c;
-            self.instants = self.wall.instants.iter().map(|force| force.at(c)).collect();
+    /// Adds a sample with its load and mean force `mean` [N] in {T}; `across` gives the displacement
+    /// of the tip along y of {T} under a force [m].
+    fn take(&mut self, load: CutLoad, mean: Vector3<f64>, across: impl Fn(&Vector3<f64>) -> f64) {
+        if load != self.load {
+            self.load = load;
+            self.instants = self.wall.instants.iter().map(|force| force.under(&load)).collect();
         }
         let side = self.wall.side;
         self.mean_force.take(side * mean.y);

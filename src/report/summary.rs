@@ -57,7 +57,7 @@ pub struct Summary {
     pub duration_s: f64,
     /// Length of the desired path [mm].
     pub path_length_mm: f64,
-    /// Mean milling force in {T} at full feed [N].
+    /// Mean milling force in {T} at the programmed feed [N], z from tip to spindle.
     pub mean_force_n: [f64; 3],
     /// Name of the material.
     pub material: String,

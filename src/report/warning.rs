@@ -1,7 +1,7 @@
 //! Warnings: conditions that are odd but workable, each with the part of the motion it applies to.
 
 use crate::compensation::Compensation;
-use crate::cutting::along::ChipLoad;
+use crate::cutting::ChipLoad;
 use crate::cutting::material::Model;
 use crate::deviation::{Deviation, Sources};
 use crate::math;
@@ -247,19 +247,15 @@ fn angle_of_sine(sine: f64) -> f64 {
 /// Warnings about the cut.
 fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
     warnings.extend(chip_load(setup, plan));
-    if setup.cut.axial_depth > 0.0 && setup.cut.section() == 0.0 {
-        let message = "the tool does not reach the part: at this axial depth its corner is narrower than the \
-                       gap the radial depth leaves";
-        warnings.push(Warning::new("no-contact", message));
-    }
     if matches!(setup.material.model, Model::Linear(_)) && setup.rake != 0.0 {
         let message =
             "the rake angle is not used: these coefficients hold for the tool they were measured with";
         warnings.push(Warning::new("rake-unused", message));
     }
     if setup.cut.runout > 0.0 {
-        let message = "runout changes the force within a revolution and its peak; the mean force and the \
-                       deviation of the path stay";
+        let message = "runout raises the peak of the force within a revolution; the mean force and the deviation \
+                       of the path are computed without it. Teeth that pass without cutting miss their edge \
+                       force: the mean is up to 3 % lower at 0.015 mm of runout, 12 to 17 % at 0.05 mm";
         warnings.push(Warning::new("runout", message));
     }
     warnings.extend(plunge(plan));
@@ -278,7 +274,7 @@ fn feed(setup: &Setup, step: &Move) -> f64 {
 
 /// A stated feed per tooth that contradicts feed and spindle speed.
 fn chip_load(setup: &Setup, plan: &Plan) -> Option<Warning> {
-    let ChipLoad::Fixed(c) = setup.chip else { return None };
+    let ChipLoad::Stated(c) = setup.loading.chip else { return None };
     let from_feed = |step: &Move| {
         let teeth_per_second =
             step.spindle.map_or(setup.teeth_per_second, |spindle| spindle * f64::from(setup.cut.flutes));

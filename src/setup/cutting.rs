@@ -1,10 +1,9 @@
 //! From the job's tool, material and cutting to the cut in SI.
 
-use crate::cutting::along::ChipLoad;
 use crate::cutting::material::{self, Material, Model};
-use crate::cutting::{Bending, Coefficients, Cut, Engagement, Kienzle};
+use crate::cutting::{Bending, ChipLoad, Coefficients, Cut, Engagement, Hand, Kienzle, Loading};
 use crate::error::Error;
-use crate::job::{self, Choice, Engaged, Job, Line, ToolBending};
+use crate::job::{self, Choice, Engaged, HelixHand, Job, Line, ToolBending};
 use crate::units::{DEG, GPA, MM, RPM};
 use std::f64::consts::PI;
 
@@ -24,13 +23,14 @@ const CARBIDE: f64 = 600.0;
 /// Chips thinner than this are below the range of any table [m].
 const THINNEST: f64 = 0.001 * MM;
 
-/// How the chip load is determined.
-pub(super) fn chip_load(job: &Job) -> ChipLoad {
+/// What the load of the cut depends on along the path.
+pub(super) fn loading(job: &Job, cut: &Cut) -> Loading {
     let (flutes, spindle) = (f64::from(job.tool.flutes), job.cutting.spindle_rpm * RPM);
-    match job.cutting.feed_per_tooth_mm {
-        Choice::Value(c, _) => ChipLoad::Fixed(c * MM),
+    let chip = match job.cutting.feed_per_tooth_mm {
+        Choice::Value(c, _) => ChipLoad::Stated(c * MM),
         Choice::Word => ChipLoad::FromFeed { flutes, spindle },
-    }
+    };
+    Loading { chip, feed: job.motion.feed_mm_s * MM, run_in: cut.run_in() }
 }
 
 /// The cut and its material.
@@ -46,6 +46,10 @@ pub(super) fn cut(job: &Job) -> Result<(Cut, ResolvedMaterial), Error> {
         diameter: tool.diameter_mm * MM,
         flutes: tool.flutes,
         helix: tool.helix_deg * DEG,
+        hand: match tool.hand.unwrap_or_default() {
+            HelixHand::Right => Hand::Right,
+            HelixHand::Left => Hand::Left,
+        },
         corner_radius: corner_radius * MM,
         runout: tool.runout_mm.unwrap_or(0.0) * MM,
         coefficients: Coefficients::default(),
@@ -161,7 +165,7 @@ fn chip_thickness(job: &Job, cut: &Cut) -> Result<f64, Error> {
     if let Some(Choice::Value(given, _)) = job.material.chip_thickness_mm {
         return Ok(given * MM);
     }
-    let feed = chip_load(job).at(job.motion.feed_mm_s * MM, None);
+    let feed = loading(job, cut).feed_per_tooth();
     // Without axial depth, the lowest micrometre of the edge stands in for it.
     let mean = Cut { axial_depth: cut.axial_depth.max(THINNEST), ..*cut }.mean_chip(feed);
     if mean >= THINNEST {

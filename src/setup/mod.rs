@@ -9,8 +9,7 @@ mod motion;
 pub use cutting::ResolvedMaterial;
 pub use robot::robot;
 
-use crate::cutting::along::ChipLoad;
-use crate::cutting::{Bending, Cut, LinearForce};
+use crate::cutting::{Bending, Cut, LinearForce, Loading};
 use crate::error::Error;
 use crate::job::{Choice, Frame, Job, Source, Sources, fields};
 use crate::math::Pose;
@@ -68,8 +67,8 @@ pub struct Setup {
     pub bending: Option<Bending>,
     /// Rated spindle power [W], if it is given.
     pub spindle_power: Option<f64>,
-    /// How the chip load is determined.
-    pub chip: ChipLoad,
+    /// What the load of the cut depends on along the path.
+    pub loading: Loading,
     /// Tooth passing frequency [1/s].
     pub teeth_per_second: f64,
     /// Branch at the start.
@@ -133,7 +132,6 @@ impl Setup {
             shaper,
             mode,
             mean_force: cut.mean_force(),
-            cut,
             material,
             rake: job.tool.rake_deg.unwrap_or(0.0) * DEG,
             bending,
@@ -141,7 +139,8 @@ impl Setup {
                 Some(Choice::Value(power, _)) => Some(power * KILOWATT),
                 _ => None,
             },
-            chip: cutting::chip_load(job),
+            loading: cutting::loading(job, &cut),
+            cut,
             teeth_per_second: job.cutting.spindle_rpm * RPM * f64::from(job.tool.flutes),
             start: motion::start(job.start_branch),
             goal,

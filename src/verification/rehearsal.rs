@@ -8,7 +8,6 @@
 //! the report's run that its samples correspond to.
 
 use crate::compensation;
-use crate::cutting::along::ChipLoad;
 use crate::error::Error;
 use crate::export::command::Command;
 use crate::export::commanded_path::CommandedPath;
@@ -74,11 +73,7 @@ fn corrected(report: &Report, commanded_path: &CommandedPath, outcome: &Replay) 
     let Trajectory { sample_time, moving, .. } = *outcome.trajectory;
     let undone = |missing: Vec<Vector3<f64>>| {
         let change = report.plan.shaper().undo(&missing, sample_time, moving);
-        let change = match report.setup().chip {
-            ChipLoad::Fixed(_) => change,
-            ChipLoad::FromFeed { .. } => smoothed(change, SMOOTHING / sample_time),
-        };
-        resampled(&change, &outcome.instants, report)
+        resampled(&smoothed(change, SMOOTHING / sample_time), &outcome.instants, report)
     };
     let known = (commanded_path.correction.as_slice(), &commanded_path.axis);
     let Replay { target, axis, deviation, .. } = outcome;

@@ -104,7 +104,7 @@ pub fn run(report: &Report, commanded_path: &CommandedPath, program: &Program) -
     let plan = Plan { trajectory: trajectory.into(), ..report.plan.clone() };
     let timing = plan.timing(Sources::ALL).into_owned();
     let share = plan.shaper().apply(&share, own.sample_time);
-    let mut force = along::forces(&plan.path, &timing, &plan.setup.mean_force, &plan.setup.chip);
+    let mut force = along::forces(&plan.path, &timing, &plan.setup.mean_force, &plan.setup.loading);
     for (k, (force, share)) in force.iter_mut().zip(share).enumerate() {
         let axis = timing.axis(&plan.path, k);
         let along = axis * axis.dot(force);

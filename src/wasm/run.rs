@@ -35,7 +35,7 @@ export interface CutFigures {
   diameter_mm: number; corner_radius_mm: number; axial_depth_mm: number;
   feed_per_tooth_mm: number; mean_chip_mm: number; section_mm2: number; removal_cm3_min: number;
   peak_force_n: number; torque_nm: number; tooth_passing_hz: number; power_kw: number;
-  entry_deg?: number; exit_deg?: number; radial_depth_mm?: number;
+  entry_deg: number; exit_deg: number; radial_depth_mm: number;
   spindle_power_kw?: number; tool_bending_um_n?: number;
   made_at_chip_mm?: number; spread_percent?: number; kc11_n_mm2?: number; mc?: number;
 }

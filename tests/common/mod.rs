@@ -112,7 +112,7 @@ pub(crate) type Pinned = (&'static str, Vec<(&'static str, Value)>, &'static str
 pub(crate) fn pinned() -> [Pinned; 5] {
     use serde_json::json;
     [
-        ("default", vec![], "b9a0ae157aaa99129337315dd101bce7"),
+        ("default", vec![], "3347c54641b4dd0b9761a478438bd43d"),
         (
             "rounded rectangle, EI in Hz, chip from feed, tilted part, offset tool",
             vec![
@@ -126,7 +126,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("workpiece_frame", json!({"xyz_mm":[10,20,30],"rpy_deg":[10,-20,30]})),
                 ("tool_frame", json!({"xyz_mm":[0,50,120],"rpy_deg":[0,30,0]})),
             ],
-            "1363f9c418854ec44303a2893b5408b2",
+            "13c61f3ffdf4c0c743065903d8748f3f",
         ),
         (
             "points, ZVDD, another branch",
@@ -135,7 +135,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("shaper", json!({"kind":"zvdd","frequency_rad_s":60,"damping":0.02})),
                 ("start_branch", json!({"shoulder":"front","elbow":"negative","wrist":"flipped"})),
             ],
-            "c2db303a2e4734486a72a31a28912b38",
+            "4a025d821c4c1201ca9963747d4ffe81",
         ),
         (
             "arc without shaper",
@@ -146,7 +146,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ),
                 ("shaper", json!("none")),
             ],
-            "db4b807465f2c93f6e18bf69a611fe82",
+            "1c13fb0a7432a3c72873badbb7e04344",
         ),
         (
             "ball nose by catalogue constants, conventional milling, a tool that bends",
@@ -163,7 +163,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("cutting.engagement", json!("conventional")),
                 ("cutting.radial_depth_mm", json!(2.5)),
             ],
-            "7fb433cc4b5e2d687ccb9cfab1ad241a",
+            "f7ef19af1c99123da041277373e58b34",
         ),
     ]
 }

@@ -10,14 +10,11 @@ fn both_ways_of_giving_the_engagement_are_one() {
     let climb = [("cutting.engagement", json!("climb")), ("cutting.radial_depth_mm", json!(5))];
     assert!((force(&climb) - force(&[])).norm() < 1e-9 * force(&[]).norm());
     let summary = run(&climb).summary();
-    assert!(
-        (summary.cut.entry_deg.unwrap() - 90.0).abs() < 1e-9
-            && (summary.cut.exit_deg.unwrap() - 180.0).abs() < 1e-9
-    );
+    assert!((summary.cut.entry_deg - 90.0).abs() < 1e-9 && (summary.cut.exit_deg - 180.0).abs() < 1e-9);
     let summary = run(&[("cutting.entry_deg", json!(0)), ("cutting.exit_deg", json!(60))]).summary();
-    assert!((summary.cut.radial_depth_mm.unwrap() - 2.5).abs() < 1e-9, "5 (1 - cos 60)");
+    assert!((summary.cut.radial_depth_mm - 2.5).abs() < 1e-9, "5 (1 - cos 60)");
     let up = [("cutting.engagement", json!("conventional")), ("cutting.radial_depth_mm", json!(2.5))];
-    assert!((run(&up).summary().cut.exit_deg.unwrap() - 60.0).abs() < 1e-9);
+    assert!((run(&up).summary().cut.exit_deg - 60.0).abs() < 1e-9);
     let slot = force(&[("cutting.engagement", json!("slot"))]);
     assert!((slot - force(&[("cutting.entry_deg", json!(0))])).norm() < 1e-9 * slot.norm());
 }

@@ -8,13 +8,15 @@ mod common;
 
 mod force;
 mod job;
+mod load;
 mod material;
+mod measured;
 mod runout;
 mod spindle;
 mod surface;
 mod tool;
 
-use armill::cutting::{Coefficients, Cut, Engagement};
+use armill::cutting::{Coefficients, Cut, Engagement, Hand};
 use nalgebra::Vector3;
 use serde_json::Value;
 use std::f64::consts::{PI, TAU};
@@ -42,6 +44,7 @@ fn half() -> Cut {
         diameter: 0.012,
         flutes: 4,
         helix: 30.0 * DEG,
+        hand: Hand::Right,
         corner_radius: 0.0,
         runout: 0.0,
         coefficients: Coefficients::of_table([767.01, 168.8, 222.0, 27.7, 26.6, 0.7]),
@@ -59,6 +62,7 @@ fn brute(cut: &Cut, phi: f64, c: f64, slices: usize) -> Vector3<f64> {
     let (outer, corner) = (cut.diameter / 2.0, cut.corner_radius);
     let mut total = Vector3::zeros();
     let dz = cut.axial_depth / slices as f64;
+    let hand = if cut.hand == Hand::Right { 1.0 } else { -1.0 };
     for slice in 0..slices {
         let z = (slice as f64 + 0.5) * dz;
         let (radius, sin_k) = if z < corner {
@@ -69,7 +73,7 @@ fn brute(cut: &Cut, phi: f64, c: f64, slices: usize) -> Vector3<f64> {
         };
         let cos_k = (1.0 - sin_k * sin_k).max(0.0).sqrt();
         for tooth in 0..cut.flutes {
-            let lag = 2.0 * cut.helix.tan() * z / cut.diameter;
+            let lag = hand * 2.0 * cut.helix.tan() * z / cut.diameter;
             let angle = (phi + TAU * f64::from(tooth) / f64::from(cut.flutes) - lag).rem_euclid(TAU);
             // The part as a half plane, not as angles.
             let y = radius * angle.cos();
@@ -77,8 +81,9 @@ fn brute(cut: &Cut, phi: f64, c: f64, slices: usize) -> Vector3<f64> {
             let engaged = match cut.engagement {
                 Engagement::Angles { entry, exit } => angle >= entry && angle <= exit,
                 Engagement::Slot => ahead,
-                Engagement::Climb(depth) => ahead && y <= -(outer - depth),
-                Engagement::Conventional(depth) => ahead && y >= outer - depth,
+                // The pass before left the same profile.
+                Engagement::Climb(depth) => ahead && y <= -(radius - depth),
+                Engagement::Conventional(depth) => ahead && y >= radius - depth,
             };
             if !engaged {
                 continue;
@@ -89,7 +94,8 @@ fn brute(cut: &Cut, phi: f64, c: f64, slices: usize) -> Vector3<f64> {
             let out = Vector3::new(angle.sin(), angle.cos(), 0.0);
             let along = Vector3::new(-angle.cos(), angle.sin(), 0.0);
             let normal = out * sin_k - Vector3::z() * cos_k;
-            total += along * t - normal * r + (out * cos_k + Vector3::z() * sin_k) * a;
+            // A right-hand helix: the force along the profile points inwards and to the tip.
+            total += along * t - normal * r - (out * cos_k + Vector3::z() * sin_k) * (hand * a);
         }
     }
     total

@@ -1,8 +1,9 @@
 //! Coefficients: specific cutting force, orthogonal data, the library.
 
-use crate::common::run;
+use crate::common::{between, run};
 use crate::{DEG, golden};
 use armill::cutting::{Kienzle, material, oblique};
+use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 
@@ -182,6 +183,32 @@ fn orthogonal_data_follow_chip_speed_and_rake_as_their_table_says() {
                 );
             }
             assert_eq!([ours.kte, ours.kre, ours.kae], [edge[0] * 1e3, edge[1] * 1e3, 0.0]);
+        }
+    }
+}
+
+#[test]
+fn an_oblique_edge_pulls_a_right_hand_tool_out_of_its_holder() {
+    // Pressure on the rake face and friction along the chip, as vectors at the tooth of a right-hand
+    // helix: v where it moves, out away from the tool's axis, z from tip to spindle.
+    let mut random = fastrand::Rng::with_seed(204);
+    let (v, out, z) = (Vector3::x(), Vector3::y(), Vector3::z());
+    for _ in 0..200 {
+        let [helix, rake, friction, shear] = [(0.0, 55.0), (-15.0, 25.0), (5.0, 45.0), (15.0, 40.0)]
+            .map(|(a, b)| between(&mut random, a, b) * DEG);
+        // Above the tip the edge lags behind it.
+        let edge = z * helix.cos() - v * helix.sin();
+        let forward = v * helix.cos() + z * helix.sin();
+        let face = forward * rake.cos() - out * rake.sin();
+        // The chip flows inwards, and along the edge as the material comes (Stabler).
+        let inwards = -out * rake.cos() - forward * rake.sin();
+        let chip = inwards * helix.cos() + edge * helix.sin();
+        let force = chip * friction.tan() - face;
+        let ours = oblique::oblique(6e8, shear, friction, rake, helix);
+        let scale = -force.dot(&v) / ours.ktc;
+        for (ours, along) in [(ours.krc, -out), (ours.kac, -z)] {
+            let share = force.dot(&along) / scale;
+            assert!((ours - share).abs() < 1e-12 * 1e10, "{ours} against {share}");
         }
     }
 }

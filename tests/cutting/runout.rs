@@ -39,12 +39,17 @@ fn runout_shifts_force_from_tooth_to_tooth() {
 
 /// The force at `phi` from the wall itself: in every direction the wall stands where the last tooth
 /// left it, and the feed brings it nearer between teeth.
-fn by_the_wall(cut: &Cut, (entry, exit): (f64, f64), phi: f64, c: f64) -> Vector3<f64> {
+pub(crate) fn by_the_wall(
+    cut: &Cut,
+    (entry, exit): (f64, f64),
+    phi: f64,
+    c: f64,
+    slices: u32,
+) -> Vector3<f64> {
     let mut total = Vector3::zeros();
-    // As many slices as Armill uses for one instant.
-    let dz = cut.axial_depth / 48.0;
+    let dz = cut.axial_depth / f64::from(slices);
     let pitch = TAU / f64::from(cut.flutes);
-    for slice in 0..48 {
+    for slice in 0..slices {
         let lag = 2.0 * cut.helix.tan() / cut.diameter * (f64::from(slice) + 0.5) * dz;
         for tooth in 0..cut.flutes {
             let angle = (phi + pitch * f64::from(tooth) - lag).rem_euclid(TAU);
@@ -66,7 +71,7 @@ fn by_the_wall(cut: &Cut, (entry, exit): (f64, f64), phi: f64, c: f64) -> Vector
             let out = Vector3::new(angle.sin(), angle.cos(), 0.0);
             let along = Vector3::new(-angle.cos(), angle.sin(), 0.0);
             total += along * ((k.ktc * chip + k.kte) * dz) - out * ((k.krc * chip + k.kre) * dz);
-            total.z += (k.kac * chip + k.kae) * dz;
+            total.z -= (k.kac * chip + k.kae) * dz;
         }
     }
     total
@@ -86,7 +91,8 @@ fn teeth_with_runout_cut_what_those_before_them_left() {
             ..half()
         };
         let (phi, c) = (between(&mut random, 0.0, TAU), between(&mut random, 5e-6, 1.5e-4));
-        let (ours, wall) = (cut.force(phi, c), by_the_wall(&cut, (entry, exit), phi, c));
+        let (ours, wall) = (cut.force(phi, c), by_the_wall(&cut, (entry, exit), phi, c, 48));
+        // As many slices as Armill uses for one instant.
         // Rounding of sums of some hundred products, of forces up to 1 kN.
         assert!((ours - wall).norm() < 1e-9, "{cut:?} at {phi}, {c}: {ours} and {wall}");
     }

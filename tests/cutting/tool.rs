@@ -56,7 +56,7 @@ fn a_long_tool_adds_its_own_bending() {
     // Tool upright: the addition is the force across the axis times the compliance.
     let bending = Bending::of(6e11, 0.06, 0.03, 0.01, 0.01);
     assert!((long.summary().cut.tool_bending_um_n.unwrap() - bending.displacement * 1e6).abs() < 1e-12);
-    for k in [0, 100, 400] {
+    for k in [200, 300, 400] {
         let added = long.deflection[k] - rigid.deflection[k];
         let force = long.force[k];
         let expected = Vector3::new(force.x, force.y, 0.0) * bending.displacement;

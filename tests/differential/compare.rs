@@ -67,6 +67,7 @@ pub(crate) const BOUNDS: &[Bound] = &[
     ),
     any_tool(&["tool_axis_"], "", [1e-14; 3], "rounding"),
     any_tool(&["cuts"], "", [1e-12, 1e-12, 1e-9], "rounding"),
+    any_tool(&["run_in"], "", [1e-11, 1e-9, 1e-6], "arc length above over the length of the run-in"),
     Bound {
         share: true,
         ..bound(
@@ -186,6 +187,10 @@ fn columns(question: &Question, answer: &Answer) -> BTreeMap<String, Vec<f64>> {
     one("axis_error_deg", answer.before.tilt.iter().map(|tilt| tilt.to_degrees()).collect());
     one("after_axis_error_deg", answer.after.tilt.iter().map(|tilt| tilt.to_degrees()).collect());
     one("cuts", question.shaped_cuts(&answer.desired));
+    one(
+        "run_in",
+        question.run_in(&answer.desired).iter().map(|w| if w.is_nan() { 0.0 } else { *w }).collect(),
+    );
     // Figures of the summary, as columns of their own.
     let [c, figures] = [question.cut.per_tooth(question.cut.feed, None), 1e3];
     one("mean_force_n", (answer.force.cutting * c + answer.force.edge).iter().copied().collect());
@@ -222,6 +227,7 @@ pub(crate) fn differences(
         _ => {}
     }
     let mut plain = columns(question, answer);
+    let borders: Vec<_> = question.run_in(&answer.desired).iter().map(|w| w.is_nan()).collect();
     let mut all = Vec::new();
     let mut compare = |key: &str, ours: &[f64]| {
         let theirs = plain.remove(key).unwrap_or_else(|| panic!("the plain model has no {key}"));
@@ -234,7 +240,12 @@ pub(crate) fn differences(
         all.push((row, apart.fold(0.0, |most: f64, d| if d <= most { most } else { d }) / scale));
     };
     // Program lines are whole numbers, and at the border of two moves either is right.
-    for column in report.columns().iter().filter(|column| column.key != "program_line") {
+    for column in report.columns().iter_mut().filter(|column| column.key != "program_line") {
+        if column.key == "run_in" {
+            for (ours, border) in column.values.iter_mut().zip(&borders) {
+                *ours = if *border { 0.0 } else { *ours };
+            }
+        }
         compare(&column.key, &column.values);
     }
     compare("mean_force_n", &summary.mean_force_n);

@@ -32,6 +32,8 @@ pub(crate) struct Cut {
     /// [m]
     pub(crate) diameter: f64,
     pub(crate) flutes: f64,
+    /// 1: right-hand helix; -1: left-hand.
+    pub(crate) hand: f64,
     /// [m]
     pub(crate) corner: f64,
     /// [m]
@@ -56,9 +58,23 @@ pub(crate) struct Force {
 }
 
 impl Cut {
-    /// Feed per tooth [m].
-    pub(crate) fn per_tooth(&self, speed: f64, spindle: Option<f64>) -> f64 {
-        self.chip.unwrap_or(speed / (self.flutes * spindle.unwrap_or(self.spindle)))
+    /// Feed per tooth [m] at a programmed feed.
+    pub(crate) fn per_tooth(&self, feed: f64, spindle: Option<f64>) -> f64 {
+        self.chip.unwrap_or(feed / (self.flutes * spindle.unwrap_or(self.spindle)))
+    }
+
+    /// How far the axis is before the part's front when the tool first touches it [m]: the point of
+    /// its edge that is furthest ahead of those beside the part.
+    pub(crate) fn run_in(&self) -> f64 {
+        let outer = self.diameter / 2.0;
+        let width = match self.part {
+            Part::Angles(from, to) => outer * (from.cos() - to.cos()),
+            Part::Left(depth) | Part::Right(depth) => depth,
+            Part::Both => self.diameter,
+        };
+        // From the side up to the height of the part's edge, the circle leads by this.
+        let beside = f64::max(outer - width, 0.0);
+        (outer * outer - beside * beside).sqrt()
     }
 
     /// Calls `each` for every element of one edge and every angle at which it is in the part:
@@ -70,22 +86,21 @@ impl Cut {
         if self.corner > 0.0 {
             let radius = |kappa: f64| outer - self.corner + self.corner * kappa.sin();
             let top = (1.0 - self.depth / self.corner).clamp(0.0, 1.0).acos();
-            // Below this the corner does not reach the part's plane.
-            let plane = match self.part {
-                Part::Left(depth) | Part::Right(depth) => outer - depth,
-                _ => f64::NEG_INFINITY,
+            // Where the pass before leaves less than a slot: below, the edge is in the part all round.
+            let beside = match self.part {
+                Part::Left(depth) | Part::Right(depth) => depth / 2.0,
+                _ => f64::INFINITY,
             };
-            let low = (0..=60).fold((0.0, top), |(a, b): (f64, f64), _| {
-                if radius((a + b) / 2.0) > plane { (a, (a + b) / 2.0) } else { ((a + b) / 2.0, b) }
-            });
-            let low = if radius(0.0) >= plane { 0.0 } else { low.1 };
-            // Steps that grow linearly from there: the engagement angle starts like a square root.
+            let border = ((beside - outer + self.corner) / self.corner).clamp(0.0, 1.0).asin().min(top);
+            // Steps that grow linearly from there: the engagement angle changes like a square root.
             let count = 300;
-            for k in 0..count {
-                let (a, b) = (f64::from(k) / f64::from(count), f64::from(k + 1) / f64::from(count));
-                let kappa = low + (top - low) * ((a + b) / 2.0).powi(2);
-                let edge = self.corner * (top - low) * (b * b - a * a);
-                bits.push((radius(kappa), kappa, edge * kappa.sin(), edge));
+            for (from, to) in [(border, 0.0), (border, top)] {
+                for k in 0..count {
+                    let (a, b) = (f64::from(k) / f64::from(count), f64::from(k + 1) / f64::from(count));
+                    let kappa = from + (to - from) * ((a + b) / 2.0).powi(2);
+                    let edge = self.corner * (to - from).abs() * (b * b - a * a);
+                    bits.push((radius(kappa), kappa, edge * kappa.sin(), edge));
+                }
             }
         }
         if self.depth > self.corner {
@@ -95,16 +110,12 @@ impl Cut {
         let steps = if self.corner > 0.0 { 300 } else { 3000 };
         for (radius, kappa, height, edge) in bits {
             // A tooth at the angle phi is at the height radius cos(phi) above the plane through the
-            // axis along the feed.
+            // axis along the feed; the pass before left the same radius, the depth further.
             let (from, to) = match self.part {
                 Part::Angles(from, to) => (from, to),
                 Part::Both => (0.0, PI),
                 Part::Left(depth) | Part::Right(depth) => {
-                    let share = (outer - depth) / radius;
-                    if share >= 1.0 {
-                        continue;
-                    }
-                    let angle = share.max(-1.0).acos();
+                    let angle = (1.0 - depth / radius).max(-1.0).acos();
                     if matches!(self.part, Part::Left(_)) { (0.0, angle) } else { (PI - angle, PI) }
                 }
             };
@@ -128,9 +139,7 @@ impl Cut {
     /// Whether coefficients are fitted at a mean chip below a micrometre, where no table reaches.
     pub(crate) fn too_thin(&self) -> bool {
         let made = matches!(self.stock, Stock::Kienzle { chip: None, .. });
-        let mean = || self.mean_chip(self.per_tooth(self.feed, None));
-        // Without contact the mean is not a number.
-        made && (mean().is_nan() || mean() < 1e-6)
+        made && self.mean_chip(self.per_tooth(self.feed, None)) < 1e-6
     }
 
     /// Cutting [N/m^2] and edge coefficients [N/m].
@@ -156,9 +165,10 @@ impl Cut {
         self.sweep(|phi, kappa, _, edge, step| {
             let (sin, cos) = phi.sin_cos();
             let (out, along) = (Vector3::new(sin, cos, 0.0), Vector3::new(-cos, sin, 0.0));
-            // Away from the part along the normal, and along the profile.
+            // Away from the part along the normal; along the profile a right-hand helix is pulled
+            // inwards and to the tip (Engin and Altintas 2001, eq. 19).
             let normal = -(out * kappa.sin() - Vector3::z() * kappa.cos());
-            let profile = out * kappa.cos() + Vector3::z() * kappa.sin();
+            let profile = -(out * kappa.cos() + Vector3::z() * kappa.sin()) * self.hand;
             let push = |[t, r, a]: [f64; 3]| along * t + normal * r + profile * a;
             let share = self.flutes * edge * step / TAU;
             force.cutting += push([ktc, krc, kac]) * (sin * kappa.sin() * share);

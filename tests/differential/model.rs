@@ -2,7 +2,7 @@
 
 use crate::arm::{Arm, Joints, Refusal, column, frame};
 use crate::cut::{Beam, Cut, Force};
-use crate::way::{Instant, Tempo, Way};
+use crate::way::{Instant, Piece, Tempo, Way};
 use nalgebra::{Matrix4, Vector3};
 use std::f64::consts::PI;
 
@@ -198,14 +198,42 @@ impl Question {
             let v = heading - axis * heading.dot(&axis);
             (v.norm() > 1e-6).then(|| v / v.norm())
         };
+        let length = self.cut.run_in();
         let mut x = pace.iter().find_map(|at| across(&at.heading)).unwrap_or(column(&self.place, 0));
         let turned = |at: &Instant| {
             x = across(&at.heading).unwrap_or(x);
-            let said = self.way.pieces[self.way.piece(at.s)].spindle;
-            let f = (force.cutting * self.cut.per_tooth(at.speed, said) + force.edge) * at.cuts;
+            let piece = self.way.piece(at.s);
+            let Piece { limit, cuts, spindle, .. } = self.way.pieces[piece];
+            if !cuts {
+                return Vector3::zeros();
+            }
+            // The chip is the programmed one times the share of the programmed feed, and below a
+            // tenth of that feed the edges' share falls too; a cut begins along a smooth step.
+            let share = at.speed / limit;
+            let whole = self.begun(at.s, length) * at.cuts;
+            let chip = self.cut.per_tooth(limit, spindle) * share;
+            let f = (force.cutting * chip + force.edge * f64::min(10.0 * share, 1.0)) * whole;
             x * f.x + axis.cross(&x) * f.y + axis * f.z
         };
         pace.iter().map(turned).collect()
+    }
+
+    /// Share of the force at a place by its run-in of this length [m].
+    fn begun(&self, s: f64, length: f64) -> f64 {
+        let piece = self.way.piece(s);
+        if !self.way.pieces[piece].cuts {
+            return 0.0;
+        }
+        let u = f64::min((s - self.way.began(piece, &column(&self.place, 2))) / length, 1.0);
+        u * u * (3.0 - 2.0 * u)
+    }
+
+    /// Share of the force at every sample by the run-in; not a number on the border of two pieces,
+    /// where that of either is right.
+    pub(crate) fn run_in(&self, desired: &[Instant]) -> Vec<f64> {
+        let length = self.cut.run_in();
+        let share = |at: &Instant| if self.way.at_border(at.s) { f64::NAN } else { self.begun(at.s, length) };
+        self.shaped_pace(desired).iter().map(share).collect()
     }
 
     /// Sends joint commands through shaper, arm and cut.

@@ -51,6 +51,10 @@ fn cut(dice: &mut Dice, feed: f64) -> (Value, Value, Value, Cut, Option<Beam>) {
     let diameter = dice.scale(2.0, 40.0);
     let flutes = dice.0.usize(1..7);
     let mut tool = json!({"diameter_mm":diameter,"flutes":flutes,"helix_deg":dice.between(0.0, 60.0)});
+    let left = dice.once_in(5);
+    if left {
+        tool["hand"] = json!("left");
+    }
     let corner = match dice.0.usize(0..10) {
         0 => {
             tool["corner_radius_mm"] = json!("ball");
@@ -131,6 +135,7 @@ fn cut(dice: &mut Dice, feed: f64) -> (Value, Value, Value, Cut, Option<Beam>) {
     let cut = Cut {
         diameter: diameter * 1e-3,
         flutes: flutes as f64,
+        hand: if left { -1.0 } else { 1.0 },
         corner: corner * 1e-3,
         depth: depth * 1e-3,
         part,

@@ -73,7 +73,7 @@ impl Curve {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
     pub(crate) curve: Curve,
-    /// Highest speed [m/s].
+    /// Programmed feed, or the speed of rapids [m/s].
     pub(crate) limit: f64,
     pub(crate) cuts: bool,
     /// Spindle speed stated by the program [1/s].
@@ -163,6 +163,22 @@ impl Way {
     }
 
     /// The piece that holds `s`.
+    /// Where the cut of a piece began [m]: at the first one since the last rapid move, and since the
+    /// last one that dives along `up`, if a flatter one follows it.
+    pub(crate) fn began(&self, piece: usize, up: &Vector3<f64>) -> f64 {
+        let dives = |i: usize| self.pieces[i].curve.tangent(0.0).dot(up) < -(60.0_f64.to_radians().sin());
+        let mut first = piece;
+        while first > 0 && self.pieces[first - 1].cuts && (!dives(first - 1) || dives(first)) {
+            first -= 1;
+        }
+        self.starts[first]
+    }
+
+    /// Whether two pieces meet at a place, to rounding.
+    pub(crate) fn at_border(&self, s: f64) -> bool {
+        self.starts.iter().any(|start| (start - s).abs() < 1e-12)
+    }
+
     pub(crate) fn piece(&self, s: f64) -> usize {
         (1..self.pieces.len()).rev().find(|&i| self.starts[i] <= s).unwrap_or(0)
     }
