@@ -71,6 +71,9 @@ fn every_line_is_whole() {
         for [low, high] in preset.joint_limits_deg.into_iter().flatten() {
             assert!(-500.0 < low && low < high && high < 500.0, "{}: {low} to {high}", preset.id);
         }
+        for speed in preset.joint_speed_deg_s.into_iter().flatten() {
+            assert!((20.0..2000.0).contains(&speed), "{}: {speed} deg/s", preset.id);
+        }
     }
     assert_eq!(run(&[]).summary().robot, "Stäubli RX-90");
     assert!(all.iter().any(|preset| !preset.mode_note.is_empty()));
@@ -80,7 +83,34 @@ fn every_line_is_whole() {
     let files = ["robots.csv", "zeros.csv", "stiffness.csv", "sources.txt"];
     let bytes: u64 =
         files.iter().map(|file| std::fs::metadata(format!("{folder}/{file}")).unwrap().len()).sum();
-    assert!(bytes < 13_500, "the library is {bytes} bytes");
+    // 73 rows of six joint speeds are 1.8 kB of it.
+    assert!(bytes < 15_500, "the library is {bytes} bytes");
+}
+
+/// `velocity` of the six joints in the URDFs that `sources.txt` names; two are in rad/s
+/// there.
+#[test]
+fn joint_speeds_are_those_of_the_sources() {
+    let known = library::robots().filter(|preset| preset.joint_speed_deg_s.is_some()).count();
+    assert_eq!(known, 73);
+    for (id, speeds) in [
+        ("fanuc-r-2000ic-165f", [130.0, 115.0, 125.0, 180.0, 180.0, 260.0]),
+        ("staubli-tx2-90", [265.0, 210.0, 315.0, 450.0, 370.0, 630.0]),
+        ("yaskawa-gp25", [210.0, 210.0, 265.0, 420.0, 420.0, 885.0]),
+        (
+            "kuka-kr-210-r2700-2",
+            [2.0384_f64.to_degrees(), 1.9451_f64.to_degrees(), 112.0, 179.0, 172.0, 220.0],
+        ),
+    ] {
+        let found = library::robot(id).unwrap().joint_speed_deg_s.unwrap();
+        for (found, speed) in found.into_iter().zip(speeds) {
+            // The table has one decimal.
+            assert!((found - speed).abs() <= 0.05 + 1e-9, "{id}: {found} for {speed}");
+        }
+    }
+    for unknown in ["staubli-rx90", "kuka-kr-500-3-mt", "staubli-tx2-140"] {
+        assert_eq!(library::robot(unknown).unwrap().joint_speed_deg_s, None, "{unknown}");
+    }
 }
 
 #[test]

@@ -27,6 +27,9 @@ pub struct Preset {
     pub elbow: Elbow,
     /// Joint ranges [deg], if known.
     pub joint_limits_deg: Option<[[f64; 2]; 6]>,
+    /// Largest joint speeds [deg/s], if known. Those of the drives: joint 3 turns against the upper
+    /// arm also where its angle is counted from the base.
+    pub joint_speed_deg_s: Option<[f64; 6]>,
     /// Joint compliances [rad/(N m)].
     pub joint_compliance: [f64; 6],
     /// Whether the compliance is only the order-of-magnitude estimate of [`assumed_compliance`].
@@ -145,7 +148,7 @@ fn rows(table: &'static str) -> impl Iterator<Item = impl FnMut() -> &'static st
 fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
     let (id, maker, model, payload) = (row(), row(), row(), number(row()));
     let lengths_mm = std::array::from_fn(|_| number(row()));
-    let (zero, limits, source, confidence, stiffness) = (row(), row(), row(), row(), row());
+    let (zero, limits, speeds, source, confidence, stiffness) = (row(), row(), row(), row(), row(), row());
     let mut zeros =
         rows(ZEROS).filter_map(|mut row| (row() == zero).then(|| (numbers(row()), numbers(row()), row())));
     let (joint_sign, joint_offset_deg, joint_3) = zeros.next().unwrap_or(([f64::NAN; 6], [f64::NAN; 6], ""));
@@ -176,6 +179,7 @@ fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
         opw: Opw { lengths_mm, joint_sign, joint_offset_deg },
         elbow,
         joint_limits_deg: limits,
+        joint_speed_deg_s: (!speeds.is_empty()).then(|| numbers(speeds)),
         joint_compliance: match &known {
             Some(set) => set.compliance.map(|c| c.unwrap_or(0.0)),
             None => assumed_compliance(payload),
