@@ -113,6 +113,36 @@ fn joint_speeds_are_those_of_the_sources() {
     }
 }
 
+/// The joint `base_link-base` of ROS-Industrial's URDFs: where the controller's world is, by the
+/// convention of those packages.
+#[test]
+fn the_controllers_world_is_where_the_sources_have_it() {
+    for (id, mm) in [
+        ("staubli-tx2-90", 478.0),
+        ("staubli-rx160", 550.0),
+        ("fanuc-m-20ia", 525.0),
+        ("fanuc-r-2000ic-165f", 670.0),
+        ("fanuc-m-900ia-260l", 950.0),
+        ("yaskawa-gp25", 505.0),
+        ("yaskawa-ms210", 650.0),
+        ("kuka-kr-210-r2700-2", 0.0),
+        ("abb-irb-6640-185-280", 0.0),
+    ] {
+        assert_eq!(library::robot(id).unwrap().world_mm, Some(mm), "{id}");
+    }
+    for preset in library::robots() {
+        let c1 = preset.opw.lengths_mm[3];
+        let above = ["FANUC", "Yaskawa", "Stäubli"].contains(&preset.maker);
+        assert_eq!(preset.world_mm, Some(if above { c1 } else { 0.0 }), "{}", preset.id);
+        let says = if above { format!("axis 2, {c1} mm above the foot") } else { "from the foot".into() };
+        let note = preset.world_note();
+        assert!(note.contains(&says) && note.contains("URDF"), "{}: {note}", preset.id);
+    }
+    let unknown = library::Preset { world_mm: None, ..library::robot("kuka-kr-60-3").unwrap() };
+    assert_eq!(unknown.world().height(), 0.0);
+    assert!(unknown.world_note().contains("not known"), "{}", unknown.world_note());
+}
+
 #[test]
 fn forward_and_inverse_agree_with_another_authors() {
     let mut random = fastrand::Rng::with_seed(41);

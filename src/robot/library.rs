@@ -3,9 +3,9 @@
 
 use crate::error::Error;
 use crate::math;
-use crate::robot::Opw;
 use crate::robot::model::{Elbow, Link};
-use crate::units::DEG;
+use crate::robot::{Opw, World};
+use crate::units::{DEG, MM};
 
 const ROBOTS: &str = include_str!("library/robots.csv");
 const ZEROS: &str = include_str!("library/zeros.csv");
@@ -25,6 +25,8 @@ pub struct Preset {
     pub opw: Opw,
     /// Where joint 3 is measured from.
     pub elbow: Elbow,
+    /// Height of the controller's world above the foot of the arm [mm], if known.
+    pub world_mm: Option<f64>,
     /// Joint ranges [deg], if known.
     pub joint_limits_deg: Option<[[f64; 2]; 6]>,
     /// Largest joint speeds [deg/s], if known. Those of the drives: joint 3 turns against the upper
@@ -36,6 +38,8 @@ pub struct Preset {
     pub stiffness_assumed: bool,
     /// Where the geometry comes from and how far to trust it.
     pub geometry_note: String,
+    /// Where the height of the controller's world is from.
+    pub world_source: &'static str,
     /// Where the compliance comes from and how far to trust it.
     pub stiffness_note: String,
     /// The first natural frequency, where it was measured; empty otherwise.
@@ -46,6 +50,25 @@ impl Preset {
     /// Display name.
     pub fn name(&self) -> String {
         format!("{} {}", self.maker, self.model)
+    }
+
+    /// Where the controller counts from, in SI.
+    pub fn world(&self) -> World {
+        let at_axis_2 = self.world_mm == Some(self.opw.lengths_mm[3]);
+        World { height: self.world_mm.map(|height| height * MM), at_axis_2 }
+    }
+
+    /// Where the controller counts from, what that means for a job, and the source.
+    pub fn world_note(&self) -> String {
+        let (said, source) = (self.world().sentence(), self.world_source);
+        match self.world_mm {
+            None => format!("{said}."),
+            Some(0.0) => format!("{said} ({source})."),
+            Some(mm) => format!(
+                "{said} ({source}). Positions here count from the foot: with the robot's base at zero, add \
+                 {mm} mm to the controller's z. Programs state them as the controller counts."
+            ),
+        }
     }
 
     /// The modified DH table in SI.
@@ -148,6 +171,7 @@ fn rows(table: &'static str) -> impl Iterator<Item = impl FnMut() -> &'static st
 fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
     let (id, maker, model, payload) = (row(), row(), row(), number(row()));
     let lengths_mm = std::array::from_fn(|_| number(row()));
+    let (world, world_source) = (row(), row());
     let (zero, limits, speeds, source, confidence, stiffness) = (row(), row(), row(), row(), row(), row());
     let mut zeros =
         rows(ZEROS).filter_map(|mut row| (row() == zero).then(|| (numbers(row()), numbers(row()), row())));
@@ -158,7 +182,8 @@ fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
         None => [-number(range), number(range)],
     });
     let limits = (!limits.is_empty()).then(|| [0; 6].map(|_| ranges.next().unwrap_or([f64::NAN; 2])));
-    let source = source.parse().ok().and_then(|line| SOURCES.lines().nth(line)).unwrap_or_default();
+    let [source, world_source] = [source, world_source]
+        .map(|line| line.parse().ok().and_then(|line| SOURCES.lines().nth(line)).unwrap_or_default());
     let known = published().find(|set| set.key == stiffness && !stiffness.is_empty());
     let stiffness_note = match &known {
         Some(set) => format!("Joint stiffness: {} ({}).", set.source, set.confidence),
@@ -178,6 +203,7 @@ fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
         model,
         opw: Opw { lengths_mm, joint_sign, joint_offset_deg },
         elbow,
+        world_mm: (!world.is_empty()).then(|| number(world)),
         joint_limits_deg: limits,
         joint_speed_deg_s: (!speeds.is_empty()).then(|| numbers(speeds)),
         joint_compliance: match &known {
@@ -186,6 +212,7 @@ fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
         },
         stiffness_assumed: known.is_none(),
         geometry_note: format!("Geometry: {source} (confidence {confidence})."),
+        world_source,
         stiffness_note,
         mode_note,
     }
