@@ -109,19 +109,19 @@ pub fn robot(id: &str) -> Result<Preset, Error> {
 
 /// Joint stiffness at [`RULE_PAYLOAD`] [Nm/rad]: geometric means of the measured values in
 /// `stiffness.csv`, each scaled to that payload.
-pub const RULE_STIFFNESS: [f64; 6] = [2.3e6, 3.2e6, 2.1e6, 4.4e5, 3.3e5, 3.4e5];
+pub const RULE_STIFFNESS: [f64; 6] = [2.4e6, 3.3e6, 2.2e6, 4.1e5, 3.4e5, 3.7e5];
 /// Payload of [`RULE_STIFFNESS`] [kg].
 pub const RULE_PAYLOAD: f64 = 200.0;
 
 /// Order-of-magnitude joint compliance [rad/(N m)] of an arm without published stiffness, from its
 /// rated payload [kg].
 ///
-/// k_i = K_i (payload / 200 kg)^(1/3). The exponent and K_i are a least-squares fit (in logarithms;
-/// 0.29, rounded up) to the eight published sets in `stiffness.csv`, from 6 to 500 kg. Single
-/// values deviate by a factor of 1.9 (one standard deviation) and by up to 8, so the result has
-/// only one digit.
+/// k_i = K_i (payload / 200 kg)^(1/4). The exponent and K_i are a least-squares fit (in logarithms;
+/// 0.26, rounded) to the eight published sets in `stiffness.csv`, from 6 to 500 kg. Single values
+/// deviate by a factor of 2.0 (one standard deviation) and by up to 9, so the result has only one
+/// digit.
 pub fn assumed_compliance(payload: f64) -> [f64; 6] {
-    let scale = math::pow(payload / RULE_PAYLOAD, 1.0 / 3.0);
+    let scale = math::pow(payload / RULE_PAYLOAD, 0.25);
     RULE_STIFFNESS.map(|k| number(&format!("{:.0e}", 1.0 / (k * scale))))
 }
 
@@ -190,7 +190,7 @@ fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
         None => format!(
             "Joint stiffness: not known for this robot. The values are an order of magnitude for \
              {payload} kg of payload, from eight published sets of other arms, which scatter by a \
-             factor of 2, single joints by 8: identify your own."
+             factor of 2, single joints by 9: identify your own."
         ),
     };
     let mode_note = match known.as_ref().map(|set| set.mode).filter(|mode| !mode.is_empty()) {
