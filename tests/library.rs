@@ -324,6 +324,15 @@ fn the_rule_for_unknown_stiffness_follows_from_the_published_sets() {
     assert_eq!(library::assumed_compliance(12.5), [8e-7, 6e-7, 9e-7, 5e-6, 6e-6, 5e-6]);
 }
 
+/// The IRB 6700's shared castings: 2.85 m of reach is the arm of 2.60 m with 250 mm more forearm.
+#[test]
+fn the_irb_6700_has_one_upper_arm_and_two_forearms() {
+    let lengths = |id: &str| library::robot(id).unwrap().opw.lengths_mm;
+    let mut short = lengths("abb-irb-6700-200-260");
+    short[5] += 250.0;
+    assert_eq!(lengths("abb-irb-6700-155-285"), short);
+}
+
 /// The URDF of Huynh's arm, its joint origins added up [mm], and his springs about the joint axes,
 /// both as quoted in the source of the row.
 #[test]
