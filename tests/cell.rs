@@ -229,7 +229,9 @@ fn a_robot_program_holds_frames_that_lead_back_to_the_joints() {
     let report = angled(&[("compensation.max_passes", json!(0))]);
     let text = export(&report, "krl", &ExportOptions::default()).unwrap().text;
     let line = |start: &str| text.lines().find(|line| line.starts_with(start)).unwrap();
-    let (base, tool) = (krl(line("$BASE=")), krl(line("$TOOL=")));
+    // The frames count from axis 2 of the RX-90, 420 mm above its foot.
+    let world = Placed::of([0.0, 0.0, 420.0], [0.0; 3]);
+    let (base, tool) = (world.then(krl(line("$BASE="))), krl(line("$TOOL=")));
     let arrives = |line: &str, q: &[f64; 6]| {
         let tcp = base.then(krl(line));
         let arm = flange(q)[5].then(tool);
@@ -243,7 +245,7 @@ fn a_robot_program_holds_frames_that_lead_back_to_the_joints() {
     arrives(line("PTP {"), &q[0]);
     arrives(text.lines().rfind(|line| line.starts_with("LIN {")).unwrap(), &q[q.len() - 1]);
     assert!(
-        text.contains("robot base in the cell at x -400.0 y 250.0 z 700.0 mm"),
+        text.contains("foot of the arm in the cell at x -400.0 y 250.0 z 700.0 mm"),
         "the header states the base"
     );
 }

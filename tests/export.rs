@@ -178,6 +178,94 @@ fn orientations_multiply_back() {
     }
 }
 
+/// The first lines of a file as running text: FANUC's remarks are short, a sentence spans several.
+fn opening(text: &str) -> String {
+    let lines = text.lines().take(80);
+    let bare = lines
+        .map(|line| line.trim_start_matches([' ', '!', ':', '$', '#', ';', '/']))
+        .map(|line| line.split_once(":  !").map_or(line, |(_, rest)| rest).trim_end_matches([';', ' ']));
+    bare.collect::<Vec<_>>().join(" ")
+}
+
+/// A short line 500 mm above the origin of the workpiece frame, with this robot and these frames.
+fn line_of(
+    robot: serde_json::Value,
+    base: serde_json::Value,
+    workpiece: serde_json::Value,
+) -> armill::Report {
+    run(&[
+        ("robot", robot),
+        ("base_frame", base),
+        ("workpiece_frame", workpiece),
+        ("path", json!({"kind":"line","from_mm":[0,-20,500],"to_mm":[0,20,500]})),
+    ])
+}
+
+/// Frames from the foot of the arm against the same from its controller's world, by hand.
+#[test]
+fn the_parts_frame_is_counted_as_the_controller_counts() {
+    let fanuc = json!({"preset":"fanuc-r-2000ic-165f"});
+    let at = |xyz: [f64; 3], rpy: [f64; 3]| json!({"xyz_mm":xyz,"rpy_deg":rpy});
+    let zero = at([0.0; 3], [0.0; 3]);
+    let cases = [
+        // At the height of the foot, 670 mm below axis 2.
+        (
+            zero.clone(),
+            at([1500.0, 0.0, 0.0], [0.0; 3]),
+            "x 1500.0 y 0.0 z -670.0 mm, roll 0.0 pitch 0.0 yaw 0.0 deg",
+        ),
+        // The arm on a plinth, turned to the left: what is 1500 mm to the left of it in the cell is
+        // ahead of it, 100 mm above its foot; the part is turned by 30 deg in the cell.
+        (
+            at([100.0, 200.0, 300.0], [0.0, 0.0, 90.0]),
+            at([100.0, 1700.0, 400.0], [0.0, 0.0, 30.0]),
+            "x 1500.0 y 0.0 z -570.0 mm, roll 0.0 pitch 0.0 yaw -60.0 deg",
+        ),
+        // The arm on a wall: its axis 1 points along the cell's -y, and so does the way to axis 2.
+        (
+            at([0.0, 0.0, 1000.0], [90.0, 0.0, 0.0]),
+            at([1500.0, -100.0, 1000.0], [90.0, 0.0, 0.0]),
+            "x 1500.0 y 0.0 z -570.0 mm, roll 0.0 pitch 0.0 yaw 0.0 deg",
+        ),
+    ];
+    for (base, workpiece, stated) in cases {
+        let report = line_of(fanuc.clone(), base, workpiece);
+        let text = opening(&written(&report, "fanuc").text);
+        assert!(
+            text.contains("The controller counts from axis 2, 670 mm above the foot of the arm"),
+            "{text}"
+        );
+        assert!(text.contains(stated), "{stated}: {text}");
+    }
+    let beside = at([1500.0, 0.0, 0.0], [0.0; 3]);
+    let report = line_of(fanuc, zero.clone(), beside.clone());
+    for (id, frame) in [
+        ("krl", "$BASE={FRAME: X 1500.0,Y 0.0,Z -670.0,A 0.0,B 0.0,C 0.0}"),
+        ("rapid", "[1500.0,0.0,-670.0]"),
+        ("val3", "fPart.trsf={1500.0,0.0,-670.0,0.0,0.0,0.0}"),
+        ("gcode", "from axis 2, 670 mm above the foot"),
+        ("apt", "from axis 2, 670 mm above the foot"),
+        ("path-csv", "from axis 2, 670 mm above the foot"),
+    ] {
+        let text = written(&report, id).text;
+        assert!(text.contains(frame), "{id}: {text}");
+    }
+    let staubli = line_of(json!({"preset":"staubli-tx2-90"}), zero.clone(), at([500.0, 0.0, 0.0], [0.0; 3]));
+    let text = written(&staubli, "val3").text;
+    assert!(text.contains("fPart.trsf={500.0,0.0,-478.0,0.0,0.0,0.0}"), "{text}");
+
+    let kuka = line_of(json!({"preset":"kuka-kr-210-2"}), zero.clone(), beside.clone());
+    let text = written(&kuka, "krl").text;
+    assert!(text.contains("$BASE={FRAME: X 1500.0,Y 0.0,Z 0.0,"), "{text}");
+    assert!(text.contains("The controller counts from the foot of the arm\n"), "{text}");
+    let mut own = json!({"joint_compliance_rad_per_nm":[0,0,0,0,0,0]});
+    let links = armill::job::presets::presets().robots.into_iter().find(|robot| robot.id == "kuka-kr-210-2");
+    own["modified_dh"] = json!(links.unwrap().modified_dh);
+    let text = written(&line_of(own, zero, beside), "rapid").text;
+    assert!(text.contains("is not known, the foot of the arm is assumed: compare it"), "{text}");
+    assert!(text.contains("[1500.0,0.0,0.0]"), "{text}");
+}
+
 #[test]
 fn every_program_says_where_it_comes_from_and_what_it_does_not_promise() {
     let report = run(&small_jobs()[0].1);
@@ -189,15 +277,7 @@ fn every_program_says_where_it_comes_from_and_what_it_does_not_promise() {
             assert_eq!(export.points, report.samples());
             continue;
         }
-        // FANUC's remarks are short: a sentence spans several.
-        let text: String = export
-            .text
-            .lines()
-            .take(80)
-            .map(|line| line.trim_start_matches([' ', '!', ':', '$', '#', ';', '/']))
-            .map(|line| line.split_once(":  !").map_or(line, |(_, rest)| rest).trim_end_matches([';', ' ']))
-            .collect::<Vec<_>>()
-            .join(" ");
+        let text = opening(&export.text);
         for piece in [
             env!("CARGO_PKG_VERSION"),
             &fingerprint,
@@ -210,7 +290,8 @@ fn every_program_says_where_it_comes_from_and_what_it_does_not_promise() {
         if format.id != "joints-csv" {
             assert!(text.contains("Thinned to 0.001 mm"), "{}", format.id);
             assert!(
-                text.contains("x 550.0 y 40.0 z 150.0 mm, roll 5.0 pitch -10.0 yaw 30.0 deg"),
+                // From the foot z is 150 mm, axis 2 is at 420 mm.
+                text.contains("x 550.0 y 40.0 z -270.0 mm, roll 5.0 pitch -10.0 yaw 30.0 deg"),
                 "{}",
                 format.id
             );

@@ -32,9 +32,7 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
         lines.extend(points(report, command));
     }
     lines.push(format!("Tool tip on the flange at {}", placed(report.plan.robot.tool())));
-    lines.push(
-        "Base, flange and joint zeros are the robot model's: compare them with the controller's".into(),
-    );
+    lines.push("Flange and joint zeros are the robot model's: compare them with the controller's".into());
     if let Some((frequency, damping)) = setup.mode {
         lines.push(format!(
             "These are commands before the input shaper, {frequency} rad/s, damping {damping}: it must act on them"
@@ -60,10 +58,11 @@ fn points(report: &Report, command: &Command) -> Vec<String> {
             command.points(),
             millimetres(command.deviation)
         ),
-        format!("Positions in the workpiece frame, in the robot base at {}", placed(&setup.workpiece)),
+        setup.world.sentence(),
+        format!("Positions in the workpiece frame, from there at {}", placed(&setup.workpiece_in_world())),
     ];
     if setup.base != Pose::identity() {
-        lines.push(format!("The robot base in the cell at {}", placed(&setup.base)));
+        lines.push(format!("The foot of the arm in the cell at {}", placed(&setup.base)));
     }
     lines
 }

@@ -28,6 +28,10 @@ pub struct RobotPreset {
     pub note: String,
     /// Source of the joint stiffness, and how far to trust it.
     pub stiffness_note: String,
+    /// Height of the controller's world above the foot of the arm [mm]; `null` where unknown.
+    pub world_mm: Option<f64>,
+    /// Where the controller counts from, what that means for a job, and the source.
+    pub world_note: String,
     /// Whether the stiffness is only an order of magnitude.
     pub stiffness_assumed: bool,
     /// Rows of the modified Denavit-Hartenberg table [deg, mm].
@@ -106,6 +110,8 @@ impl RobotPreset {
             name: robot.name(),
             maker: robot.maker,
             note: format!("{} {}", robot.geometry_note, robot.mode_note),
+            world_mm: robot.world_mm,
+            world_note: robot.world_note(),
             stiffness_note: robot.stiffness_note,
             stiffness_assumed: robot.stiffness_assumed,
             modified_dh,

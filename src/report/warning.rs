@@ -78,7 +78,7 @@ pub(crate) fn warnings(report: &Report) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if setup.stiffness_assumed {
         let message = "there is no published joint stiffness for this robot: \
-                       deflections are an order of magnitude, off by a factor of 2 as a rule and of 8 in \
+                       deflections are an order of magnitude, off by a factor of 2 as a rule and of 9 in \
                        single joints; enter your own";
         warnings.push(Warning::new("stiffness-assumed", message));
     }

@@ -3,9 +3,9 @@
 
 use crate::error::Error;
 use crate::math;
-use crate::robot::Opw;
 use crate::robot::model::{Elbow, Link};
-use crate::units::DEG;
+use crate::robot::{Opw, World};
+use crate::units::{DEG, MM};
 
 const ROBOTS: &str = include_str!("library/robots.csv");
 const ZEROS: &str = include_str!("library/zeros.csv");
@@ -25,14 +25,21 @@ pub struct Preset {
     pub opw: Opw,
     /// Where joint 3 is measured from.
     pub elbow: Elbow,
+    /// Height of the controller's world above the foot of the arm [mm], if known.
+    pub world_mm: Option<f64>,
     /// Joint ranges [deg], if known.
     pub joint_limits_deg: Option<[[f64; 2]; 6]>,
+    /// Largest joint speeds [deg/s], if known. Those of the drives: joint 3 turns against the upper
+    /// arm also where its angle is counted from the base.
+    pub joint_speed_deg_s: Option<[f64; 6]>,
     /// Joint compliances [rad/(N m)].
     pub joint_compliance: [f64; 6],
     /// Whether the compliance is only the order-of-magnitude estimate of [`assumed_compliance`].
     pub stiffness_assumed: bool,
     /// Where the geometry comes from and how far to trust it.
     pub geometry_note: String,
+    /// Where the height of the controller's world is from.
+    pub world_source: &'static str,
     /// Where the compliance comes from and how far to trust it.
     pub stiffness_note: String,
     /// The first natural frequency, where it was measured; empty otherwise.
@@ -43,6 +50,25 @@ impl Preset {
     /// Display name.
     pub fn name(&self) -> String {
         format!("{} {}", self.maker, self.model)
+    }
+
+    /// Where the controller counts from, in SI.
+    pub fn world(&self) -> World {
+        let at_axis_2 = self.world_mm == Some(self.opw.lengths_mm[3]);
+        World { height: self.world_mm.map(|height| height * MM), at_axis_2 }
+    }
+
+    /// Where the controller counts from, what that means for a job, and the source.
+    pub fn world_note(&self) -> String {
+        let (said, source) = (self.world().sentence(), self.world_source);
+        match self.world_mm {
+            None => format!("{said}."),
+            Some(0.0) => format!("{said} ({source})."),
+            Some(mm) => format!(
+                "{said} ({source}). Positions here count from the foot: with the robot's base at zero, add \
+                 {mm} mm to the controller's z. Programs state them as the controller counts."
+            ),
+        }
     }
 
     /// The modified DH table in SI.
@@ -83,19 +109,19 @@ pub fn robot(id: &str) -> Result<Preset, Error> {
 
 /// Joint stiffness at [`RULE_PAYLOAD`] [Nm/rad]: geometric means of the measured values in
 /// `stiffness.csv`, each scaled to that payload.
-pub const RULE_STIFFNESS: [f64; 6] = [2.3e6, 3.2e6, 2.1e6, 4.4e5, 3.3e5, 3.4e5];
+pub const RULE_STIFFNESS: [f64; 6] = [2.4e6, 3.3e6, 2.2e6, 4.1e5, 3.4e5, 3.7e5];
 /// Payload of [`RULE_STIFFNESS`] [kg].
 pub const RULE_PAYLOAD: f64 = 200.0;
 
 /// Order-of-magnitude joint compliance [rad/(N m)] of an arm without published stiffness, from its
 /// rated payload [kg].
 ///
-/// k_i = K_i (payload / 200 kg)^(1/3). The exponent and K_i are a least-squares fit (in logarithms;
-/// 0.29, rounded up) to the eight published sets in `stiffness.csv`, from 6 to 500 kg. Single
-/// values deviate by a factor of 1.9 (one standard deviation) and by up to 8, so the result has
-/// only one digit.
+/// k_i = K_i (payload / 200 kg)^(1/4). The exponent and K_i are a least-squares fit (in logarithms;
+/// 0.26, rounded) to the eight published sets in `stiffness.csv`, from 6 to 500 kg. Single values
+/// deviate by a factor of 2.0 (one standard deviation) and by up to 9, so the result has only one
+/// digit.
 pub fn assumed_compliance(payload: f64) -> [f64; 6] {
-    let scale = math::pow(payload / RULE_PAYLOAD, 1.0 / 3.0);
+    let scale = math::pow(payload / RULE_PAYLOAD, 0.25);
     RULE_STIFFNESS.map(|k| number(&format!("{:.0e}", 1.0 / (k * scale))))
 }
 
@@ -145,7 +171,8 @@ fn rows(table: &'static str) -> impl Iterator<Item = impl FnMut() -> &'static st
 fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
     let (id, maker, model, payload) = (row(), row(), row(), number(row()));
     let lengths_mm = std::array::from_fn(|_| number(row()));
-    let (zero, limits, source, confidence, stiffness) = (row(), row(), row(), row(), row());
+    let (world, world_source) = (row(), row());
+    let (zero, limits, speeds, source, confidence, stiffness) = (row(), row(), row(), row(), row(), row());
     let mut zeros =
         rows(ZEROS).filter_map(|mut row| (row() == zero).then(|| (numbers(row()), numbers(row()), row())));
     let (joint_sign, joint_offset_deg, joint_3) = zeros.next().unwrap_or(([f64::NAN; 6], [f64::NAN; 6], ""));
@@ -155,14 +182,15 @@ fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
         None => [-number(range), number(range)],
     });
     let limits = (!limits.is_empty()).then(|| [0; 6].map(|_| ranges.next().unwrap_or([f64::NAN; 2])));
-    let source = source.parse().ok().and_then(|line| SOURCES.lines().nth(line)).unwrap_or_default();
+    let [source, world_source] = [source, world_source]
+        .map(|line| line.parse().ok().and_then(|line| SOURCES.lines().nth(line)).unwrap_or_default());
     let known = published().find(|set| set.key == stiffness && !stiffness.is_empty());
     let stiffness_note = match &known {
         Some(set) => format!("Joint stiffness: {} ({}).", set.source, set.confidence),
         None => format!(
             "Joint stiffness: not known for this robot. The values are an order of magnitude for \
              {payload} kg of payload, from eight published sets of other arms, which scatter by a \
-             factor of 2, single joints by 8: identify your own."
+             factor of 2, single joints by 9: identify your own."
         ),
     };
     let mode_note = match known.as_ref().map(|set| set.mode).filter(|mode| !mode.is_empty()) {
@@ -175,13 +203,16 @@ fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
         model,
         opw: Opw { lengths_mm, joint_sign, joint_offset_deg },
         elbow,
+        world_mm: (!world.is_empty()).then(|| number(world)),
         joint_limits_deg: limits,
+        joint_speed_deg_s: (!speeds.is_empty()).then(|| numbers(speeds)),
         joint_compliance: match &known {
             Some(set) => set.compliance.map(|c| c.unwrap_or(0.0)),
             None => assumed_compliance(payload),
         },
         stiffness_assumed: known.is_none(),
         geometry_note: format!("Geometry: {source} (confidence {confidence})."),
+        world_source,
         stiffness_note,
         mode_note,
     }

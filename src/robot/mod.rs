@@ -15,6 +15,7 @@ pub mod spring;
 pub mod load;
 pub mod statics;
 pub mod equilibrium;
+pub mod world;
 pub mod library;
 
 pub use load::Load;
@@ -22,3 +23,4 @@ pub use model::{Elbow, Joints, Link, Robot};
 pub use opw::Opw;
 pub use spring::Spring;
 pub use statics::JointStatics;
+pub use world::World;

@@ -19,7 +19,7 @@ use crate::motion::trajectory::MotionLimits;
 use crate::motion::{Shaper, Trajectory};
 use crate::path::{Path, Roll, SourceProgram};
 use crate::progress::Progress;
-use crate::robot::Robot;
+use crate::robot::{Robot, World};
 use crate::units::{DEG, KILOWATT, MM, RPM};
 use nalgebra::Vector3;
 
@@ -35,11 +35,14 @@ pub struct Setup {
     pub stiffness_note: String,
     /// Whether its compliance is only an order of magnitude.
     pub stiffness_assumed: bool,
+    /// Where the controller counts from.
+    pub world: World,
     /// The desired path in the base frame.
     pub path: Path,
     /// The robot's base in the cell, whose z axis points up.
     pub base: Pose,
-    /// The workpiece in the base frame.
+    /// The workpiece in the base frame; for the controller, see
+    /// [`workpiece_in_world`](Setup::workpiece_in_world).
     pub workpiece: Pose,
     /// The program that the path was read from; `None` for a shape.
     pub program: Option<SourceProgram>,
@@ -98,7 +101,7 @@ impl Setup {
             return Err(Error::invalid("version", job.version, "this Armill reads version 1"));
         }
         fields::check_ranges(job)?;
-        let robot::BareArm { robot, stiffness_note, stiffness_assumed } = robot::arm(&job.robot)?;
+        let robot::BareArm { robot, world, stiffness_note, stiffness_assumed } = robot::arm(&job.robot)?;
         let robot = robot.with_tool(frame(&job.tool_frame));
         let base = frame(&job.base_frame);
         let statics = statics::of(&job.robot, robot.compliance(), &base)?;
@@ -120,6 +123,7 @@ impl Setup {
         let sources = sources(&job.compensation.sources)?;
         Ok(Self {
             robot,
+            world,
             stiffness_note,
             stiffness_assumed,
             path,
@@ -146,6 +150,11 @@ impl Setup {
             goal,
             sources,
         })
+    }
+
+    /// The workpiece as the controller counts: its base, work object or user frame.
+    pub fn workpiece_in_world(&self) -> Pose {
+        self.world.of_base(&self.workpiece)
     }
 }
 

@@ -2,13 +2,15 @@
 
 use crate::error::Error;
 use crate::job::{self, Job, Joint3};
-use crate::robot::{Elbow, Link, Opw, Robot, library};
+use crate::robot::{Elbow, Link, Opw, Robot, World, library};
 use crate::units::{DEG, MM};
 
 /// An arm without its tool.
 pub(super) struct BareArm {
     /// The arm.
     pub(super) robot: Robot,
+    /// Where its controller counts from.
+    pub(super) world: World,
     /// Source of its compliance, and how far to trust it.
     pub(super) stiffness_note: String,
     /// Whether the compliance is only an order of magnitude.
@@ -36,9 +38,11 @@ pub(super) fn arm(given: &job::Robot) -> Result<BareArm, Error> {
     }
     let mut library_note = None;
     let mut elbow = Elbow::Serial;
+    let mut world = World::default();
     let (name, links, limits, compliance) = if let Some(id) = &given.preset {
         let preset = library::robot(id)?;
         elbow = preset.elbow;
+        world = preset.world();
         library_note = Some((preset.stiffness_note.clone(), preset.stiffness_assumed));
         (preset.name(), preset.links(), preset.limits(), Some(preset.joint_compliance))
     } else if let Some(rows) = given.modified_dh {
@@ -71,7 +75,7 @@ pub(super) fn arm(given: &job::Robot) -> Result<BareArm, Error> {
         Some(Joint3::Parallelogram) => Elbow::Parallelogram,
         None => elbow,
     };
-    Ok(BareArm { robot: robot.with_elbow(elbow)?, stiffness_note, stiffness_assumed })
+    Ok(BareArm { robot: robot.with_elbow(elbow)?, world, stiffness_note, stiffness_assumed })
 }
 
 /// The parameters, checked for errors that a table of links could not name.

@@ -32,6 +32,7 @@ export interface Opw {
 export type FieldValue = number | string | number[] | number[][] | string[] | DhRow[] | Opw | null;
 export interface RobotPreset {
   id: string; name: string; maker: string; note: string; stiffness_note: string; stiffness_assumed: boolean;
+  world_mm: number | null; world_note: string;
   joint_3: "serial" | "pendant"; modified_dh: DhRow[]; opw: Opw;
   joint_limits_deg: [number, number][] | null; joint_compliance_rad_per_nm: number[];
 }

@@ -226,12 +226,21 @@ export class Form {
   #decorate(row) {
     row.reset.classList.toggle("idle", !this.#job.changed(row.field));
     if (row.field.path === "robot.joint_compliance_rad_per_nm") return this.#sourceOfCompliance(row);
+    if (row.field.path === "workpiece_frame.xyz_mm") {
+      row.note.textContent = this.#preset()?.world_note ?? "";
+      return;
+    }
     row.note.textContent = row.field.kind === "choice" ? (row.notes[this.#job.get(row.field)] ?? "") : "";
+  }
+
+  /** The library's robot, if the job has one. */
+  #preset() {
+    return this.#robots[this.#job.get(this.#rows.find(({ field }) => field.path === "robot.preset").field)];
   }
 
   /** Beside the numbers: an order of magnitude must not look like a measurement. */
   #sourceOfCompliance(row) {
-    const preset = this.#robots[this.#job.get(this.#rows.find(({ field }) => field.path === "robot.preset").field)];
+    const preset = this.#preset();
     const given = this.#job.changed(row.field);
     row.note.textContent = preset && !given ? preset.stiffness_note : "";
     row.node.classList.toggle("assumed", Boolean(preset?.stiffness_assumed && !given));

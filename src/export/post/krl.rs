@@ -28,7 +28,7 @@ impl Dialect for Krl {
                 .into(),
             "; what that rounds off comes on top of the figures above.".into(),
             "BAS(#INITMOV,0)".into(),
-            format!("$BASE={}", frame("FRAME: ", &report.setup().workpiece)),
+            format!("$BASE={}", frame("FRAME: ", &report.setup().workpiece_in_world())),
             format!("$TOOL={}", frame("FRAME: ", report.plan.robot.tool())),
             "$IPO_MODE=#BASE".into(),
             "$ORI_TYPE=#VAR".into(),

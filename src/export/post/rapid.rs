@@ -51,7 +51,7 @@ impl Dialect for Rapid {
             ),
             format!(
                 "  PERS wobjdata wPart:=[FALSE,TRUE,\"\",{},[[0,0,0],[1,0,0,0]]];",
-                frame(&report.setup().workpiece)
+                frame(&report.setup().workpiece_in_world())
             ),
         ]);
         lines.extend(self.feeds.iter().map(|&feed| {

@@ -1,9 +1,9 @@
 //! The compensated path as a Staubli VAL3 program (`.pgx`, VAL3 s7 and later).
 //!
-//! One program of an application whose data the file names: the frame `fPart`, the tool `tMill`,
-//! the point `pPath` (in `fPart`) and the motion descriptor `mPath`. `movel` to each point; lengths
-//! in mm, rx, ry, rz [deg] about x, the new y, the new z; `tvel` in mm/s. Blending is off. The
-//! first move is a `movej`.
+//! One program of an application whose data the file names: the frame `fPart` (in the world, at the
+//! height of axis 2), the tool `tMill`, the point `pPath` (in `fPart`) and the motion descriptor
+//! `mPath`. `movel` to each point; lengths in mm, rx, ry, rz [deg] about x, the new y, the new z;
+//! `tvel` in mm/s. Blending is off. The first move is a `movej`.
 //!
 //! The XML frame follows published programs; instructions and the fields of `mdesc` are partly from
 //! memory, and nothing has been tried on a controller. Project and data files are not written:
@@ -36,7 +36,7 @@ impl Dialect for Val3 {
             "  // Data to declare in the application, lengths in mm: \
              frame fPart, tool tMill, pointRx pPath in fPart, mdesc mPath."
                 .to_owned(),
-            format!("  fPart.trsf={}", trsf(&report.setup().workpiece)),
+            format!("  fPart.trsf={}", trsf(&report.setup().workpiece_in_world())),
             format!("  tMill.trsf={}", trsf(report.plan.robot.tool())),
             "  link(pPath,fPart)".into(),
             "  mPath.blend=off".into(),

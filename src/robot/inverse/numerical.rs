@@ -7,7 +7,7 @@
 //! method becomes Newton's, which doubles the correct digits at every step. Starting points are
 //! fixed, so the same pose gives the same bits.
 
-use super::solution::{Branch, Margin, Solution, Solutions, closes, place_mm, unreachable};
+use super::solution::{Branch, CLOSURE, Margin, Solution, Solutions, closes, place_mm, unreachable};
 use crate::error::Error;
 use crate::math::{self, Pose, TAU};
 use crate::robot::{Joints, Robot, forward, jacobian};
@@ -32,7 +32,8 @@ pub(super) fn solutions(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solu
     let wrist = wrist_of(robot, tcp);
     let shoulder = forward::frames(robot, near)[0].position;
     let (distance, reach) = ((wrist - shoulder).norm(), robot.reach());
-    if distance > reach.1 {
+    // An arm whose axes 3 to 6 meet has its wrist centre exactly there in every pose.
+    if distance > reach.1 + CLOSURE {
         return Err(unreachable(tcp, distance, reach));
     }
     let mut found = Solutions::none();
@@ -165,6 +166,31 @@ mod tests {
                         < 1e-15 * (1.0 + 1.0 / math::sin(angle).abs().max(1e-2)),
                     "{turn}"
                 );
+            }
+        }
+    }
+
+    /// Where axes 3 to 6 or axes 1 to 4 meet, the wrist centre is always as far from the shoulder as
+    /// the links reach.
+    #[test]
+    fn four_axes_through_one_point_are_within_reach() {
+        let preset = crate::robot::library::robot("staubli-rx90").unwrap();
+        let [mut no_forearm, mut no_upper_arm] = [preset.links(), preset.links()];
+        no_forearm[3].d = 0.0;
+        no_upper_arm[2].a = 0.0;
+        for links in [no_forearm, no_upper_arm] {
+            let robot = Robot::new("degenerate", links, None, [0.0; 6]).unwrap();
+            assert!(robot.closed_form().is_err());
+            for k in 1..60 {
+                let tcp = forward::forward(&robot, &start(k));
+                let found = solutions(&robot, &tcp, &Joints::zeros());
+                assert!(found.is_ok(), "pose {k}: {found:?}");
+                // 1 um further out, it is out of reach.
+                let shoulder = forward::frames(&robot, &start(k))[0].position;
+                let outwards = (wrist_of(&robot, &tcp) - shoulder).normalize() * 1e-6;
+                let beyond = Pose { position: tcp.position + outwards, ..tcp };
+                let refused = solutions(&robot, &beyond, &Joints::zeros());
+                assert!(matches!(refused, Err(Error::Unreachable { .. })), "pose {k}: {refused:?}");
             }
         }
     }
