@@ -90,7 +90,7 @@ impl Report {
         series.push(scaled("axis_error_deg", "Tool axis error before", "deg", before, DEG));
         series.push(scaled("after_axis_error_deg", "Tool axis error after", "deg", after, DEG));
         series.push(self.cuts());
-        series.push(self.run_in());
+        series.push(self.run_in_series());
         let (path, timing) = (&self.plan.path, &trajectory.timing);
         series.push(Series::new("program_line", "Line of the program", "", count, move |samples| {
             timing.index[samples].iter().map(|&index| path.moves()[index as usize].line as f64).collect()
@@ -122,8 +122,12 @@ impl Report {
         })
     }
 
-    /// Share of the force where a cut begins; see [`RunIn`].
-    fn run_in(&self) -> Series<'_> {
+    /// Share of the force by the run-in at each sample; see [`RunIn`].
+    pub(super) fn run_in(&self) -> Vec<f64> {
+        self.run_in_series().values(0..self.samples())
+    }
+
+    fn run_in_series(&self) -> Series<'_> {
         let (path, trajectory) = (&self.plan.path, &self.plan.trajectory);
         let run_in = RunIn::along(path, self.setup().loading.run_in);
         let place = self.plan.shaper().shaped(&trajectory.timing.arc_length, trajectory.sample_time);

@@ -6,6 +6,8 @@ pub mod thesis;
 pub mod scene;
 mod budget;
 mod cut;
+mod drives;
+mod onset;
 mod roll;
 mod summary;
 

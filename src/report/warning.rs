@@ -7,7 +7,7 @@ use crate::deviation::{Deviation, Sources};
 use crate::math;
 use crate::path::{Move, MovePace, Tool};
 use crate::plan::Plan;
-use crate::report::Report;
+use crate::report::{Report, drives, onset};
 use crate::robot::Joints;
 use crate::robot::equilibrium::equilibrium;
 use crate::robot::inverse::Margin;
@@ -16,11 +16,60 @@ use crate::units::{DEG, KILOWATT, MM};
 use nalgebra::Vector3;
 use serde::Serialize;
 
+/// How much a warning matters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub enum Severity {
+    /// The arm cannot run the command.
+    #[serde(rename = "cannot run")]
+    CannotRun,
+    /// The figures or the part may be off.
+    #[serde(rename = "matters")]
+    Matters,
+    /// Good to know.
+    #[serde(rename = "note")]
+    Note,
+}
+
+/// Codes of warnings about what the arm cannot run.
+const CANNOT_RUN: [&str; 3] = ["joint-limit", "command-acceleration", "joint-speed"];
+/// Codes of warnings that are only good to know.
+const NOTES: [&str; 16] = [
+    "approach-left-out",
+    "block-delete",
+    "chord",
+    "circle-sense",
+    "controller-text",
+    "default-used",
+    "header-unit",
+    "home",
+    "inverse-numerical",
+    "joint-limit-near",
+    "joint-limits-unknown",
+    "joint-speeds-unknown",
+    "nearly-full-circle",
+    "rake-unused",
+    "spin-reference",
+    "text-after-end",
+];
+
+impl Severity {
+    /// The severity of a code; one that is not listed matters.
+    fn of(code: &str) -> Self {
+        match code {
+            _ if CANNOT_RUN.contains(&code) => Self::CannotRun,
+            _ if NOTES.contains(&code) => Self::Note,
+            _ => Self::Matters,
+        }
+    }
+}
+
 /// A remark on the result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Warning {
     /// Stable slug.
     pub code: &'static str,
+    /// How much it matters.
+    pub severity: Severity,
     /// Text for the reader.
     pub message: String,
     /// First sample it applies to, if it concerns a part of the motion.
@@ -40,10 +89,18 @@ pub struct Warning {
 impl Warning {
     /// A remark on the whole job.
     pub fn new(code: &'static str, message: impl Into<String>) -> Self {
-        Self { code, message: message.into(), from_sample: None, to_sample: None, from_s: None, to_s: None }
+        Self {
+            code,
+            severity: Severity::of(code),
+            message: message.into(),
+            from_sample: None,
+            to_sample: None,
+            from_s: None,
+            to_s: None,
+        }
     }
 
-    fn within(mut self, (from, to): (usize, usize), sample_time: f64) -> Self {
+    pub(super) fn within(mut self, (from, to): (usize, usize), sample_time: f64) -> Self {
         (self.from_sample, self.to_sample) = (Some(from), Some(to));
         (self.from_s, self.to_s) = (Some(from as f64 * sample_time), Some(to as f64 * sample_time));
         self
@@ -115,6 +172,10 @@ pub(crate) fn warnings(report: &Report) -> Vec<Warning> {
         warnings.push(Warning::new("tolerance-not-met", message));
     }
     warnings.extend(spindle(report));
+    warnings.extend(onset::warning(report));
+    warnings.extend(drives::warnings(report));
+    // What cannot run is said before what it would achieve.
+    warnings.sort_by_key(|warning| warning.severity);
     warnings
 }
 

@@ -19,7 +19,7 @@ use crate::motion::trajectory::MotionLimits;
 use crate::motion::{Shaper, Trajectory};
 use crate::path::{Path, Roll, SourceProgram};
 use crate::progress::Progress;
-use crate::robot::{Robot, World};
+use crate::robot::{Joints, Robot, World};
 use crate::units::{DEG, KILOWATT, MM, RPM};
 use nalgebra::Vector3;
 
@@ -37,6 +37,8 @@ pub struct Setup {
     pub stiffness_assumed: bool,
     /// Where the controller counts from.
     pub world: World,
+    /// Largest speeds of the joints' drives [rad/s], if known.
+    pub joint_speeds: Option<Joints>,
     /// The desired path in the base frame.
     pub path: Path,
     /// The robot's base in the cell, whose z axis points up.
@@ -101,7 +103,8 @@ impl Setup {
             return Err(Error::invalid("version", job.version, "this Armill reads version 1"));
         }
         fields::check_ranges(job)?;
-        let robot::BareArm { robot, world, stiffness_note, stiffness_assumed } = robot::arm(&job.robot)?;
+        let robot::BareArm { robot, world, joint_speeds, stiffness_note, stiffness_assumed } =
+            robot::arm(&job.robot)?;
         let robot = robot.with_tool(frame(&job.tool_frame));
         let base = frame(&job.base_frame);
         let statics = statics::of(&job.robot, robot.compliance(), &base)?;
@@ -124,6 +127,7 @@ impl Setup {
         Ok(Self {
             robot,
             world,
+            joint_speeds,
             stiffness_note,
             stiffness_assumed,
             path,

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::job::{self, Job, Joint3};
-use crate::robot::{Elbow, Link, Opw, Robot, World, library};
+use crate::robot::{Elbow, Joints, Link, Opw, Robot, World, library};
 use crate::units::{DEG, MM};
 
 /// An arm without its tool.
@@ -11,6 +11,8 @@ pub(super) struct BareArm {
     pub(super) robot: Robot,
     /// Where its controller counts from.
     pub(super) world: World,
+    /// Largest speeds of the joints' drives [rad/s], if known.
+    pub(super) joint_speeds: Option<Joints>,
     /// Source of its compliance, and how far to trust it.
     pub(super) stiffness_note: String,
     /// Whether the compliance is only an order of magnitude.
@@ -39,10 +41,12 @@ pub(super) fn arm(given: &job::Robot) -> Result<BareArm, Error> {
     let mut library_note = None;
     let mut elbow = Elbow::Serial;
     let mut world = World::default();
+    let mut joint_speeds = None;
     let (name, links, limits, compliance) = if let Some(id) = &given.preset {
         let preset = library::robot(id)?;
         elbow = preset.elbow;
         world = preset.world();
+        joint_speeds = preset.joint_speed_deg_s.map(|speeds| Joints::from(speeds) * DEG);
         library_note = Some((preset.stiffness_note.clone(), preset.stiffness_assumed));
         (preset.name(), preset.links(), preset.limits(), Some(preset.joint_compliance))
     } else if let Some(rows) = given.modified_dh {
@@ -75,7 +79,7 @@ pub(super) fn arm(given: &job::Robot) -> Result<BareArm, Error> {
         Some(Joint3::Parallelogram) => Elbow::Parallelogram,
         None => elbow,
     };
-    Ok(BareArm { robot: robot.with_elbow(elbow)?, world, stiffness_note, stiffness_assumed })
+    Ok(BareArm { robot: robot.with_elbow(elbow)?, world, joint_speeds, stiffness_note, stiffness_assumed })
 }
 
 /// The parameters, checked for errors that a table of links could not name.

@@ -15,7 +15,8 @@ use wasm_bindgen::prelude::wasm_bindgen;
 const TYPES: &'static str = r#"
 export interface Statistics { mean: number; max: number; }
 export interface Warning {
-  code: string; message: string; from_sample?: number; to_sample?: number; from_s?: number; to_s?: number;
+  code: string; severity: "cannot run" | "matters" | "note"; message: string;
+  from_sample?: number; to_sample?: number; from_s?: number; to_s?: number;
 }
 export interface Parts { joints: number[]; tool: number; shaping: number; total: number; }
 export interface Budget { sample: number; time_s: number; worst_mm: Parts; mean_mm: Parts; sentence: string; }

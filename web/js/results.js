@@ -73,21 +73,27 @@ function showWarnings(warnings) {
   const count = warnings.length;
   const box = byId("warnings");
   byId("warnings-count").textContent = count === 0 ? "No warnings" : `${count} ${count === 1 ? "warning" : "warnings"}`;
-  byId("warnings-first").textContent = count === 0 ? "" : `: ${warnings[0].message}`;
+  byId("warnings-first").textContent = count === 0 ? "" : `: ${impossible(warnings[0])}${warnings[0].message}`;
   box.classList.toggle("none", count === 0);
   if (count === 0) box.open = false;
   byId("warnings-list").replaceChildren(...warnings.map(warningItem));
 }
 
-function warningItem({ code, message, from_s, to_s }) {
+/** What the arm cannot run is said before what it would achieve. */
+const impossible = ({ severity }) => (severity === "cannot run" ? "cannot run: " : "");
+
+function warningItem({ code, severity, message, from_s, to_s }) {
   const when =
     from_s == null
       ? ""
       : from_s === to_s
         ? `at ${formatNumber(from_s)} s`
         : `${formatNumber(from_s)} to ${formatNumber(to_s)} s`;
-  const item = make("li", {}, sentence(message), when && ": ", make("span", { className: "unit" }, when));
+  const mark = impossible({ severity }) && make("strong", {}, "Cannot run: ");
+  const text = mark ? message : sentence(message);
+  const item = make("li", {}, mark, text, when && ": ", make("span", { className: "unit" }, when));
   item.dataset.code = code;
+  item.dataset.severity = severity;
   return item;
 }
 
