@@ -70,15 +70,15 @@ pub fn joint_trajectory(
     let mut margin = Vec::with_capacity(positions.len());
     let mut previous: Option<Solution> = None;
     let mut first = None;
-    // Axis, roll and orientation of the last sample; mostly the next sample has the same.
-    let mut held = (Vector3::zeros(), 0.0, Matrix3::zeros());
+    // What gives the orientation of the last sample, and it; mostly the next sample has the same.
+    let mut held = ((Vector3::zeros(), 0.0, path.roll_zero(0.0)), Matrix3::zeros());
     for (k, position) in positions.iter().enumerate() {
         let s = arc_length[k];
-        let (axis, roll) = (axes.at(k), path.roll(s));
-        if (held.0, held.1) != (*axis, roll) {
-            held = (*axis, roll, path.orientation(axis, roll));
+        let (axis, roll, zero) = (axes.at(k), path.roll(s), path.roll_zero(s));
+        if held.0 != (*axis, roll, zero) {
+            held = ((*axis, roll, zero), zero.orientation(axis, roll));
         }
-        let tcp = Pose { rotation: held.2, position: *position };
+        let tcp = Pose { rotation: held.1, position: *position };
         let place = |error: Error| error.at(k, s);
         let solution = match &previous {
             None => first_solution(robot, &tcp, start).map_err(place)?,

@@ -29,7 +29,7 @@ pub fn in_front(job: &Job) -> Result<[f64; 3], Error> {
     let setup = Setup::of(job, &mut Progress::none())?;
     let (path, robot) = (&setup.path, &setup.robot);
     let along = |k: usize| path.length() * k as f64 / (POSES - 1) as f64;
-    let pose = |s: f64| (path.point(s), path.orientation(&path.axis(s), path.roll(s)));
+    let pose = |s: f64| (path.point(s), path.orientation(s, &path.axis(s), path.roll(s)));
     let poses: Vec<(Vector3<f64>, Matrix3<f64>)> = (0..POSES).map(|k| pose(along(k))).collect();
     let (mut low, mut high) = (poses[0].0, poses[0].0);
     for (point, _) in &poses {

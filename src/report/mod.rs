@@ -6,6 +6,7 @@ pub mod thesis;
 pub mod scene;
 mod budget;
 mod cut;
+mod reference;
 mod roll;
 mod summary;
 

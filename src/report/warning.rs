@@ -7,7 +7,7 @@ use crate::deviation::{Deviation, Sources};
 use crate::math;
 use crate::path::{Move, MovePace, Tool};
 use crate::plan::Plan;
-use crate::report::Report;
+use crate::report::{Report, reference};
 use crate::robot::Joints;
 use crate::robot::equilibrium::equilibrium;
 use crate::robot::inverse::Margin;
@@ -88,6 +88,7 @@ pub(crate) fn warnings(report: &Report) -> Vec<Warning> {
             format!("the joint values are solved numerically: {reason}"),
         ));
     }
+    warnings.extend(reference::remark(&plan.path));
     springs(report, &mut warnings);
     limits(report, &mut warnings);
     warnings.extend_from_slice(singular);
