@@ -8,6 +8,7 @@ use crate::path::{Axes, Path};
 use crate::progress::Progress;
 use crate::robot::inverse::{self, Margin, Solution};
 use crate::robot::{Joints, Robot};
+use crate::units::DEG;
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 
@@ -54,11 +55,19 @@ impl<'a> Targets<'a> {
     }
 }
 
+/// Turn of a joint from one sample to the next that is no motion of the arm [rad]. Beside a wrist
+/// singularity the nearer of the two wrists turns by a quarter turn at most; another branch, by
+/// nearly half a turn.
+const HALF_TURN: f64 = 120.0 * DEG;
+/// The same where the arm changes shoulder or elbow: through their singularities it turns smoothly
+/// [rad].
+const CHANGED: f64 = 30.0 * DEG;
+
 /// Solves the inverse model for each target, with each solution nearest to the one before.
 ///
 /// # Errors
-/// [`Error::Unreachable`] with the sample and its arc length; [`Error::Invalid`] if the start has
-/// no solution on the requested branch.
+/// [`Error::Unreachable`] with the sample and its arc length; [`Error::BranchEnds`] where only
+/// another branch goes on; [`Error::Invalid`] if the start has no solution on the requested branch.
 pub fn joint_trajectory(
     robot: &Robot,
     targets: &Targets,
@@ -82,7 +91,13 @@ pub fn joint_trajectory(
         let place = |error: Error| error.at(k, s);
         let solution = match &previous {
             None => first_solution(robot, &tcp, start).map_err(place)?,
-            Some(last) => next_solution(robot, &tcp, last).map_err(place)?,
+            Some(last) => {
+                let next = next_solution(robot, &tcp, last).map_err(place)?;
+                if jumps(last, &next) {
+                    return Err(branch_ends(targets, k, &(next.q - last.q)));
+                }
+                next
+            }
         };
         first.get_or_insert(solution.branch);
         q.push(solution.q);
@@ -93,6 +108,27 @@ pub fn joint_trajectory(
     match first {
         Some(start) => Ok(JointTrajectory { q: Arc::new(q), margin, start }),
         None => Err(Error::missing("path", "a path has points")),
+    }
+}
+
+/// Whether the arm cannot go from one solution to the next within a sample.
+pub(crate) fn jumps(last: &Solution, next: &Solution) -> bool {
+    let (from, to) = (last.branch, next.branch);
+    let changed = from.front != to.front || from.elbow_positive != to.elbow_positive;
+    (next.q - last.q).amax() > if changed { CHANGED } else { HALF_TURN }
+}
+
+/// The error for a turn of the joints at a sample.
+fn branch_ends(targets: &Targets, sample: usize, turn: &Joints) -> Error {
+    let (arc_length, position) = (targets.arc_length[sample], targets.position[sample]);
+    let joint = turn.iamax();
+    Error::BranchEnds {
+        sample,
+        arc_length,
+        line: targets.path.moves()[targets.path.locate(arc_length).0].line,
+        position: position.into(),
+        joint: joint + 1,
+        turn: turn[joint].abs(),
     }
 }
 

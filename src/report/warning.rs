@@ -232,7 +232,7 @@ pub(crate) fn singularities(plan: &Plan, q: &[Joints], margins: &[Margin]) -> Ve
     let jumps = |k: usize| k > 0 && (q[k] - q[k - 1]).amax() > JUMP;
     if let Some(range) = range(q.len(), jumps) {
         let message = format!(
-            "a joint turns more than {:.0} deg from one sample to the next: the arm changes branch or passes a singularity",
+            "a joint turns more than {:.0} deg from one sample to the next: the arm passes a singularity",
             JUMP / DEG
         );
         warnings.push(Warning::new("joint-jump", message).within(range, dt));
