@@ -3,9 +3,10 @@
 
 mod common;
 
-use armill::robot::library;
+use armill::robot::{Joints, Robot, forward, library};
 use armill::{Error, Report};
-use common::{job_text, refused, run};
+use common::{refused, run};
+use nalgebra::Vector3;
 use serde_json::{Value, json};
 
 /// An arm without tool, shaper and cut along a path.
@@ -52,4 +53,54 @@ fn where_a_branch_ends_is_an_error_with_its_place() {
     let mut front = all;
     front.pop();
     assert!(!has(&run(&front), "joint-jump"));
+}
+
+/// A KR 210 or another arm at the pose of joint values [deg], then along Y.
+fn from_joints(robot: &str, q_deg: [f64; 6], more: &[(&'static str, Value)]) -> Report {
+    let preset = library::robot(robot).unwrap();
+    let arm = Robot::new("", preset.links(), preset.limits(), [0.0; 6]).unwrap();
+    let tcp = forward::forward(&arm, &Joints::from(q_deg.map(f64::to_radians)));
+    let (axis, x) = (-tcp.rotation.column(2), tcp.rotation.column(0));
+    // The spin of that pose, counted from Y.
+    let level = (Vector3::y() - axis * axis.y).normalize().cross(&axis);
+    let spin = axis.dot(&level.cross(&x)).atan2(level.dot(&x)).to_degrees();
+    let [p, a] = [tcp.position * 1e3, axis];
+    let row = |y: f64| format!("{:e},{:e},{:e},{:e},{:e},{:e}", p.x, p.y + y, p.z, a.x, a.y, a.z);
+    let path = json!({"kind": "csv", "text": format!("x,y,z,i,j,k\n{}\n{}", row(0.0), row(20.0))});
+    let mut all = changes(robot, path, &[("spin", json!({"angle_deg": spin, "reference": "y"}))]);
+    all.extend(more.iter().cloned());
+    run(&all)
+}
+
+#[test]
+fn the_start_takes_each_joint_inside_its_range() {
+    // Joint 3 from -80 to 206 deg: 195 is inside, the same a turn less is not.
+    let q = [10.0, 20.0, 195.0, 5.0, 30.0, 10.0];
+    let branch = json!({"shoulder": "back", "elbow": "negative", "wrist": "near"});
+    let report = from_joints("yaskawa-gp35l", q, &[("start_branch", branch)]);
+    for (i, (ours, wanted)) in report.q[0].iter().zip(q).enumerate() {
+        assert!((ours.to_degrees() - wanted).abs() < 1e-6, "q{} is {}", i + 1, ours.to_degrees());
+    }
+    assert!(!has(&report, "joint-limit"), "{:?}", report.warnings);
+}
+
+#[test]
+fn the_whole_path_takes_the_turns_that_suit_its_ranges() {
+    let arc = json!({"kind": "arc", "center_mm": [0, 0, 900], "radius_mm": 1700, "normal": [0, 0, 1], "start_deg": -150, "sweep_deg": 300});
+    let all = changes(
+        "kuka-kr-210-2",
+        arc,
+        &[("spin", json!({"angle_deg": -140})), ("motion.feed_mm_s", json!(500))],
+    );
+    let report = run(&all);
+    // An upright tool under an arm that faces it: joint 6 turns against joint 1, from 150 deg one way
+    // to 150 deg the other, and 40 deg beside it. A turn less it would leave its 350 deg.
+    let q6 = |k: usize| report.q[k][5].to_degrees();
+    let (first, last) = (q6(0), q6(report.samples() - 1));
+    assert!((first - 190.0).abs() < 1e-6 && (last + 110.0).abs() < 1e-6, "{first} to {last}");
+    assert!(!has(&report, "joint-limit"), "{:?}", report.warnings);
+    // The compensated command, and with it every file, has the same turns.
+    for (desired, compensated) in report.q.iter().zip(report.compensation.q.iter()) {
+        assert!((desired - compensated).amax() < 0.1);
+    }
 }
