@@ -104,3 +104,19 @@ fn the_whole_path_takes_the_turns_that_suit_its_ranges() {
         assert!((desired - compensated).amax() < 0.1);
     }
 }
+
+#[test]
+fn a_start_in_the_wrist_singularity_has_q4_of_the_first_step() {
+    let report = from_joints("kuka-kr-210-2", [0.0, -60.0, 90.0, 0.0, 0.0, 0.0], &[]);
+    let q = |k: usize, i: usize| report.q[k][i].to_degrees();
+    // Along Y the tool axis leans about the forearm's own vertical: q4 is a quarter turn either way.
+    assert!((q(0, 3).abs() - 90.0).abs() < 0.01, "{}", q(0, 3));
+    assert!(q(0, 4).abs() < 1e-6 && (q(0, 3) - q(1, 3)).abs() < 0.01, "{} and {}", q(0, 3), q(1, 3));
+    // Joints 4 and 6 cancel.
+    assert!((q(0, 3) + q(0, 5)).abs() < 1e-6, "{} and {}", q(0, 3), q(0, 5));
+    assert!(!has(&report, "joint-jump"), "{:?}", report.warnings);
+    // The other wrist starts on the other side.
+    let flipped = json!({"shoulder": "front", "elbow": "positive", "wrist": "flipped"});
+    let other = from_joints("kuka-kr-210-2", [0.0, -60.0, 90.0, 0.0, 0.0, 0.0], &[("start_branch", flipped)]);
+    assert!(!has(&other, "joint-jump"));
+}

@@ -159,9 +159,22 @@ fn branch_ends(targets: &Targets, sample: usize, turn: &Joints) -> Error {
     }
 }
 
-/// The solution that the motion along targets starts from.
+/// The solution that the motion along targets starts from. In the wrist singularity, where any q4
+/// will do, it has that of the first sample beyond.
 fn start_solution(robot: &Robot, targets: &Targets, start: StartBranch) -> Result<Solution, Error> {
-    first_solution(robot, &targets.tcp(0), start).map_err(|error| error.at(0, targets.arc_length[0]))
+    let solution = |k: usize| {
+        let place = |error: Error| error.at(k, targets.arc_length[k]);
+        first_solution(robot, &targets.tcp(k), start).map_err(place)
+    };
+    let first = solution(0)?;
+    if first.margin.wrist > inverse::WRIST_SINGULAR {
+        return Ok(first);
+    }
+    let next = (1..targets.position.len()).map_while(|k| solution(k).ok());
+    match next.into_iter().find(|next| next.margin.wrist > inverse::WRIST_SINGULAR) {
+        Some(regular) => nearest_start(robot, targets, &regular.q),
+        None => Ok(first),
+    }
 }
 
 /// The solution at the start nearest to joint values [rad].
