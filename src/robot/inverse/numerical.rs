@@ -7,7 +7,7 @@
 //! method becomes Newton's, which doubles the correct digits at every step. Starting points are
 //! fixed, so the same pose gives the same bits.
 
-use super::solution::{Branch, Margin, Solution, Solutions, closes, place_mm, unreachable};
+use super::solution::{Branch, CLOSURE, Margin, Solution, Solutions, closes, place_mm, unreachable};
 use crate::error::Error;
 use crate::math::{self, Pose, TAU};
 use crate::robot::{Joints, Robot, forward, jacobian};
@@ -32,7 +32,8 @@ pub(super) fn solutions(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solu
     let wrist = wrist_of(robot, tcp);
     let shoulder = forward::frames(robot, near)[0].position;
     let (distance, reach) = ((wrist - shoulder).norm(), robot.reach());
-    if distance > reach.1 {
+    // At full reach, which some arms always are, rounding decides.
+    if distance > reach.1 + CLOSURE {
         return Err(unreachable(tcp, distance, reach));
     }
     let mut found = Solutions::none();

@@ -76,7 +76,7 @@ impl Solutions {
 
 /// Largest position error that a solution may have in the forward model [m]; for rotation matrices
 /// the same number without a unit.
-const CLOSURE: f64 = 1e-9;
+pub(super) const CLOSURE: f64 = 1e-9;
 
 /// Whether the forward model puts the TCP at the requested pose.
 pub(super) fn closes(robot: &Robot, tcp: &Pose, q: &Joints) -> bool {
