@@ -16,7 +16,7 @@ use crate::deviation::contour::MeanMax;
 use crate::deviation::{Deviation, Reference, simulate};
 use crate::error::Error;
 use crate::motion::Trajectory;
-use crate::motion::joints::{Targets, joint_trajectory};
+use crate::motion::joints::{Targets, joint_trajectory_from};
 use crate::path::{Axes, Path};
 use crate::plan::Plan;
 use crate::progress::Progress;
@@ -94,7 +94,7 @@ pub fn compensate(plan: &Plan, question: &Question, progress: &mut Progress) -> 
         );
         let (correction, axis) = next_correction(plan, reference, &best);
         // Half of a pass is the inverse model, the other half everything after it.
-        let commands = match commands(plan, &correction, &axis, &mut progress.part("", 0.0, 0.5)) {
+        let commands = match commands(plan, &q[0], (&correction, &axis), &mut progress.part("", 0.0, 0.5)) {
             Ok(commands) => commands,
             Err(error) => {
                 best.stopped = Some(error);
@@ -132,18 +132,18 @@ fn next_correction(plan: &Plan, reference: &Reference, best: &Compensation) -> (
     corrected(&plan.path, wanted, &best.result, (&best.correction, &best.axis), undone)
 }
 
-/// Joint commands for the desired path with a correction [m] and tool axes.
+/// Joint commands for the desired path with a correction [m] and tool axes, from near `start` [rad].
 fn commands(
     plan: &Plan,
-    correction: &[Vector3<f64>],
-    axis: &Axes,
+    start: &Joints,
+    (correction, axis): (&[Vector3<f64>], &Axes),
     progress: &mut Progress,
 ) -> Result<Arc<Vec<Joints>>, Error> {
     progress.at(0.0);
     let position: Vec<_> =
         plan.trajectory.position.iter().zip(correction).map(|(desired, c)| desired + c).collect();
     let targets = Targets { position: &position, axis, ..Targets::desired(&plan.path, &plan.trajectory) };
-    Ok(joint_trajectory(&plan.robot, &targets, plan.setup.start, progress)?.q)
+    Ok(joint_trajectory_from(&plan.robot, &targets, start, progress)?.q)
 }
 
 /// A correction [m] and tool axes, one per sample, plus what `result` lacks of the desired tips and

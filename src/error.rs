@@ -86,6 +86,22 @@ pub enum Error {
         /// Largest reach of the arm [m].
         reach_max: f64,
     },
+    /// A pose that the arm reaches, but not on the branch that it comes on: a joint would have to
+    /// turn far from one sample to the next.
+    BranchEnds {
+        /// Sample along the trajectory, from 0.
+        sample: usize,
+        /// Arc length along the path [m].
+        arc_length: f64,
+        /// Line of the program, from 1; 0 if the path has none.
+        line: usize,
+        /// The requested TCP position in the base frame [m].
+        position: [f64; 3],
+        /// The joint that would turn furthest, from 1.
+        joint: usize,
+        /// How far it would turn [rad].
+        turn: f64,
+    },
 }
 
 impl Error {
@@ -122,6 +138,7 @@ impl Error {
             Error::Missing { .. } => "missing",
             Error::Text { .. } => "text",
             Error::Unreachable { .. } => "unreachable",
+            Error::BranchEnds { .. } => "branch-ends",
         }
     }
 
@@ -134,7 +151,7 @@ impl Error {
             | Error::Invalid { field, .. }
             | Error::Missing { field, .. }
             | Error::Text { field, .. } => Some(field),
-            Error::Unreachable { .. } => None,
+            Error::Unreachable { .. } | Error::BranchEnds { .. } => None,
         }
     }
 
@@ -222,6 +239,26 @@ impl fmt::Display for Error {
                     distance * 1e3,
                     reach_min * 1e3,
                     reach_max * 1e3
+                )
+            }
+            Error::BranchEnds { sample, arc_length, line, position: [x, y, z], joint, turn } => {
+                write!(
+                    f,
+                    "the arm's branch ends: sample {sample}, {:.1} mm along the path",
+                    arc_length * 1e3
+                )?;
+                if *line > 0 {
+                    write!(f, ", line {line}")?;
+                }
+                write!(
+                    f,
+                    ", TCP at ({:.1}, {:.1}, {:.1}) mm in the base frame: joint {joint} would turn by {:.0} deg \
+                     from one sample to the next; take another start_branch or spin (angle, reference, or free), \
+                     turn the tool over a longer move, or move the part",
+                    x * 1e3,
+                    y * 1e3,
+                    z * 1e3,
+                    turn.to_degrees()
                 )
             }
         }

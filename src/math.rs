@@ -79,6 +79,9 @@ pub struct Turn {
 }
 
 impl Turn {
+    /// No turn.
+    pub const NONE: Self = Self { sin: 0.0, cos: 1.0 };
+
     /// The turn by an angle [rad].
     pub fn of(angle: f64) -> Self {
         let (sin, cos) = sin_cos(angle);
@@ -90,7 +93,7 @@ impl Turn {
     pub fn between(from: (f64, f64), to: (f64, f64)) -> Self {
         let (dot, cross) = (from.0 * to.0 + from.1 * to.1, from.0 * to.1 - from.1 * to.0);
         let size = (dot * dot + cross * cross).sqrt();
-        if size > 0.0 { Self { sin: cross / size, cos: dot / size } } else { Self { sin: 0.0, cos: 1.0 } }
+        if size > 0.0 { Self { sin: cross / size, cos: dot / size } } else { Self::NONE }
     }
 
     /// The angle [rad], in (-pi, pi].

@@ -39,7 +39,7 @@ fn thinned_lines_keep_every_point_within_the_tolerance() {
                 if case % 2 == 0 {
                     axis = (axis + any_vector(&mut random, 1e-3)).normalize();
                 }
-                Point { position: at, axis, spin: 0.0 }
+                Point { position: at, axis, spin: 0.0, s: 0.0 }
             })
             .collect();
         let tolerance = between(&mut random, 1e-6, 1e-3);
@@ -74,8 +74,12 @@ fn thinned_lines_keep_every_point_within_the_tolerance() {
 #[test]
 fn a_fillet_leaves_out_a_corner() {
     const LIMIT: f64 = 0.07;
-    let point =
-        |x: f64, y: f64| Point { position: Vector3::new(x, y, 0.1) * MM, axis: Vector3::z(), spin: 0.0 };
+    let point = |x: f64, y: f64| Point {
+        position: Vector3::new(x, y, 0.1) * MM,
+        axis: Vector3::z(),
+        spin: 0.0,
+        s: 0.0,
+    };
     for (turn, tolerance) in [(0.1_f64, 1e-6), (0.5, 1e-6), (1.5, 1e-5), (2.5, 1e-4), (0.5, 1.0)] {
         let (sin, cos) = sin_cos(turn);
         let after = point(2.0 + 2.0 * cos, 2.0 * sin);
@@ -113,6 +117,7 @@ fn thinning_is_exact_on_lines_and_bears_a_million_points() {
                 position: Vector3::new(i as f64 * 1e-4, 0.0, 0.0),
                 axis: Vector3::z(),
                 spin: 0.0,
+                s: 0.0,
             })
             .collect()
     };
@@ -125,7 +130,7 @@ fn thinning_is_exact_on_lines_and_bears_a_million_points() {
             let angle = f64::from(i) * 1e-3;
             let (sin, cos) = sin_cos(angle);
             let position = Vector3::new(cos * 0.1, sin * 0.1, angle * 1e-3);
-            Point { position, axis: Vector3::z(), spin: 0.0 }
+            Point { position, axis: Vector3::z(), spin: 0.0, s: 0.0 }
         })
         .collect();
     let kept = thin(&helix, 1e-6);

@@ -9,7 +9,7 @@ mod common;
 use armill::math::Pose;
 use armill::robot::inverse::{Margin, inverse};
 use armill::robot::{Joints, Link, Robot, forward};
-use common::{any_arm, any_joints, refused, run};
+use common::{any_arm, any_joints, refused, run, rx90};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -186,4 +186,33 @@ fn what_cannot_be_reached_is_refused_with_distance_and_reach() {
         error.to_string().contains("at (1310.0, ") && error.to_string().contains(", 60.0) mm"),
         "{error}"
     );
+}
+
+#[test]
+fn arms_with_four_axes_through_one_point_reach_what_they_reach() {
+    // Without a forearm axes 3 to 6 meet, without an upper arm and a shoulder offset axes 1 to 3 do:
+    // the wrist centre is then always at full reach, to the last digit.
+    let mut random = fastrand::Rng::with_seed(14);
+    let links = |change: fn(&mut [Link; 6])| {
+        let mut links = *rx90().links();
+        change(&mut links);
+        Robot::new("", links, None, [0.0; 6]).unwrap()
+    };
+    let no_forearm = links(|links| (links[3].a, links[3].d) = (0.0, 0.0));
+    let no_upper_arm = links(|links| (links[1].a, links[2].a) = (0.0, 0.0));
+    for robot in [no_forearm, no_upper_arm] {
+        assert!(robot.closed_form().is_err());
+        for _ in 0..300 {
+            let q = any_joints(&mut random);
+            let tcp = forward::forward(&robot, &q);
+            let found = inverse(&robot, &tcp, &q).unwrap();
+            for solution in found.iter() {
+                let reached = forward::forward(&robot, &solution.q);
+                assert!((reached.position - tcp.position).norm() < 1e-9);
+                assert!((reached.rotation - tcp.rotation).norm() < 1e-9);
+            }
+            // From a place that knows nothing of the answer, too.
+            assert!(inverse(&robot, &tcp, &Joints::zeros()).is_ok());
+        }
+    }
 }

@@ -333,7 +333,7 @@ fn the_tool_axis_turns_evenly_along_a_move() {
     for part in [0.0, 0.25, 0.5, 1.0] {
         let axis = path.axis(0.1 * part);
         assert!((axis.x - (whole * part).sin()).abs() < 1e-15 && axis.y == 0.0);
-        let orientation = path.orientation(&axis, 0.0);
+        let orientation = path.orientation(0.1 * part, &axis, 0.0);
         assert!((orientation.column(2) + axis).norm() < 1e-15, "TCP z is the approach");
         assert!((orientation.determinant() - 1.0).abs() < 1e-14);
     }

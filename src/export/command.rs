@@ -132,8 +132,8 @@ impl Command {
                 format!("the samples stray {} mm from the thinned path; state more", millimetres(deviation)),
             ));
         }
-        let start =
-            start.unwrap_or(Point { position: path.point(0.0), axis: path.axis(0.0), spin: path.roll(0.0) });
+        let on_path = |s: f64| Point { position: path.point(s), axis: path.axis(s), spin: path.roll(s), s };
+        let start = start.unwrap_or_else(|| on_path(0.0));
         Ok(Self { start, moves, thinning, deviation, samples: report.samples(), style, reached: None, path })
     }
 
@@ -178,7 +178,7 @@ impl Command {
 
     /// The TCP in the workpiece frame (see [`Path::orientation`]).
     pub fn pose(&self, point: &Point) -> Pose {
-        Pose { rotation: self.path.orientation(&point.axis, point.spin), position: point.position }
+        Pose { rotation: self.path.orientation(point.s, &point.axis, point.spin), position: point.position }
     }
 }
 
@@ -232,6 +232,7 @@ fn sampled_moves(
         position: back.point(&(trajectory.position[k] + correction[k])),
         axis: back.direction(commanded_path.axis.at(k)),
         spin: path.roll(arc_length[k]),
+        s: arc_length[k],
     };
     let last = arc_length.len() - 1;
     let mut k = 0;
@@ -262,6 +263,7 @@ fn sampled_moves(
                     + back.direction(&(correction[k - 1] * (1.0 - t) + correction[k] * t)),
                 axis: turned.normalize(),
                 spin: path.roll(end),
+                s: end,
             });
             desired.push(path.point(end));
         }
@@ -308,7 +310,7 @@ fn steps(
         let corners = ends.iter().any(|standing| standing.len() > 1);
         let strayed = thin::deviation(points, &kept, &ends);
         let mut ends = ends.concat();
-        ends.dedup();
+        ends.dedup_by_key(|point| (point.position, point.axis, point.spin));
         let straight: Vec<Step> = ends.into_iter().skip(1).map(|to| Step { to, arc: None }).collect();
         (straight, strayed, corners)
     };

@@ -8,7 +8,7 @@
 use crate::math;
 use nalgebra::Vector3;
 
-/// A tool position: tip, axis, and spin about it.
+/// A tool position: tip, axis, and spin about it, with the place on the path that it stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
     /// Tip [m].
@@ -17,6 +17,8 @@ pub struct Point {
     pub axis: Vector3<f64>,
     /// How far the TCP is turned about the axis [rad].
     pub spin: f64,
+    /// Arc length along the path [m].
+    pub s: f64,
 }
 
 /// The axis is held to the same tolerance as the tip, at this height above it [m].

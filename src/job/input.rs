@@ -6,6 +6,7 @@ use crate::job::cutting::{Cutting, Material, Tool};
 use crate::job::json::{Node, Read, keys};
 use crate::job::path::{Path, PathKind};
 use crate::job::source::Source;
+use crate::job::spin::Spin;
 use serde::Serialize;
 
 /// The whole job. `Job::default()` is the thesis's case.
@@ -172,31 +173,6 @@ pub struct Frame {
     pub rpy_deg: [f64; 3],
 }
 
-/// Rotation of the TCP about the tool axis. At zero, the x axis is workpiece +X projected onto the
-/// plane normal to the tool axis.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Spin {
-    /// Whether the angle is free.
-    pub mode: SpinMode,
-    /// The angle; for a free spin, the reference for comparison.
-    pub angle_deg: f64,
-    /// Smallest and largest angle of a free spin.
-    pub range_deg: [f64; 2],
-    /// Optimization goal of a free spin.
-    pub goal: SpinGoal,
-}
-
-impl Default for Spin {
-    fn default() -> Self {
-        Self {
-            mode: SpinMode::Fixed,
-            angle_deg: 0.0,
-            range_deg: [-180.0, 180.0],
-            goal: SpinGoal::SmoothJoints,
-        }
-    }
-}
-
 /// The arm's branch, of up to eight, at the start of the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Branch {
@@ -236,26 +212,6 @@ choice! {
         Near = "near",
         /// Turned by 180 degrees.
         Flipped = "flipped",
-    }
-}
-choice! {
-    /// Whether the spin is free.
-    SpinMode {
-        /// A constant angle.
-        #[default]
-        Fixed = "fixed",
-        /// Chosen along the path.
-        Free = "free",
-    }
-}
-choice! {
-    /// Optimization goal of a free spin.
-    SpinGoal {
-        /// Small and smooth joint motion.
-        #[default]
-        SmoothJoints = "smooth-joints",
-        /// Smallest error due to the cutting force.
-        LeastError = "least-error",
     }
 }
 choice! {
@@ -416,7 +372,6 @@ keys!(new Opw {
     a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm, joint_sign, joint_offset_deg
 } required c2_mm, c3_mm);
 keys!(Frame { xyz_mm, rpy_deg });
-keys!(Spin { mode, angle_deg, range_deg, goal });
 keys!(Branch { shoulder, elbow, wrist });
 keys!(Motion { feed_mm_s, rapid_mm_s, acceleration_mm_s2, sample_time_s, corner_angle_deg, corner_dwell });
 keys!(new ShaperSpec { kind, frequency_rad_s, frequency_hz, damping } required kind, damping);

@@ -7,6 +7,7 @@
 mod json;
 mod choice;
 mod source;
+mod spin;
 mod input;
 mod cutting;
 mod path;
@@ -18,7 +19,8 @@ pub use choice::{ChipThickness, Choice, CornerDwell, CornerRadius, FeedPerTooth,
 pub use cutting::{Cutting, Engaged, HelixHand, Line, Material, Tool, ToolBending};
 pub use input::{
     Branch, Compensation, DhRow, Elbow, Frame, Job, Joint3, Motion, Opw, Robot, SagZero, Shaper, ShaperKind,
-    ShaperSpec, Shoulder, Spin, SpinGoal, SpinMode, Wrist,
+    ShaperSpec, Shoulder, Wrist,
 };
 pub use path::{FeedUnit, Path, PathKind, Unit};
 pub use source::{Source, Sources};
+pub use spin::{Spin, SpinGoal, SpinMode, SpinReference};

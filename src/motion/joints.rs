@@ -3,11 +3,12 @@
 
 use crate::error::Error;
 use crate::math::Pose;
-use crate::motion::Trajectory;
+use crate::motion::{Trajectory, turns};
 use crate::path::{Axes, Path};
 use crate::progress::Progress;
 use crate::robot::inverse::{self, Margin, Solution};
 use crate::robot::{Joints, Robot};
+use crate::units::DEG;
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 
@@ -52,51 +53,138 @@ impl<'a> Targets<'a> {
         let Trajectory { timing, position, axis, .. } = trajectory;
         Self { path, arc_length: &timing.arc_length, position, axis }
     }
+
+    /// The TCP at the sample `k`.
+    fn tcp(&self, k: usize) -> Pose {
+        let s = self.arc_length[k];
+        let rotation = self.path.orientation(s, self.axis.at(k), self.path.roll(s));
+        Pose { rotation, position: self.position[k] }
+    }
 }
 
-/// Solves the inverse model for each target, with each solution nearest to the one before.
+/// Turn of a joint from one sample to the next that is no motion of the arm [rad]. Beside a wrist
+/// singularity the nearer of the two wrists turns by a quarter turn at most; another branch, by
+/// nearly half a turn.
+const HALF_TURN: f64 = 120.0 * DEG;
+/// The same where the arm changes shoulder or elbow: through their singularities it turns smoothly
+/// [rad].
+const CHANGED: f64 = 30.0 * DEG;
+
+/// Solves the inverse model for each target, with each solution nearest to the one before, in the
+/// whole turns of the joints that suit their ranges.
 ///
 /// # Errors
-/// [`Error::Unreachable`] with the sample and its arc length; [`Error::Invalid`] if the start has
-/// no solution on the requested branch.
+/// [`Error::Unreachable`] with the sample and its arc length; [`Error::BranchEnds`] where only
+/// another branch goes on; [`Error::Invalid`] if the start has no solution on the requested branch.
 pub fn joint_trajectory(
     robot: &Robot,
     targets: &Targets,
     start: StartBranch,
     progress: &mut Progress,
 ) -> Result<JointTrajectory, Error> {
+    let first = start_solution(robot, targets, start)?;
+    let mut joints = follow(robot, targets, first, progress)?;
+    turns::into_ranges(robot, Arc::make_mut(&mut joints.q).as_mut_slice());
+    Ok(joints)
+}
+
+/// As [`joint_trajectory`], from the solution nearest to given joint values [rad], in their whole
+/// turns.
+///
+/// # Errors
+/// See [`joint_trajectory`].
+pub fn joint_trajectory_from(
+    robot: &Robot,
+    targets: &Targets,
+    start: &Joints,
+    progress: &mut Progress,
+) -> Result<JointTrajectory, Error> {
+    let first = nearest_start(robot, targets, start)?;
+    follow(robot, targets, first, progress)
+}
+
+/// The solutions from the first on.
+fn follow(
+    robot: &Robot,
+    targets: &Targets,
+    first: Solution,
+    progress: &mut Progress,
+) -> Result<JointTrajectory, Error> {
     let Targets { path, arc_length, position: positions, axis: axes } = *targets;
     let mut q = Vec::with_capacity(positions.len());
     let mut margin = Vec::with_capacity(positions.len());
-    let mut previous: Option<Solution> = None;
-    let mut first = None;
-    // Axis, roll and orientation of the last sample; mostly the next sample has the same.
-    let mut held = (Vector3::zeros(), 0.0, Matrix3::zeros());
-    for (k, position) in positions.iter().enumerate() {
+    q.push(first.q);
+    margin.push(first.margin);
+    progress.sample(0, positions.len());
+    let mut last = first;
+    // What gives the orientation of the last sample, and it; mostly the next sample has the same.
+    let mut held = ((Vector3::zeros(), 0.0, path.roll_zero(0.0)), Matrix3::zeros());
+    for (k, position) in positions.iter().enumerate().skip(1) {
         let s = arc_length[k];
-        let (axis, roll) = (axes.at(k), path.roll(s));
-        if (held.0, held.1) != (*axis, roll) {
-            held = (*axis, roll, path.orientation(axis, roll));
+        let (axis, roll, zero) = (axes.at(k), path.roll(s), path.roll_zero(s));
+        if held.0 != (*axis, roll, zero) {
+            held = ((*axis, roll, zero), zero.orientation(axis, roll));
         }
-        let tcp = Pose { rotation: held.2, position: *position };
-        let place = |error: Error| error.at(k, s);
-        let solution = match &previous {
-            None => first_solution(robot, &tcp, start).map_err(place)?,
-            Some(last) => next_solution(robot, &tcp, last).map_err(place)?,
-        };
-        first.get_or_insert(solution.branch);
-        q.push(solution.q);
-        margin.push(solution.margin);
-        previous = Some(solution);
+        let tcp = Pose { rotation: held.1, position: *position };
+        let next = next_solution(robot, &tcp, &last).map_err(|error| error.at(k, s))?;
+        if jumps(&last, &next) {
+            return Err(branch_ends(targets, k, &(next.q - last.q)));
+        }
+        q.push(next.q);
+        margin.push(next.margin);
+        last = next;
         progress.sample(k, positions.len());
     }
-    match first {
-        Some(start) => Ok(JointTrajectory { q: Arc::new(q), margin, start }),
-        None => Err(Error::missing("path", "a path has points")),
+    Ok(JointTrajectory { q: Arc::new(q), margin, start: first.branch })
+}
+
+/// Whether the arm cannot go from one solution to the next within a sample.
+pub(crate) fn jumps(last: &Solution, next: &Solution) -> bool {
+    let (from, to) = (last.branch, next.branch);
+    let changed = from.front != to.front || from.elbow_positive != to.elbow_positive;
+    (next.q - last.q).amax() > if changed { CHANGED } else { HALF_TURN }
+}
+
+/// The error for a turn of the joints at a sample.
+fn branch_ends(targets: &Targets, sample: usize, turn: &Joints) -> Error {
+    let (arc_length, position) = (targets.arc_length[sample], targets.position[sample]);
+    let joint = turn.iamax();
+    Error::BranchEnds {
+        sample,
+        arc_length,
+        line: targets.path.moves()[targets.path.locate(arc_length).0].line,
+        position: position.into(),
+        joint: joint + 1,
+        turn: turn[joint].abs(),
     }
 }
 
-/// The solution that a motion starts from.
+/// The solution that the motion along targets starts from. In the wrist singularity, where any q4
+/// will do, it has that of the first sample beyond.
+fn start_solution(robot: &Robot, targets: &Targets, start: StartBranch) -> Result<Solution, Error> {
+    let solution = |k: usize| {
+        let place = |error: Error| error.at(k, targets.arc_length[k]);
+        first_solution(robot, &targets.tcp(k), start).map_err(place)
+    };
+    let first = solution(0)?;
+    if first.margin.wrist > inverse::WRIST_SINGULAR {
+        return Ok(first);
+    }
+    let next = (1..targets.position.len()).map_while(|k| solution(k).ok());
+    match next.into_iter().find(|next| next.margin.wrist > inverse::WRIST_SINGULAR) {
+        Some(regular) => nearest_start(robot, targets, &regular.q),
+        None => Ok(first),
+    }
+}
+
+/// The solution at the start nearest to joint values [rad].
+fn nearest_start(robot: &Robot, targets: &Targets, q: &Joints) -> Result<Solution, Error> {
+    let tcp = targets.tcp(0);
+    let solutions = inverse::inverse(robot, &tcp, q).map_err(|error| error.at(0, targets.arc_length[0]))?;
+    solutions.nearest(q).copied().ok_or_else(|| inverse::unclosed(&tcp))
+}
+
+/// The solution that a motion starts from, each joint in its range if a whole turn brings it there.
 pub(crate) fn first_solution(robot: &Robot, tcp: &Pose, start: StartBranch) -> Result<Solution, Error> {
     let solutions = inverse::inverse(robot, tcp, &Joints::zeros())?;
     let (near, flipped) = {
@@ -108,7 +196,7 @@ pub(crate) fn first_solution(robot: &Robot, tcp: &Pose, start: StartBranch) -> R
         (wrists.first().copied(), wrists.last().copied())
     };
     let chosen = if start.wrist_near { near } else { flipped };
-    chosen.copied().ok_or_else(|| {
+    let mut chosen = chosen.copied().ok_or_else(|| {
         Error::invalid(
             "start_branch",
             format!(
@@ -118,7 +206,9 @@ pub(crate) fn first_solution(robot: &Robot, tcp: &Pose, start: StartBranch) -> R
             ),
             "the path's first point has no solution on it; choose another",
         )
-    })
+    })?;
+    turns::into_ranges(robot, std::slice::from_mut(&mut chosen.q));
+    Ok(chosen)
 }
 
 /// The solution nearest to the one before.

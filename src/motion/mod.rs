@@ -4,6 +4,7 @@ pub mod profile;
 pub mod trajectory;
 pub mod shaper;
 pub mod joints;
+pub mod turns;
 pub mod roll;
 
 pub use profile::Profile;

@@ -187,7 +187,8 @@ impl Search<'_> {
 
     /// The TCP at a station with a roll.
     fn tcp(&self, station: usize, angle: f64) -> Pose {
-        let rotation = self.path.orientation(self.stations.axis.at(station), angle);
+        let s = self.stations.timing.arc_length[station];
+        let rotation = self.path.orientation(s, self.stations.axis.at(station), angle);
         Pose { rotation, position: self.stations.position[station] }
     }
 

@@ -6,6 +6,7 @@
 pub mod segment;
 pub mod shape;
 pub mod axes;
+pub mod reference;
 pub mod roll;
 pub mod program;
 pub mod unit;
@@ -14,8 +15,9 @@ pub mod gcode;
 pub mod apt;
 pub mod csv;
 
-pub use axes::Axes;
+pub use axes::{Axes, AxisArc};
 pub use program::{Move, MovePace, Program, SourceProgram, Tool};
+pub use reference::{RollReference, RollZero};
 pub use roll::Roll;
 pub use segment::Segment;
 
@@ -30,7 +32,9 @@ pub struct Path {
     /// Arc length at the start of each move, and at the end of the last [m].
     starts: Arc<[f64]>,
     waits: Arc<[Wait]>,
-    x_reference: Vector3<f64>,
+    /// The workpiece's x and y axes: an axis that is reversed within a move goes by one of them.
+    ways: [Vector3<f64>; 2],
+    reference: RollReference,
     roll: Roll,
 }
 
@@ -94,11 +98,12 @@ impl Path {
         }
         starts.push(s);
         waits.extend(dwells.map(|dwell| Wait { s, time: dwell.time }));
-        (!moves.is_empty()).then_some(Self {
+        (!moves.is_empty()).then(|| Self {
+            reference: RollReference::chosen(&moves),
             moves: moves.into(),
             starts: starts.into(),
             waits: waits.into(),
-            x_reference: Vector3::x(),
+            ways: [Vector3::x(), Vector3::y()],
             roll: Roll::fixed(0.0),
         })
     }
@@ -113,7 +118,8 @@ impl Path {
         };
         Self {
             moves: self.moves.iter().map(place).collect(),
-            x_reference: frame.direction(&self.x_reference),
+            ways: self.ways.map(|way| frame.direction(&way)),
+            reference: self.reference.placed(frame),
             ..self.clone()
         }
     }
@@ -123,10 +129,20 @@ impl Path {
         Self { roll, ..self }
     }
 
-    /// The path with the roll of `other`, matched at the same fraction of the length.
+    /// The path, in the workpiece frame, with the roll counted from a direction in that frame.
+    pub fn with_reference(self, direction: &Vector3<f64>) -> Self {
+        Self { reference: RollReference::Set(RollZero::along(direction)), ..self }
+    }
+
+    /// The path with the roll of `other`, matched at the same fraction of the length. If `other`
+    /// carries its roll along, this path carries its own.
     pub fn rolled_as(self, other: &Path) -> Self {
         let roll = other.roll.stretched(self.length() / other.length());
-        self.with_roll(roll)
+        let reference = match &other.reference {
+            RollReference::Carried(starts) => RollReference::carried(&self.moves, starts[0], &self.ways),
+            zero => zero.clone(),
+        };
+        Self { reference, ..self }.with_roll(roll)
     }
 
     /// The moves in order; all have a length above 0.
@@ -174,10 +190,14 @@ impl Path {
         if axis_from == axis_to {
             return *axis_from;
         }
-        let angle = math::angle_between(axis_from, axis_to);
-        let side = math::across(axis_from, axis_to, &self.x_reference);
-        let (sin, cos) = math::sin_cos(angle * within / segment.length());
-        axis_from * cos + side * sin
+        let arc = AxisArc::by(axis_from, axis_to, &self.ways);
+        arc.at(arc.angle() * within / segment.length())
+    }
+
+    /// The least angle between the tool axis and either way along a direction [rad], in [0, pi/2],
+    /// and the index of the move where it is met.
+    pub fn clearance(&self, direction: &Vector3<f64>) -> (f64, usize) {
+        reference::clearance(&self.moves, direction)
     }
 
     /// Rotation of the TCP about the tool axis at the arc length `s` [m], in rad, counter-clockwise
@@ -186,21 +206,47 @@ impl Path {
         self.roll.at(s)
     }
 
-    /// Workpiece +X projected onto the plane normal to a tool axis.
-    pub fn reference(&self, axis: &Vector3<f64>) -> Vector3<f64> {
-        math::across(&-axis, &self.x_reference, &axis.cross(&self.x_reference))
+    /// What the TCP's x axis follows.
+    pub fn roll_reference(&self) -> &RollReference {
+        &self.reference
     }
 
-    /// Orientation of the TCP for a tool axis: z = approach (against the axis), x = workpiece +X
-    /// projected onto the plane normal to the axis, rotated by `roll` [rad].
-    pub fn orientation(&self, axis: &Vector3<f64>, roll: f64) -> Matrix3<f64> {
-        let z = -axis;
-        let mut x = self.reference(axis);
-        if roll != 0.0 {
-            let (sin, cos) = math::sin_cos(roll);
-            x = x * cos + axis.cross(&x) * sin;
+    /// Where the roll is zero at the arc length `s` [m].
+    pub fn roll_zero(&self, s: f64) -> RollZero {
+        match &self.reference {
+            RollReference::Chosen(_, zero) | RollReference::Set(zero) => *zero,
+            RollReference::Carried(starts) => {
+                let (index, within) = self.locate(s);
+                let Move { segment, axis_from, axis_to, .. } = &self.moves[index];
+                let arc = AxisArc::by(axis_from, axis_to, &self.ways);
+                let x = arc.carried(&starts[index], arc.angle() * within / segment.length());
+                RollZero::of_x_axis(&x)
+            }
         }
-        Matrix3::from_columns(&[x, z.cross(&x), z])
+    }
+
+    /// How far the TCP arrives turned about the tool axis because its x axis is carried along [rad],
+    /// in (-pi, pi]: against the start, by the direct way from the last tool axis to the first.
+    /// `None` if it is not carried.
+    pub fn carried_turn(&self) -> Option<f64> {
+        let RollReference::Carried(starts) = &self.reference else { return None };
+        let (first, last) = (self.moves[0].axis_from, self.moves[self.moves.len() - 1].axis_to);
+        let arrived = self.roll_zero(self.length()).x_axis(&last);
+        let arrived = AxisArc::by(&last, &first, &self.ways).carried_to_its_end(&arrived);
+        let start = starts[0];
+        Some(math::atan2(first.dot(&start.cross(&arrived)), start.dot(&arrived)))
+    }
+
+    /// A direction across a tool axis, for where the feed gives none: the TCP's x axis at the
+    /// start, without roll.
+    pub fn reference(&self, axis: &Vector3<f64>) -> Vector3<f64> {
+        self.roll_zero(0.0).x_axis(axis)
+    }
+
+    /// Orientation of the TCP at the arc length `s` [m] for a tool axis there: z = approach
+    /// (against the axis), x = that of zero roll, rotated by `roll` [rad].
+    pub fn orientation(&self, s: f64, axis: &Vector3<f64>, roll: f64) -> Matrix3<f64> {
+        self.roll_zero(s).orientation(axis, roll)
     }
 
     /// The move at the arc length `s` [m], and the arc length within it. A junction belongs to the

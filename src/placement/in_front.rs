@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::job::Job;
 use crate::math::Pose;
-use crate::motion::joints::{StartBranch, first_solution, next_solution};
+use crate::motion::joints::{StartBranch, first_solution, jumps, next_solution};
 use crate::progress::Progress;
 use crate::robot::inverse::Solution;
 use crate::robot::{Joints, Robot, forward};
@@ -29,7 +29,7 @@ pub fn in_front(job: &Job) -> Result<[f64; 3], Error> {
     let setup = Setup::of(job, &mut Progress::none())?;
     let (path, robot) = (&setup.path, &setup.robot);
     let along = |k: usize| path.length() * k as f64 / (POSES - 1) as f64;
-    let pose = |s: f64| (path.point(s), path.orientation(&path.axis(s), path.roll(s)));
+    let pose = |s: f64| (path.point(s), path.orientation(s, &path.axis(s), path.roll(s)));
     let poses: Vec<(Vector3<f64>, Matrix3<f64>)> = (0..POSES).map(|k| pose(along(k))).collect();
     let (mut low, mut high) = (poses[0].0, poses[0].0);
     for (point, _) in &poses {
@@ -66,7 +66,7 @@ pub fn in_front(job: &Job) -> Result<[f64; 3], Error> {
 }
 
 /// The least room along the path to singularities, and to joint limits where they are known; `None`
-/// if a pose has no solution within the joint ranges.
+/// if a pose has no solution within the joint ranges, or the branch ends.
 fn room(
     robot: &Robot,
     poses: &[(Vector3<f64>, Matrix3<f64>)],
@@ -82,6 +82,9 @@ fn room(
             Some(last) => next_solution(robot, &tcp, last),
         };
         let solution = solution.ok()?;
+        if last.is_some_and(|last| jumps(&last, &solution)) {
+            return None;
+        }
         least = least.min(solution.margin.elbow).min(solution.margin.wrist);
         for (q, (low, high)) in solution.q.iter().zip(robot.limits().into_iter().flatten()) {
             least = least.min((q - low).min(high - q) / ROOM);

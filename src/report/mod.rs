@@ -8,6 +8,7 @@ mod budget;
 mod cut;
 mod drives;
 mod onset;
+mod reference;
 mod roll;
 mod summary;
 

@@ -7,7 +7,7 @@ use crate::deviation::{Deviation, Sources};
 use crate::math;
 use crate::path::{Move, MovePace, Tool};
 use crate::plan::Plan;
-use crate::report::{Report, drives, onset};
+use crate::report::{Report, drives, onset, reference};
 use crate::robot::Joints;
 use crate::robot::equilibrium::equilibrium;
 use crate::robot::inverse::Margin;
@@ -145,6 +145,7 @@ pub(crate) fn warnings(report: &Report) -> Vec<Warning> {
             format!("the joint values are solved numerically: {reason}"),
         ));
     }
+    warnings.extend(reference::remark(&plan.path));
     springs(report, &mut warnings);
     limits(report, &mut warnings);
     warnings.extend_from_slice(singular);
@@ -292,7 +293,7 @@ pub(crate) fn singularities(plan: &Plan, q: &[Joints], margins: &[Margin]) -> Ve
     let jumps = |k: usize| k > 0 && (q[k] - q[k - 1]).amax() > JUMP;
     if let Some(range) = range(q.len(), jumps) {
         let message = format!(
-            "a joint turns more than {:.0} deg from one sample to the next: the arm changes branch or passes a singularity",
+            "a joint turns more than {:.0} deg from one sample to the next: the arm passes a singularity",
             JUMP / DEG
         );
         warnings.push(Warning::new("joint-jump", message).within(range, dt));

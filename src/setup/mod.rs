@@ -112,6 +112,7 @@ impl Setup {
         let workpiece = base.inverse().compose(&frame(&job.workpiece_frame));
         let (path, program) = path::desired(job, progress)?;
         let roll = job.spin.angle_deg * DEG;
+        let path = motion::with_reference(path, &job.spin)?;
         let path = path.placed(&workpiece).with_roll(Roll::fixed(roll));
         let roll_range = motion::roll_range(&job.spin)?;
         let (shaper, mode) = motion::shaper(&job.shaper)?;

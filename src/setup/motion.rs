@@ -1,12 +1,14 @@
 //! The job's motion, shaper, start and roll about the tool axis.
 
 use crate::error::Error;
-use crate::job::{self, Choice, Elbow, ShaperSpec, Shoulder, SpinGoal, SpinMode, Wrist};
+use crate::job::{self, Choice, Elbow, ShaperSpec, Shoulder, SpinGoal, SpinMode, SpinReference, Wrist};
 use crate::motion::joints::StartBranch;
 use crate::motion::roll::{RollGoal, RollRange};
 use crate::motion::trajectory::MotionLimits;
 use crate::motion::{Shaper, shaper};
+use crate::path::{Path, reference};
 use crate::units::{DEG, HZ, MM};
+use nalgebra::Vector3;
 
 /// Limits of the motion. A shaped motion waits in corners until the shaper has settled, unless the
 /// job sets another time.
@@ -53,6 +55,38 @@ pub(super) fn roll_range(spin: &job::Spin) -> Result<Option<RollRange>, Error> {
         SpinGoal::LeastError => RollGoal::LeastError,
     };
     Ok(Some(RollRange { low: low * DEG, high: high * DEG, goal }))
+}
+
+/// Least angle between the tool axis and either way along a reference that the job sets [rad].
+const LEGAL: f64 = DEG;
+
+/// A path in the workpiece frame with its roll counted from what the job sets, if it does.
+pub(super) fn with_reference(path: Path, spin: &job::Spin) -> Result<Path, Error> {
+    let field = "spin.reference";
+    let Some(given) = spin.reference.direction() else { return Ok(path) };
+    let value = serde_json::to_string(&spin.reference).unwrap_or_default();
+    let direction = Vector3::from(given);
+    if direction.norm() < 1e-9 {
+        return Err(Error::invalid(field, value, "a direction; its length does not matter"));
+    }
+    let (clear, index) = path.clearance(&direction);
+    if clear >= LEGAL {
+        return Ok(path.with_reference(&direction));
+    }
+    let keeps_clear = |i: &usize| path.clearance(&Vector3::ith(*i, 1.0)).0 >= reference::CLEAR;
+    let legal: Vec<_> =
+        (0..3).filter(keeps_clear).map(|i| format!("\"{}\"", SpinReference::WORDS[i + 1])).collect();
+    let others = if legal.is_empty() { "\"auto\"".to_owned() } else { legal.join(" or ") };
+    let step = &path.moves()[index];
+    let line = if step.line > 0 { format!(", line {}", step.line) } else { String::new() };
+    let expected = format!(
+        "the tool axis comes within {:.1} deg of it ({:.1} mm along the path{line}); \
+         legal is a direction that keeps {:.0} deg clear, such as {others}",
+        clear / DEG,
+        path.start(index) / MM,
+        LEGAL / DEG
+    );
+    Err(Error::invalid(field, value, expected))
 }
 
 /// The shaper, with frequency [rad/s] and damping ratio of its mode.

@@ -112,7 +112,7 @@ pub(crate) type Pinned = (&'static str, Vec<(&'static str, Value)>, &'static str
 pub(crate) fn pinned() -> [Pinned; 5] {
     use serde_json::json;
     [
-        ("default", vec![], "3347c54641b4dd0b9761a478438bd43d"),
+        ("default", vec![], "7ad562977ff845845e1fd0f10a6edefc"),
         (
             "rounded rectangle, EI in Hz, chip from feed, tilted part, offset tool",
             vec![

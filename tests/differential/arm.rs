@@ -56,7 +56,7 @@ pub(crate) struct Arm {
     offset: [f64; 6],
     /// How far joint 3 turns from the upper arm per turn of joint 2 while joint 3 is commanded
     /// constant.
-    follows: f64,
+    pub(crate) follows: f64,
     /// [rad/(N m)]
     pub(crate) compliance: [f64; 6],
     tool: Matrix4<f64>,

@@ -210,10 +210,11 @@ pub(crate) fn differences(
 ) -> Result<Vec<(usize, f64)>, String> {
     let summary = report.summary();
     let seen = (summary.passes, report.compensation.stopped.is_some(), report.samples());
-    let plain = (answer.passes, answer.stopped == Some(Refusal::Reach), answer.desired.len());
-    // Where a correction reaches the end of the branch, the plain arm stops. Armill's jumps to
-    // another branch, sees no improvement, and drops the pass.
-    let dropped = usize::from(answer.stopped == Some(Refusal::Branch));
+    // Where a correction reaches the end of the branch, both stop, unless another branch is so near
+    // that Armill's goes on, sees no improvement, and drops the pass.
+    let goes_on = answer.stopped == Some(Refusal::Branch) && report.compensation.stopped.is_none();
+    let plain = (answer.passes, answer.stopped.is_some() && !goes_on, answer.desired.len());
+    let dropped = usize::from(goes_on);
     if seen != plain || summary.history_max_mm.len() != answer.history.len() + dropped {
         return Err(format!("passes, stopped and samples are {seen:?}, plain {plain:?}"));
     }

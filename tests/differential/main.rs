@@ -78,7 +78,12 @@ fn judge(number: u64, robots: &[Preset]) -> Verdict {
         {
             Verdict::Agreed("no such branch at the start")
         }
-        // The plain arm stays on its branch.
+        // The plain arm stays on its branch; another that is near may go on.
+        (Err(Error::BranchEnds { sample: ours, .. }), Err(Refused { sample, why: Refusal::Branch }))
+            if ours == sample =>
+        {
+            Verdict::Agreed("the branch ends, at the same sample")
+        }
         (Ok(report), Err(Refused { sample: 1.., why: Refusal::Branch }))
             if report.warnings.iter().any(|warning| warning.code == "joint-jump") =>
         {

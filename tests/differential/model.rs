@@ -4,7 +4,7 @@ use crate::arm::{Arm, Joints, Refusal, column, frame};
 use crate::cut::{Beam, Cut, Force};
 use crate::way::{Instant, Piece, Tempo, Way};
 use nalgebra::{Matrix4, Vector3};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// A job in SI, with every preset resolved.
 pub(crate) struct Question {
@@ -293,6 +293,11 @@ impl Question {
         let (desired, moving) = self.way.travel(&self.tempo);
         let position: Vec<_> = desired.iter().map(|at| self.way.point(at.s)).collect();
         let q = self.joints(&position)?;
+        let turns = self.turns(&q);
+        let turned = |all: Vec<Joints>| -> Vec<Joints> {
+            all.into_iter().map(|q| std::array::from_fn(|i| q[i] + turns[i])).collect()
+        };
+        let q = turned(q);
         let outcome = |q: &[Joints], acting| self.outcome(&desired, q, &force, acting);
         let deflection_only = outcome(&q, Sources { deflection: true, shaping: false });
         let shaping_only = outcome(&q, Sources { deflection: false, shaping: true });
@@ -322,7 +327,7 @@ impl Question {
             let next: Vec<_> = correction.iter().zip(&more).map(|(c, more)| c + more).collect();
             let positions: Vec<_> = position.iter().zip(&next).map(|(p, c)| p + c).collect();
             let commands = match self.joints(&positions) {
-                Ok(commands) => commands,
+                Ok(commands) => turned(commands),
                 Err(refused) => {
                     stopped = Some(refused.why);
                     break;
@@ -374,6 +379,23 @@ impl Question {
             }
         }
         command
+    }
+
+    /// Whole turns [rad] that bring each joint into its range all along, or else at the start, or
+    /// else none.
+    fn turns(&self, q: &[Joints]) -> Joints {
+        let Some(limits) = self.limits else { return [0.0; 6] };
+        let displayed: Vec<_> = q.iter().map(|q| self.arm.displayed(q)).collect();
+        let turns: Joints = std::array::from_fn(|i| {
+            let fits = |samples: &[Joints], turn: f64| {
+                samples.iter().all(|q| (limits[i][0]..=limits[i][1]).contains(&(q[i] + turn)))
+            };
+            let few = [0.0, TAU, -TAU, 2.0 * TAU, -2.0 * TAU];
+            let found = few.iter().find(|turn| fits(&displayed, **turn));
+            found.or_else(|| few.iter().find(|turn| fits(&displayed[..1], **turn))).copied().unwrap_or(0.0)
+        });
+        let [q1, q2, q3, q4, q5, q6] = turns;
+        [q1, q2, q3 + self.arm.follows * q2, q4, q5, q6]
     }
 
     /// Whether a joint, by the desired or the compensated command, leaves its range; how near it

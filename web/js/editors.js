@@ -27,6 +27,7 @@ export function editorFor(field) {
   if (field.kind === "number" && field.choices) return numberOrWord(field, field.choices[0]);
   if (field.kind === "choice") return choice(field);
   if (field.kind === "set") return checkboxes(field);
+  if (field.kind === "vector" && field.choices) return wordOrVector(field);
   if (field.kind === "vector") return vector(field);
   if (field.path === "robot.opw") return lengths(field);
   if (field.kind === "table") return table(field);
@@ -161,6 +162,30 @@ function vector(field) {
     read: () => inputs.map((input) => typedNumber(input)),
     write: (values) => inputs.forEach((input, i) => (input.value = plainNumber(values[i]))),
     at: (rest) => inputs[indexIn(rest)] ?? inputs[0],
+  };
+}
+
+/** One of a few words, or a vector of one's own. */
+function wordOrVector(field) {
+  const words = choice(field);
+  const [select] = words.inputs;
+  select.setAttribute("aria-labelledby", `${select.id}-label`);
+  select.append(make("option", { value: "" }, "a direction"));
+  const own = vector({ path: `${field.path}.direction` });
+  own.node.setAttribute("aria-labelledby", `${select.id}-label`);
+  // A direction starts as the first axis; afterwards as it was last. The style sheet hides it
+  // behind a word.
+  own.write([1, 0, 0]);
+  return {
+    node: make("div", { className: "word-or-vector" }, select, own.node),
+    inputs: [select, ...own.inputs],
+    read: () => select.value || own.read(),
+    write(value) {
+      const isWord = typeof value === "string";
+      select.value = isWord ? value : "";
+      if (!isWord) own.write(value);
+    },
+    at: (rest) => (rest ? own.at(rest) : select),
   };
 }
 

@@ -173,7 +173,7 @@ const events = {
     if (form.showError(error)) return stale();
     state("stale");
     const where = error.line ? ` (line ${error.line}, column ${error.column})` : "";
-    if (error.code === "unreachable" || error.field === "path")
+    if (["unreachable", "branch-ends"].includes(error.code) || error.field === "path")
       alertOn(error.message, "Place the path in front of this robot", placeInFront);
     else alertOn(`${error.message}${where}`);
     say(lastValid().trim() || "No result yet.");

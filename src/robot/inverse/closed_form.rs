@@ -12,7 +12,7 @@ use crate::robot::{Joints, Robot, forward};
 use nalgebra::{Matrix3, Vector3};
 
 /// |sin q5| below which only the sum of q4 and q6 is determined.
-const WRIST_SINGULAR: f64 = 1e-10;
+pub(crate) const WRIST_SINGULAR: f64 = 1e-10;
 
 /// Calls `take` with each solution that the forward model confirms, on every branch or on `only`
 /// one.

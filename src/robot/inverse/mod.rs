@@ -7,6 +7,7 @@ mod solution;
 mod closed_form;
 mod numerical;
 
+pub(crate) use closed_form::WRIST_SINGULAR;
 pub use solution::{Branch, Margin, Solution, Solutions};
 
 use crate::error::Error;
