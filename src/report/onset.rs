@@ -10,15 +10,15 @@ pub(super) fn warning(report: &Report) -> Option<Warning> {
     if duration == 0.0 || report.compensation.passes == 0 || report.after_max() <= setup.goal.tolerance {
         return None;
     }
-    // The correction for a sample is commanded up to the shaper's duration earlier, and its traces
-    // last as long.
+    // The correction for a sample is commanded up to the shaper's duration earlier; what it lacks
+    // shows up to two durations later.
     let reach = (duration / dt).ceil() as usize;
     let share = report.run_in();
     let begins: Vec<usize> = (0..report.samples()).filter(|&k| share[k] > 0.0 && share[k] < 1.0).collect();
     let errors = &report.after.contour_error;
     let left = |k: &usize| errors[*k].norm();
     let near = |k: &usize| {
-        let from = begins.partition_point(|begin| begin + reach < *k);
+        let from = begins.partition_point(|begin| begin + 2 * reach < *k);
         begins.get(from).is_some_and(|begin| *begin <= k + reach)
     };
     let beyond: Vec<usize> =
