@@ -241,6 +241,10 @@ fn check_error(error: &Error, json: &str, program: &str) {
             assert!(position.iter().chain([distance]).all(|x| x.is_finite()), "{error:?}");
             return;
         }
+        Error::BranchEnds { position, turn, .. } => {
+            assert!(position.iter().chain([turn]).all(|x| x.is_finite()), "{error:?}");
+            return;
+        }
         _ => return assert!(error.field().is_some_and(|field| !field.is_empty()), "{error:?}"),
     };
     let (line, column) = place(error);
