@@ -1,4 +1,5 @@
 //! The arm's branch: where it ends, its whole turns, and a start in the wrist singularity.
+#![allow(clippy::disallowed_methods, reason = "compared within tolerances")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;

@@ -1,4 +1,5 @@
 //! What the spin counts from: tool axes along the workpiece's X, over it, and all around.
+#![allow(clippy::disallowed_methods, reason = "compared within tolerances")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
@@ -6,13 +7,14 @@ mod common;
 use armill::export::command::Command;
 use armill::export::commanded_path::CommandedPath;
 use armill::export::style::PostStyle;
-use armill::path::RollReference;
+use armill::path::{AxisArc, RollReference};
 use armill::robot::{Robot, forward, library};
 use armill::verification::replay;
 use armill::{Report, math::angle_between};
-use common::{job_text, refused, run};
+use common::{any_vector, job_text, refused, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
+use std::f64::consts::PI;
 
 /// A KR 210 without tool, shaper and cut along points with tool axes.
 fn changes(text: &str, more: &[(&'static str, Value)]) -> Vec<(&'static str, Value)> {
@@ -224,6 +226,40 @@ fn where_no_axis_keeps_clear_the_spin_is_carried_without_twist() {
     // A turn of 0.1 deg a step leaves its cube as twist.
     assert!(twist < 1e-4, "{twist}");
     assert!((at(count).1 - Vector3::y()).norm() < 1e-9, "a quarter turn later, X is Y");
+}
+
+#[test]
+fn the_clearance_along_a_way_is_the_least_of_all_places() {
+    let mut random = fastrand::Rng::with_seed(15);
+    let mut any = || any_vector(&mut random, 1.0).normalize();
+    let steps = 2000;
+    let mut between = 0;
+    for _ in 0..200 {
+        let (from, to, direction) = (any(), any(), any());
+        let arc = AxisArc::between(&from, &to);
+        let off = |k: i32| {
+            let angle = angle_between(&arc.at(arc.angle() * f64::from(k) / f64::from(steps)), &direction);
+            angle.min(PI - angle)
+        };
+        let (least, at) = (0..=steps).map(|k| (off(k), k)).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+        between += i32::from(at > 0 && at < steps);
+        let clearance = arc.clearance(&direction);
+        // The nearest place is at most half a step from one of these.
+        assert!(clearance <= least + 1e-12, "{clearance}, not {least}");
+        assert!(least - clearance <= arc.angle() / f64::from(steps), "{clearance}, not {least}");
+        assert!((arc.at(arc.angle()) - to).norm() < 1e-12);
+    }
+    assert!(between > 30, "{between} within the way");
+}
+
+#[test]
+fn a_reversed_axis_has_a_way_even_along_x() {
+    for (from, way) in
+        [(Vector3::z(), Vector3::x()), (-Vector3::x(), Vector3::y()), (Vector3::y(), Vector3::x())]
+    {
+        let arc = AxisArc::between(&from, &-from);
+        assert!((arc.at(PI / 2.0) - way).norm() < 1e-12 && (arc.angle() - PI).abs() < 1e-12);
+    }
 }
 
 #[test]

@@ -49,7 +49,7 @@ pub struct Field {
     pub unit: &'static str,
     /// How it is entered.
     pub kind: FieldKind,
-    /// Words it accepts, with their labels; a number field takes them in addition to numbers.
+    /// Words it accepts, with their labels; a number or vector takes them in addition to numbers.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub choices: Vec<ChoiceWord>,
     /// Smallest number it accepts.

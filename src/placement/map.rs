@@ -34,7 +34,7 @@ pub enum PlacementStatus {
     Singular,
     /// A joint leaves its range.
     Limit,
-    /// The arm cannot reach the whole path.
+    /// The arm cannot reach the whole path on the branch that it starts on.
     Unreachable,
 }
 
@@ -42,7 +42,7 @@ pub enum PlacementStatus {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
     /// Largest contour error by the cutting force, before compensation [m]; NaN where the path is
-    /// out of reach or the arm's branch ends.
+    /// out of reach.
     pub max: f64,
     /// Mean contour error by the cutting force, before compensation [m].
     pub mean: f64,
@@ -76,15 +76,8 @@ impl PlacementMap {
         let shift = self.plan.setup.base.inverse().direction(&(xyz - self.origin));
         let path = self.plan.path.placed(&Pose { position: shift, ..Pose::identity() });
         let plan = self.plan.at_stations(path, STATIONS);
-        let joints = match plan.joints(&mut Progress::none()) {
-            Ok(joints) => joints,
-            Err(error) => {
-                let status = match error {
-                    Error::BranchEnds { .. } => PlacementStatus::Singular,
-                    _ => PlacementStatus::Unreachable,
-                };
-                return Place { max: f64::NAN, mean: f64::NAN, status };
-            }
+        let Ok(joints) = plan.joints(&mut Progress::none()) else {
+            return Place { max: f64::NAN, mean: f64::NAN, status: PlacementStatus::Unreachable };
         };
         let reference = Reference::along(&plan, Sources::only(Source::Deflection));
         let bent = simulate(&plan, &reference, &joints.q, &mut Progress::none());
