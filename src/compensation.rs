@@ -66,6 +66,9 @@ pub struct Compensation {
 const AIM: f64 = 0.1;
 /// A pass that leaves more than this share of the error is no improvement.
 const IMPROVEMENT: f64 = 0.99;
+/// A pass that leaves more than this share of the error is the last: what the shaper lets through
+/// only slowly is not worth the passes.
+const STALLED: f64 = 0.8;
 
 /// Corrects the path until the largest contour error is well within the tolerance (a tenth of it),
 /// the passes are used up, or a pass brings no more improvement. The best pass is kept. A path
@@ -118,6 +121,9 @@ pub fn compensate(plan: &Plan, question: &Question, progress: &mut Progress) -> 
             converged: max <= goal.tolerance,
             ..best
         };
+        if max > least * STALLED {
+            break;
+        }
     }
     best
 }

@@ -486,6 +486,21 @@ fn the_readme_s_job_is_the_default_job() {
 }
 
 #[test]
+fn a_shaper_faster_than_the_samples_is_remarked() {
+    // Half the sampling rate of 4 ms is 125 Hz.
+    let line = json!({"kind":"line","from_mm":[600,-20,100],"to_mm":[600,20,100]});
+    for (hz, remarked) in [(2000.0, true), (126.0, true), (124.0, false), (9.0, false)] {
+        let report = run(&[
+            ("path", line.clone()),
+            ("motion.sample_time_s", json!(0.004)),
+            ("shaper", json!({"kind":"zvd","frequency_hz":hz,"damping":0.03})),
+        ]);
+        let found = report.warnings.iter().any(|warning| warning.code == "shaper-sampling");
+        assert_eq!(found, remarked, "{hz} Hz");
+    }
+}
+
+#[test]
 fn fingerprints_are_pinned() {
     for (name, changes, fingerprint) in common::pinned() {
         assert_eq!(run(&changes).fingerprint(), fingerprint, "{name}: numbers have changed");

@@ -156,7 +156,7 @@ fn a_robot_program_is_judged_by_its_own_timing() {
     let text = "G21 G90 M3 S4000\nG0 X560 Y-60 Z110\nG1 Z100 F3000\nG1 Y60\nG4 P0.5\nG1 X620\nG0 Z110\nM30";
     let report = run(&[
         ("path", json!({"kind":"gcode","text":text})),
-        ("cutting.axial_depth_mm", json!(2)),
+        ("cutting.axial_depth_mm", json!(0.01)),
         ("motion.corner_dwell", json!(0)),
     ]);
     let programs = Programs::default();
@@ -171,7 +171,7 @@ fn a_robot_program_is_judged_by_its_own_timing() {
         assert!(accuracy.sentence.starts_with(&format!("As {name} program")), "{accuracy:?}");
         let header = stated(&programs.export(&report, id, &ExportOptions::default()).unwrap().text);
         assert!(accuracy.sentence.contains(&format!(" {header} mm")), "{id}: {header}, {accuracy:?}");
-        assert!((accuracy.max_mm - points).abs() > 0.05 * points, "{id}: {accuracy:?}, points {points}");
+        assert!((accuracy.max_mm - points).abs() > 0.01 * points, "{id}: {accuracy:?}, points {points}");
     }
     let refused = programs.accuracy(&report, "joints-csv").unwrap_err();
     assert_eq!((refused.code(), refused.field()), ("invalid", Some("format")));

@@ -111,8 +111,10 @@ fn extra_insensitive(frequency: f64, damping: f64) -> Vec<Impulse> {
 }
 
 /// Iterations of [`Shaper::undo`]: enough to leave 1e-3 of the frequencies that pass the shaper at
-/// more than 70 % of their amplitude.
-const UNDO_STEPS: usize = 10;
+/// more than half of their amplitude.
+const UNDO_STEPS: usize = 25;
+/// What lacks less than this is left as it is [m].
+const NEGLIGIBLE: f64 = 1e-11;
 /// Samples shaped in one block.
 const STRETCH: usize = 256;
 
@@ -207,26 +209,56 @@ impl Shaper {
     /// reached there.
     pub fn undo(&self, wanted: &[Vector3<f64>], sample_time: f64, moving: usize) -> Vec<Vector3<f64>> {
         let taps = self.taps(sample_time);
+        let longest = taps.last().map_or(0, |&(delay, _)| delay);
+        let (reach, count) = (longest.div_ceil(STRETCH), wanted.len().div_ceil(STRETCH));
+        let within = |stretch: usize| stretch * STRETCH..((stretch + 1) * STRETCH).min(wanted.len());
         let mut command = vec![Vector3::zeros(); wanted.len()];
-        let last = wanted.len().saturating_sub(1);
-        // The residual, backwards in time.
-        let mut missing = command.clone();
-        for _ in 0..UNDO_STEPS {
-            stretches(&taps, &command, |from, shaped| {
-                for (k, got) in (from..).zip(shaped) {
-                    missing[last - k] = wanted[k] - got;
+        // What the shaped command lacks, and the most of it in each stretch.
+        let mut missing = wanted.to_vec();
+        let mut most: Vec<f64> = (0..count).map(|i| largest(&missing[within(i)])).collect();
+        let mut more = [Vector3::zeros(); STRETCH];
+        for step in 1..=UNDO_STEPS {
+            let mut changed = vec![false; count];
+            for i in 0..count {
+                if most[i..(i + reach + 1).min(count)].iter().all(|most| *most < NEGLIGIBLE) {
+                    continue;
                 }
-            });
-            stretches(&taps, &missing, |from, ahead| {
-                for (k, more) in (from..).zip(ahead) {
-                    command[last - k] += more;
+                let range = within(i);
+                let more = &mut more[..range.len()];
+                mixed(&taps, &missing, range.start, more, Tense::Ahead);
+                for (command, more) in command[range].iter_mut().zip(more) {
+                    *command += *more;
                 }
-            });
+                changed[i] = true;
+            }
             let arrived = command[moving - 1];
             command[moving..].fill(arrived);
+            let end = (moving - 1) / STRETCH;
+            if changed[end..].contains(&true) {
+                changed[end..].fill(true);
+            }
+            if step == UNDO_STEPS {
+                break;
+            }
+            for i in (0..count).filter(|&i| changed[i.saturating_sub(reach)..=i].contains(&true)) {
+                let range = within(i);
+                let shaped = &mut more[..range.len()];
+                mixed(&taps, &command, range.start, shaped, Tense::Past);
+                for ((missing, wanted), shaped) in
+                    missing[range.clone()].iter_mut().zip(&wanted[range.clone()]).zip(shaped)
+                {
+                    *missing = wanted - *shaped;
+                }
+                most[i] = largest(&missing[range]);
+            }
         }
         command
     }
+}
+
+/// The largest component of any of the vectors.
+fn largest(vectors: &[Vector3<f64>]) -> f64 {
+    vectors.iter().map(Vector3::amax).fold(0.0, f64::max)
 }
 
 /// A shaped command; of joint values, theta_shp of eq. 4.14.
@@ -257,25 +289,46 @@ impl<T: Shapeable> Shaped<'_, T> {
 /// Shapes the command in stretches that fit the processor's cache, and calls `take` with the number
 /// of each stretch's first sample and the stretch.
 fn stretches<T: Shapeable>(taps: &[(usize, f64)], command: &[T], mut take: impl FnMut(usize, &[T])) {
-    let (Some((&(first, share), rest)), Some(&start)) = (taps.split_first(), command.first()) else {
-        return take(0, command);
-    };
+    let Some(&start) = command.first() else { return take(0, command) };
     let mut stretch = [start; STRETCH];
     for from in (0..command.len()).step_by(STRETCH) {
         let stretch = &mut stretch[..STRETCH.min(command.len() - from)];
-        for (now, k) in stretch.iter_mut().zip(from..) {
-            *now = command[k.saturating_sub(first)] * share;
-        }
-        for &(delay, share) in rest {
-            let held = delay.saturating_sub(from).min(stretch.len());
-            let (before, after) = stretch.split_at_mut(held);
-            for now in before {
-                *now = *now + start * share;
-            }
-            for (now, past) in after.iter_mut().zip(&command[(from + held).saturating_sub(delay)..]) {
-                *now = *now + *past * share;
-            }
-        }
+        mixed(taps, command, from, stretch, Tense::Past);
         take(from, stretch);
+    }
+}
+
+/// Whether a sample is mixed from those before it, or from those after it (the shaper run backwards
+/// in time).
+#[derive(Clone, Copy)]
+enum Tense {
+    Past,
+    Ahead,
+}
+
+/// Mixes a stretch from sample `from` on. Before its first and after its last sample, the command is
+/// constant.
+fn mixed<T: Shapeable>(taps: &[(usize, f64)], command: &[T], from: usize, stretch: &mut [T], tense: Tense) {
+    let last = command.len() - 1;
+    for (number, &(delay, share)) in taps.iter().enumerate() {
+        let (source, held) = match tense {
+            Tense::Past => (from.saturating_sub(delay), delay.saturating_sub(from)),
+            Tense::Ahead => (from + delay, 0),
+        };
+        let add = |now: &mut T, value: T| {
+            *now = if number == 0 { value * share } else { *now + value * share };
+        };
+        let (before, rest) = stretch.split_at_mut(held.min(stretch.len()));
+        for now in before {
+            add(now, command[0]);
+        }
+        let known = &command[source.min(last + 1)..];
+        let (within, after) = rest.split_at_mut(known.len().min(rest.len()));
+        for (now, value) in within.iter_mut().zip(known) {
+            add(now, *value);
+        }
+        for now in after {
+            add(now, command[last]);
+        }
     }
 }

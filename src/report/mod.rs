@@ -10,11 +10,13 @@ mod drives;
 mod onset;
 mod reference;
 mod roll;
+mod severity;
 mod summary;
 
 pub use budget::{Budget, Parts};
 pub use cut::{CutFigures, WallFigures};
 pub use roll::{RollGain, RollOutcome};
+pub use severity::Severity;
 pub use summary::{Statistics, Summary};
 pub use warning::Warning;
 

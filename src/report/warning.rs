@@ -7,61 +7,14 @@ use crate::deviation::{Deviation, Sources};
 use crate::math;
 use crate::path::{Move, MovePace, Tool};
 use crate::plan::Plan;
-use crate::report::{Report, drives, onset, reference};
+use crate::report::{Report, Severity, drives, onset, reference};
 use crate::robot::Joints;
 use crate::robot::equilibrium::equilibrium;
 use crate::robot::inverse::Margin;
 use crate::setup::Setup;
-use crate::units::{DEG, KILOWATT, MM};
+use crate::units::{DEG, HZ, KILOWATT, MM};
 use nalgebra::Vector3;
 use serde::Serialize;
-
-/// How much a warning matters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-pub enum Severity {
-    /// The arm cannot run the command.
-    #[serde(rename = "cannot run")]
-    CannotRun,
-    /// The figures or the part may be off.
-    #[serde(rename = "matters")]
-    Matters,
-    /// Good to know.
-    #[serde(rename = "note")]
-    Note,
-}
-
-/// Codes of warnings about what the arm cannot run.
-const CANNOT_RUN: [&str; 3] = ["joint-limit", "command-acceleration", "joint-speed"];
-/// Codes of warnings that are only good to know.
-const NOTES: [&str; 16] = [
-    "approach-left-out",
-    "block-delete",
-    "chord",
-    "circle-sense",
-    "controller-text",
-    "default-used",
-    "header-unit",
-    "home",
-    "inverse-numerical",
-    "joint-limit-near",
-    "joint-limits-unknown",
-    "joint-speeds-unknown",
-    "nearly-full-circle",
-    "rake-unused",
-    "spin-reference",
-    "text-after-end",
-];
-
-impl Severity {
-    /// The severity of a code; one that is not listed matters.
-    fn of(code: &str) -> Self {
-        match code {
-            _ if CANNOT_RUN.contains(&code) => Self::CannotRun,
-            _ if NOTES.contains(&code) => Self::Note,
-            _ => Self::Matters,
-        }
-    }
-}
 
 /// A remark on the result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -150,6 +103,7 @@ pub(crate) fn warnings(report: &Report) -> Vec<Warning> {
     limits(report, &mut warnings);
     warnings.extend_from_slice(singular);
     cut(setup, plan, &mut warnings);
+    warnings.extend(sampling(setup));
     corners(setup, plan, &report.shaping_only, &mut warnings);
     program(setup, &mut warnings);
     if let Some(error) = &compensation.stopped {
@@ -388,6 +342,21 @@ fn centripetal(setup: &Setup, plan: &Plan) -> Option<Warning> {
         setup.limits.acceleration / MM
     );
     (across(step) > setup.limits.acceleration).then(|| Warning::new("centripetal", message))
+}
+
+/// A shaper for a mode that vibrates faster than the samples can tell (above their Nyquist
+/// frequency): its impulses lie within a sample.
+fn sampling(setup: &Setup) -> Option<Warning> {
+    let (frequency, _) = setup.mode?;
+    let highest = 0.5 / setup.limits.sample_time;
+    let message = format!(
+        "samples every {} s carry up to {:.0} Hz, the shaper is for {:.0} Hz: its impulses lie within a sample, and \
+         it does nothing; take shorter samples (motion.sample_time_s) or check the frequency",
+        setup.limits.sample_time,
+        highest,
+        frequency / HZ
+    );
+    (frequency / HZ > highest).then(|| Warning::new("shaper-sampling", message))
 }
 
 /// A cut that needs more power than the spindle has.

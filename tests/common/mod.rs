@@ -112,7 +112,7 @@ pub(crate) type Pinned = (&'static str, Vec<(&'static str, Value)>, &'static str
 pub(crate) fn pinned() -> [Pinned; 5] {
     use serde_json::json;
     [
-        ("default", vec![], "7ad562977ff845845e1fd0f10a6edefc"),
+        ("default", vec![], "7154e6a5eb661ad9f983bad8420b81cc"),
         (
             "rounded rectangle, EI in Hz, chip from feed, tilted part, offset tool",
             vec![
@@ -126,7 +126,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("workpiece_frame", json!({"xyz_mm":[10,20,30],"rpy_deg":[10,-20,30]})),
                 ("tool_frame", json!({"xyz_mm":[0,50,120],"rpy_deg":[0,30,0]})),
             ],
-            "13c61f3ffdf4c0c743065903d8748f3f",
+            "274a143e1cd4da048a623f72f631c8cc",
         ),
         (
             "points, ZVDD, another branch",
@@ -135,7 +135,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("shaper", json!({"kind":"zvdd","frequency_rad_s":60,"damping":0.02})),
                 ("start_branch", json!({"shoulder":"front","elbow":"negative","wrist":"flipped"})),
             ],
-            "4a025d821c4c1201ca9963747d4ffe81",
+            "7f5b8c9700c57a34a13b67ba66da5933",
         ),
         (
             "arc without shaper",
@@ -163,7 +163,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("cutting.engagement", json!("conventional")),
                 ("cutting.radial_depth_mm", json!(2.5)),
             ],
-            "f7ef19af1c99123da041277373e58b34",
+            "2a1613c18133d7fb41d033ddaa409911",
         ),
     ]
 }

@@ -93,7 +93,8 @@ impl Answer {
             .history
             .iter()
             .any(|[_, max]| near(*max, question.tolerance) || near(*max, 0.1 * question.tolerance));
-        ends || self.history.windows(2).any(|pair| near(pair[1][1], 0.99 * pair[0][1]))
+        let stalls = |share| self.history.windows(2).any(|pair| near(pair[1][1], share * pair[0][1]));
+        ends || stalls(0.99) || stalls(0.8)
     }
 }
 
@@ -339,6 +340,9 @@ impl Question {
                 break;
             }
             (correction, command_q, best, passes) = (next, commands, result, pass);
+            if history[pass][1] > 0.8 * max {
+                break;
+            }
         }
         let after = outcome(&command_q, ALL);
         let regular = q.iter().chain(&command_q).map(|q| self.arm.regular(q)).fold(f64::INFINITY, f64::min);
@@ -361,11 +365,11 @@ impl Question {
         })
     }
 
-    /// The command whose shaped form is nearly this: ten steps of Landweber's iteration, each with
+    /// The command whose shaped form is nearly this: 25 steps of Landweber's iteration, each with
     /// the shaper run backwards; at rest from `moving` on.
     fn unshaped(&self, wanted: &[Vector3<f64>], moving: usize) -> Vec<Vector3<f64>> {
         let mut command = vec![Vector3::zeros(); wanted.len()];
-        for _ in 0..10 {
+        for _ in 0..25 {
             let got = self.shaped(&command);
             let mut missing: Vec<_> = wanted.iter().zip(&got).map(|(wanted, got)| wanted - got).collect();
             missing.reverse();
