@@ -257,7 +257,7 @@ fn a_result_is_shared_in_three_forms() -> Result {
             &figures,
             "- Feed: 80 mm/s (default 100 mm/s)\n\n",
             &format!("({link})"),
-            &summary.fingerprint,
+            &format!("fingerprint `{}`, model 2\n", summary.fingerprint),
         ] {
             assert!(markdown.contains(part), "{part} is not in {markdown}");
         }
