@@ -5,6 +5,7 @@
 mod common;
 
 use armill::job::fields::{FieldKind, fields};
+use armill::report::warning::Severity;
 use armill::{Error, Job};
 use common::{job_text, refused, run};
 use serde_json::{Value, json};
@@ -96,6 +97,9 @@ fn every_number_is_checked_against_its_range() {
 fn mistakes_are_named() {
     let cases: Vec<(&str, Value, &str, &str)> = vec![
         ("version", json!(2), "invalid", "version"),
+        ("model", json!(3), "invalid", "model"),
+        ("model", json!(0), "invalid", "model"),
+        ("model", json!(1.5), "json", "model"),
         ("robot", json!({}), "missing", "robot.preset"),
         ("robot", json!({"preset":"rx91"}), "invalid", "robot.preset"),
         (
@@ -328,6 +332,25 @@ fn what_a_job_leaves_out_is_remarked() {
     assert!(remark.message.contains("path") && remark.message.contains("motion.sample_time_s"));
     let full = armill::run_json(&Job::default().to_json(), &mut armill::Progress::none()).unwrap();
     assert!(!full.warnings.iter().any(|warning| warning.code == "default-used"));
+}
+
+#[test]
+fn a_job_of_an_earlier_model_is_remarked_and_one_of_a_later_refused() {
+    let earlier = |report: &armill::Report| {
+        let found = report.warnings.iter().find(|warning| warning.code == "earlier-model");
+        found.map(|warning| (warning.severity, warning.message.clone()))
+    };
+    let (severity, message) = earlier(&run(&[("model", json!(1))])).unwrap();
+    assert_eq!(severity, Severity::Matters);
+    assert!(message.contains("computed with an earlier model; figures differ"), "{message}");
+    for job in [run(&[]), run(&[("model", json!(2))])] {
+        assert_eq!(earlier(&job), None);
+        assert_eq!(job.summary().model, 2);
+    }
+    let error = refused(&[("model", json!(3))]).to_string();
+    assert!(error.contains("model") && error.contains("1 to 2"), "{error}");
+    // The default job stays as it is written by hand.
+    assert!(!Job::default().to_json().contains("model"));
 }
 
 #[test]
