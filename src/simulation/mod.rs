@@ -159,6 +159,6 @@ impl Steps {
 pub fn run_json(text: &str, progress: &mut Progress) -> Result<Report, Error> {
     let (job, not_given) = Job::read_json(text)?;
     let mut report = run(&job, progress)?;
-    report.warn(given::defaults(&not_given));
+    report.warn(given::thesis(&not_given).into_iter().chain(given::defaults(&not_given)));
     Ok(report)
 }
