@@ -15,7 +15,41 @@
 ///   rises along the run-in, and the radial depth counts from the local radius.
 pub const MODEL: u32 = 2;
 
-/// The line by which an exported program says what it was computed with.
+/// The line in the header of an exported program that says what it was computed with.
 pub fn stamp(fingerprint: &str) -> String {
     format!("Armill {}, model {MODEL}, run {fingerprint}", env!("CARGO_PKG_VERSION"))
+}
+
+/// The model that a line names if it holds a [`stamp`]; before model 2, stamps named none.
+pub fn stamped(line: &str) -> Option<u32> {
+    let (_, stamp) = line.split_once("Armill ")?;
+    let (_version, rest) = stamp.split_once(", ").filter(|(version, _)| !version.contains(' '))?;
+    match rest.strip_prefix("model ") {
+        Some(rest) => rest.split_once(", run ")?.0.parse().ok(),
+        None => rest.starts_with("run ").then_some(1),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stamp_names_its_model_in_any_comment() {
+        let stamp = stamp("13c61f3ffdf4c0c743065903d8748f3f");
+        for comment in [format!("({stamp})"), format!("# {stamp}"), format!("$$ {stamp}"), stamp.clone()] {
+            assert_eq!(stamped(&comment), Some(MODEL), "{comment}");
+        }
+        for (line, model) in [
+            ("(Armill 0.1.0, run 13c61f3f)", Some(1)),
+            ("N10 (Armill 0.1.0, model 1, run 13c61f3f)", Some(1)),
+            ("; Armill 2.3.4-beta, model 12, run 13c61f3f", Some(12)),
+            ("(made with Armill 0.1.0)", None),
+            ("(Armill 0.1.0, model none, run 13c61f3f)", None),
+            ("(Armill is run here, run again)", None),
+            ("G1 X600", None),
+        ] {
+            assert_eq!(stamped(line), model, "{line}");
+        }
+    }
 }
