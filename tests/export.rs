@@ -285,6 +285,7 @@ fn every_program_says_where_it_comes_from_and_what_it_does_not_promise() {
         let text = opening(&export.text);
         for piece in [
             env!("CARGO_PKG_VERSION"),
+            "model 2, run",
             &fingerprint,
             "Tolerance asked 0.01 mm, largest contour error reached",
             "controller's own blending or absolute-accuracy option adds its own error",

@@ -5,6 +5,7 @@
 mod common;
 
 use armill::job::fields::{FieldKind, fields};
+use armill::report::warning::Severity;
 use armill::{Error, Job};
 use common::{job_text, refused, run};
 use serde_json::{Value, json};
@@ -96,6 +97,9 @@ fn every_number_is_checked_against_its_range() {
 fn mistakes_are_named() {
     let cases: Vec<(&str, Value, &str, &str)> = vec![
         ("version", json!(2), "invalid", "version"),
+        ("model", json!(3), "invalid", "model"),
+        ("model", json!(0), "invalid", "model"),
+        ("model", json!(1.5), "json", "model"),
         ("robot", json!({}), "missing", "robot.preset"),
         ("robot", json!({"preset":"rx91"}), "invalid", "robot.preset"),
         (
@@ -328,6 +332,68 @@ fn what_a_job_leaves_out_is_remarked() {
     assert!(remark.message.contains("path") && remark.message.contains("motion.sample_time_s"));
     let full = armill::run_json(&Job::default().to_json(), &mut armill::Progress::none()).unwrap();
     assert!(!full.warnings.iter().any(|warning| warning.code == "default-used"));
+}
+
+#[test]
+fn the_thesis_s_values_under_a_robot_or_path_of_ones_own_are_a_warning() {
+    let line = json!({"kind":"line","from_mm":[600,-20,100],"to_mm":[600,20,100]});
+    let robot = json!({"preset":"kuka-kr-210-2"});
+    let ([shaper, material], feed) = (["shaper", "material"], "cutting.feed_per_tooth_mm");
+    let own_shaper = json!({"kind":"zvd","frequency_hz":9,"damping":0.03});
+    let own_material = json!({"preset":"al-7075-t6"});
+    let far = json!({"xyz_mm":[1500,0,800],"rpy_deg":[0,0,0]});
+    let cases = [
+        (json!({"path": line}), vec![shaper, material, feed]),
+        (json!({"path": line, "cutting": {"axial_depth_mm": 1}}), vec![shaper, material, feed]),
+        (json!({"path": line, "shaper": "none"}), vec![material, feed]),
+        (json!({"path": line, "shaper": own_shaper, "cutting": {"feed_per_tooth_mm": 0.1}}), vec![material]),
+        (
+            json!({"path": line, "material": own_material, "cutting": {"axial_depth_mm": 1}}),
+            vec![shaper, feed],
+        ),
+        (json!({"robot": robot, "workpiece_frame": far}), vec![shaper, material, feed]),
+        (
+            json!({
+                "path": line, "shaper": own_shaper, "material": own_material,
+                "cutting": {"feed_per_tooth_mm": "from_feed"}
+            }),
+            vec![],
+        ),
+        (json!({"motion": {"feed_mm_s": 50}}), vec![]),
+        (json!({}), vec![]),
+    ];
+    for (job, named) in cases {
+        let report = armill::run_json(&job.to_string(), &mut armill::Progress::none()).unwrap();
+        let warning = report.warnings.iter().find(|warning| warning.code == "thesis-default");
+        assert_eq!(warning.is_some(), !named.is_empty(), "{job}");
+        assert!(report.warnings.is_sorted_by_key(|warning| warning.severity), "{job}: {:?}", report.warnings);
+        assert!(report.warnings.iter().any(|warning| warning.code == "default-used"), "{job}");
+        let Some(warning) = warning else { continue };
+        assert_eq!(warning.severity, Severity::Matters);
+        for key in [shaper, material, feed] {
+            assert_eq!(warning.message.contains(key), named.contains(&key), "{job}: {}", warning.message);
+        }
+    }
+    assert!(run(&[("path", line)]).warnings.iter().all(|warning| warning.code != "thesis-default"));
+}
+
+#[test]
+fn a_job_of_an_earlier_model_is_remarked_and_one_of_a_later_refused() {
+    let earlier = |report: &armill::Report| {
+        let found = report.warnings.iter().find(|warning| warning.code == "earlier-model");
+        found.map(|warning| (warning.severity, warning.message.clone()))
+    };
+    let (severity, message) = earlier(&run(&[("model", json!(1))])).unwrap();
+    assert_eq!(severity, Severity::Matters);
+    assert!(message.contains("computed with an earlier model; figures differ"), "{message}");
+    for job in [run(&[]), run(&[("model", json!(2))])] {
+        assert_eq!(earlier(&job), None);
+        assert_eq!(job.summary().model, 2);
+    }
+    let error = refused(&[("model", json!(3))]).to_string();
+    assert!(error.contains("model") && error.contains("1 to 2"), "{error}");
+    // The default job stays as it is written by hand.
+    assert!(!Job::default().to_json().contains("model"));
 }
 
 #[test]

@@ -43,6 +43,7 @@ fn the_package_works_in_node_and_its_types_are_true() {
     assert_eq!(printed["fingerprint"], native.fingerprint());
     assert_eq!(printed["samples"], native.samples());
     assert_eq!(printed["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(printed["model"], native.summary().model);
     assert_eq!(printed["refused"]["field"], "motion.feed_mm_s");
 
     let compiler = folder("ARMILL_NPM_TOOLS").join("typescript/bin/tsc");

@@ -308,6 +308,7 @@ fn downloads_hold_the_columns() -> Result {
         holds(&page.downloaded("armill-compensated-path.csv").await?, &path)?;
         page.click("#download-job").await?;
         let job = armill::Job::from_json(&page.downloaded("armill-job.json").await?)?;
+        assert_eq!(job.model, Some(armill::model::MODEL));
         assert_eq!(armill::run(&job, &mut armill::Progress::none())?.fingerprint(), report.fingerprint());
         Ok(())
     })

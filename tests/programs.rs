@@ -218,3 +218,55 @@ fn an_export_simulated_again_meets_the_tolerance() {
     let worst = away.iter().copied().fold(0.0, f64::max);
     assert!(worst <= allowed, "rectangle, away from corners: {worst}");
 }
+
+/// The remark that a program was computed with an earlier model, if it gets one.
+fn earlier(kind: &str, text: &str) -> Option<String> {
+    let (_, changes) = &small_jobs()[2];
+    let report = run(&[changes[0].clone(), ("path", json!({"kind": kind, "text": text}))]);
+    let remark = report.warnings.iter().find(|warning| warning.code == "earlier-model");
+    remark.map(|warning| warning.message.clone())
+}
+
+#[test]
+fn a_program_of_an_earlier_model_says_so_when_it_is_opened() {
+    // As headers were written before there was a number.
+    let header = [
+        "Armill 0.1.0, run 57d9a2f0c1b3e4865f0d7a9b2c4e6813",
+        "Path compensated for deflection and shaping, robot model Staubli RX-90",
+        "Tolerance asked 0.01 mm, largest contour error reached 0.0049 mm, 1.25 mm without compensation, simulated",
+    ];
+    let lines = |before: &str, after: &str| header.map(|line| format!("{before}{line}{after}\n")).concat();
+    let old = [
+        ("gcode", format!("%\n{}G21 G90 S4000 M3\nG0 X-60 Y-40 Z0\nG1 X60 F6000\nM30\n%\n", lines("(", ")"))),
+        (
+            "apt",
+            format!(
+                "PARTNO/ARMILL\n{}UNITS/MM\nFEDRAT/6000,MMPM\nGOTO/-60,-40,0\nGOTO/60,-40,0\nFINI\n",
+                lines("$$ ", "")
+            ),
+        ),
+        ("csv", format!("{}x_mm,y_mm,z_mm,feed_mm_s\n-60,-40,0,100\n60,-40,0,100\n", lines("# ", ""))),
+    ];
+    for (kind, text) in &old {
+        let line = if *kind == "csv" { 1 } else { 2 };
+        let expected =
+            format!("line {line}: this program was computed with an earlier model; figures differ");
+        assert_eq!(earlier(kind, text), Some(expected.clone()), "{kind}");
+        let numbered = |model: u32| text.replace("run 57d9", &format!("model {model}, run 57d9"));
+        assert_eq!(earlier(kind, &numbered(1)), Some(expected), "{kind}");
+        assert_eq!(earlier(kind, &numbered(2)), None, "{kind}");
+        assert_eq!(earlier(kind, &text.replace("Armill", "CAM")), None, "{kind}: another's program");
+    }
+
+    // What is written now has none, a rewritten old program included.
+    let (_, changes) = &small_jobs()[2];
+    let report = run(changes);
+    for (id, kind) in [("gcode", "gcode"), ("apt", "apt"), ("path-csv", "csv")] {
+        assert_eq!(earlier(kind, &written(&report, id).text), None, "{id}");
+    }
+    let (kind, text) = &old[0];
+    let again =
+        written(&run(&[changes[0].clone(), ("path", json!({"kind": kind, "text": text}))]), "gcode").text;
+    assert!(again.contains(header[0]), "comments are kept");
+    assert_eq!(earlier(kind, &again), None);
+}

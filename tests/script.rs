@@ -44,6 +44,7 @@ fn without_a_file_the_default_job_is_printed() {
     let printed = json_of(&output.stdout);
     let summary = armill::run(&armill::Job::default(), &mut armill::Progress::none()).unwrap().summary();
     assert_eq!(printed["fingerprint"], summary.fingerprint);
+    assert_eq!(printed["model"], 2);
     assert_eq!(printed["samples"], summary.samples);
     assert_eq!(printed["before_mm"]["both"]["max"], summary.before_mm.both.max);
     let as_program = printed["as_program"]["max_mm"].as_f64().unwrap();

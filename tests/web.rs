@@ -49,6 +49,7 @@ fn the_default_job_and_its_summary() {
     assert!(number(&summary, "after_mm.max") <= 0.005);
     assert_eq!(get(&summary, "converged"), JsValue::TRUE);
     assert_eq!(number(&summary, "mean_force_n.length"), 3.0);
+    assert_eq!(number(&summary, "model"), f64::from(wasm::model()));
     assert!(text(&summary, "verdict").starts_with("Max contour error 1.25 mm before"));
     assert_eq!(text(&summary, "warnings.0.code"), "joint-limit");
     assert!(number(&summary, "warnings.0.from_sample") > 0.0);

@@ -3,6 +3,7 @@
 use crate::export::command::Command;
 use crate::export::orientation::roll_pitch_yaw;
 use crate::math::Pose;
+use crate::model;
 use crate::report::{Report, millimetres};
 use crate::units::{DEG, MM};
 
@@ -19,7 +20,7 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
         _ => "compensated for shaping",
     };
     let mut lines = vec![
-        format!("Armill {}, run {}", env!("CARGO_PKG_VERSION"), report.fingerprint()),
+        model::stamp(&report.fingerprint()),
         format!("Path {sources}, robot model {}", ascii(report.plan.robot.name())),
         format!(
             "Tolerance asked {} mm, largest contour error reached {} mm, {} mm without compensation, simulated",

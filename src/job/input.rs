@@ -14,6 +14,10 @@ use serde::Serialize;
 pub struct Job {
     /// Version of the format: 1.
     pub version: u32,
+    /// Number of the model that its figures were computed with; jobs saved before model 2, and those
+    /// written by hand, have none. See [`MODEL`](crate::model::MODEL).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub model: Option<u32>,
     /// The arm.
     pub robot: Robot,
     /// TCP in the flange frame.
@@ -47,6 +51,7 @@ impl Default for Job {
     fn default() -> Self {
         Self {
             version: 1,
+            model: None,
             robot: Robot { preset: Some("staubli-rx90".into()), ..Robot::default() },
             tool_frame: Frame::default(),
             base_frame: Frame::default(),
@@ -349,6 +354,7 @@ impl Default for Compensation {
 
 keys!(Job {
     version,
+    model,
     robot,
     tool_frame,
     base_frame,

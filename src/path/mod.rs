@@ -16,7 +16,7 @@ pub mod apt;
 pub mod csv;
 
 pub use axes::{Axes, AxisArc};
-pub use program::{Move, MovePace, Program, SourceProgram, Tool};
+pub use program::{Move, MovePace, Program, Remark, SourceProgram, Tool};
 pub use reference::{RollReference, RollZero};
 pub use roll::Roll;
 pub use segment::Segment;

@@ -72,6 +72,12 @@ impl Report {
         &self.plan.setup
     }
 
+    /// Adds warnings and sorts them all: what cannot run is said before what it would achieve.
+    pub(crate) fn warn(&mut self, more: impl IntoIterator<Item = Warning>) {
+        self.warnings.extend(more);
+        self.warnings.sort_by_key(|warning| warning.severity);
+    }
+
     /// The number of samples, and of rows in every column.
     pub fn samples(&self) -> usize {
         self.plan.trajectory.len()

@@ -3,6 +3,7 @@
 use crate::cutting::material::Material;
 use crate::deviation::Deviation;
 use crate::deviation::contour::MeanMax;
+use crate::model::MODEL;
 use crate::path::{MovePace, Path, SourceProgram};
 use crate::report::{Budget, CutFigures, Report, RollGain, WallFigures, Warning};
 use crate::units::{DEG, MM};
@@ -51,6 +52,8 @@ pub struct Before {
 pub struct Summary {
     /// Hash over the bits of all columns.
     pub fingerprint: String,
+    /// Number of the model, see [`MODEL`].
+    pub model: u32,
     /// Number of samples.
     pub samples: usize,
     /// Time from the first to the last sample [s].
@@ -207,6 +210,7 @@ impl Report {
         let (budget, walls) = self.budget_and_walls();
         Summary {
             fingerprint: self.fingerprint(),
+            model: MODEL,
             samples: self.samples(),
             duration_s: self.duration(),
             path_length_mm: self.plan.path.length() / MM,

@@ -81,7 +81,7 @@ fn range(count: usize, holds: impl Fn(usize) -> bool) -> Option<(usize, usize)> 
     Some((first, last))
 }
 
-/// All warnings of a report, whose own list so far holds those of [`singularities`].
+/// What a report has to warn of, in no order; its own list so far holds that of [`singularities`].
 pub(crate) fn warnings(report: &Report) -> Vec<Warning> {
     let Report { plan, compensation, warnings: singular, .. } = report;
     let setup = report.setup();
@@ -129,8 +129,6 @@ pub(crate) fn warnings(report: &Report) -> Vec<Warning> {
     warnings.extend(spindle(report));
     warnings.extend(onset::warning(report));
     warnings.extend(drives::warnings(report));
-    // What cannot run is said before what it would achieve.
-    warnings.sort_by_key(|warning| warning.severity);
     warnings
 }
 

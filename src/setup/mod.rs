@@ -13,6 +13,7 @@ use crate::cutting::{Bending, Cut, LinearForce, Loading};
 use crate::error::Error;
 use crate::job::{Choice, Frame, Job, Source, Sources, fields};
 use crate::math::Pose;
+use crate::model::MODEL;
 use crate::motion::joints::StartBranch;
 use crate::motion::roll::RollRange;
 use crate::motion::trajectory::MotionLimits;
@@ -101,6 +102,9 @@ impl Setup {
     pub fn of(job: &Job, progress: &mut Progress) -> Result<Self, Error> {
         if job.version != 1 {
             return Err(Error::invalid("version", job.version, "this Armill reads version 1"));
+        }
+        if let Some(model) = job.model.filter(|model| !(1..=MODEL).contains(model)) {
+            return Err(Error::invalid("model", model, format!("1 to {MODEL}, the model of this Armill")));
         }
         fields::check_ranges(job)?;
         let robot::BareArm { robot, world, joint_speeds, stiffness_note, stiffness_assumed } =

@@ -2,8 +2,9 @@
 
 use crate::error::Error;
 use crate::job::{self, FeedUnit, Job, PathKind, Unit, fields};
+use crate::model::{MODEL, stamped};
 use crate::path::unit::{self, LengthUnit};
-use crate::path::{Path, Program, SourceProgram, apt, csv, gcode, shape};
+use crate::path::{Path, Program, Remark, SourceProgram, apt, csv, gcode, shape};
 use crate::progress::Progress;
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
@@ -24,7 +25,8 @@ pub(super) fn desired(job: &Job, progress: &mut Progress) -> Result<(Path, Optio
         _ => return shape(given).map(|path| (path, None)),
     };
     let text = given.text.as_ref().ok_or_else(|| need("text"))?;
-    let program = program(given, text, progress)?;
+    let mut program = program(given, text, progress)?;
+    program.remarks.extend(earlier_model(text));
     let path = Path::of_program(&program).ok_or_else(|| {
         Error::invalid(TEXT, "a text without a move", "two positions or more that are not all the same")
     })?;
@@ -81,6 +83,16 @@ fn program(given: &job::Path, text: &str, progress: &mut Progress) -> Result<Pro
         }
     }
 }
+
+/// A remark on a program that Armill wrote with an earlier model. One that was read and written again
+/// keeps the comments it had: the newest header is that of its moves.
+fn earlier_model(text: &str) -> Option<Remark> {
+    let stamps = text.lines().zip(1..).filter_map(|(line, number)| Some((stamped(line)?, number)));
+    let (_, line) = stamps.max().filter(|(model, _)| *model < MODEL)?;
+    let message = "this program was computed with an earlier model; figures differ".into();
+    Some(Remark { code: "earlier-model", message, line })
+}
+
 /// A path from a shape.
 fn shape(given: &job::Path) -> Result<Path, Error> {
     let vector =

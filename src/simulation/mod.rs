@@ -1,5 +1,6 @@
 //! The pipeline, end to end: from a job to its report.
 
+mod given;
 mod roll;
 
 pub use crate::progress::{Progress, Stage};
@@ -9,7 +10,7 @@ use crate::deviation::{Deviation, ErrorsBySource, Reference, Source, Sources, si
 use crate::error::Error;
 use crate::job::Job;
 use crate::plan::Plan;
-use crate::report::{Report, Warning, warning};
+use crate::report::{Report, warning};
 use crate::robot::Joints;
 use crate::setup::{Goal, Setup};
 use std::sync::Arc;
@@ -55,6 +56,7 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
         fingerprint: Default::default(),
     };
     report.warnings = warning::warnings(&report);
+    report.warn(given::earlier_model(job));
     Ok(report)
 }
 
@@ -157,9 +159,6 @@ impl Steps {
 pub fn run_json(text: &str, progress: &mut Progress) -> Result<Report, Error> {
     let (job, not_given) = Job::read_json(text)?;
     let mut report = run(&job, progress)?;
-    if !not_given.is_empty() {
-        let message = format!("not given, so the default job's value holds: {}", not_given.join(", "));
-        report.warnings.push(Warning::new("default-used", message));
-    }
+    report.warn(given::thesis(&not_given).into_iter().chain(given::defaults(&not_given)));
     Ok(report)
 }

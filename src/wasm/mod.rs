@@ -44,6 +44,12 @@ pub fn version() -> String {
     env!("CARGO_PKG_VERSION").to_owned()
 }
 
+/// Number of the model that figures are computed with.
+#[wasm_bindgen]
+pub fn model() -> u32 {
+    crate::model::MODEL
+}
+
 /// Panics on purpose, so that the page's recovery can be tested.
 #[wasm_bindgen]
 pub fn trap() {

@@ -45,7 +45,7 @@ export interface WallFigures {
   by_mean_force_mm: number; by_mean_force_max_mm: number; at_instant_mm: number; at_instant_max_mm: number;
 }
 export interface Summary {
-  fingerprint: string; samples: number; duration_s: number; path_length_mm: number;
+  fingerprint: string; model: number; samples: number; duration_s: number; path_length_mm: number;
   mean_force_n: [number, number, number];
   material: string; material_note: string; cut: CutFigures; walls: WallFigures[];
   before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics };

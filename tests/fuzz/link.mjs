@@ -29,7 +29,7 @@ const one = (list) => list[random(list.length)];
 const corpus = readdirSync(here("corpus/link/")).sort().map((name) => readFileSync(here(`corpus/link/${name}`), "utf8"));
 
 const bytesOf = (link) => Buffer.from(link.replace(/^[^.]*\./, ""), "base64url");
-const linkOf = (bytes) => `job=1.${Buffer.from(bytes).toString("base64url")}`;
+const linkOf = (bytes) => `job=${1 + random(2)}.${Buffer.from(bytes).toString("base64url")}`;
 
 function changed(bytes) {
   const copy = Buffer.from(bytes);

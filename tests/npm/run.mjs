@@ -62,4 +62,4 @@ try {
 } catch ({ code, field, message }) {
   Object.assign(refused, { code, field, message });
 }
-console.log(JSON.stringify({ version: armill.version(), fingerprint: result.fingerprint(), samples: result.column("time_s").length, refused }));
+console.log(JSON.stringify({ version: armill.version(), model: armill.model(), fingerprint: result.fingerprint(), samples: result.column("time_s").length, refused }));

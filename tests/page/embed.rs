@@ -60,7 +60,7 @@ fn a_frame_shows_what_its_address_asks_for() -> Result {
         answers(page, &run(&changes)).await?;
 
         // The link to the whole page takes the inputs along.
-        page.wait_for("document.getElementById('open').hash.startsWith('#job=1.')", 10.0).await?;
+        page.wait_for("document.getElementById('open').hash.startsWith('#job=2.')", 10.0).await?;
         let link = page.js("return document.getElementById('open').hash").await?;
         let link = link.as_str().unwrap_or_default();
         page.goto(&format!("index.html{link}")).await?;

@@ -8,7 +8,7 @@ use crate::{current, number, shows, stale, text};
 use serde_json::json;
 
 /// Drops a file on the page; `content` is a JavaScript expression for a list of its parts.
-async fn drop_file(page: &Page, name: &str, content: &str) -> Result {
+pub(crate) async fn drop_file(page: &Page, name: &str, content: &str) -> Result {
     let file = json!(name);
     page.js(&format!(
         "const data = new DataTransfer(); data.items.add(new File({content}, {file})); \

@@ -98,7 +98,7 @@ fn the_form_is_built_from_what_the_core_says_of_itself() -> Result {
         assert_eq!(version, env!("CARGO_PKG_VERSION"));
         // Compared in the browser, to which 1 and 1.0 are one number.
         for (part, native) in [
-            ("job", Job::default().to_json()),
+            ("job", format!("{{ ...{}, model: {} }}", Job::default().to_json(), armill::model::MODEL)),
             ("fields", serde_json::to_string(&armill::job::fields::fields())?),
             ("presets", serde_json::to_string(&armill::job::presets::presets())?),
         ] {

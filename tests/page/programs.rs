@@ -177,21 +177,22 @@ fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
 /// below it.
 #[test]
 fn what_a_program_is_worth_stands_under_the_verdict() -> Result {
-    let following = [("cutting.feed_per_tooth_mm", json!("from_feed"))];
-    let [standard, beyond] =
-        [run(&[]), run(&following)].map(|report| Programs::default().accuracy(&report, "gcode"));
-    let (standard, beyond) = (standard?, beyond?);
-    assert!(standard.met && !beyond.met);
+    let rigid = [("shaper", json!("none"))];
+    let [shaped, direct] =
+        [run(&[]), run(&rigid)].map(|report| Programs::default().accuracy(&report, "gcode"));
+    let (shaped, direct) = (shaped?, direct?);
+    assert!(direct.met && !shaped.met);
     visit("/", DESKTOP, async |page| {
         current(page).await?;
         let stated = "document.getElementById('as-program').textContent.startsWith('As a G-code')";
         page.wait_for(stated, 20.0).await?;
-        assert_eq!(text(page, "as-program").await?, standard.sentence);
-        assert_eq!(page.js("return document.querySelectorAll('#as-program.bad').length").await?, json!(0));
-        unfold(page, "cutting").await?;
-        page.click("#cutting-feed_per_tooth_mm-from_feed").await?;
-        page.wait_for("document.querySelector('#as-program.bad')", 20.0).await?;
-        assert_eq!(text(page, "as-program").await?, beyond.sentence);
+        assert_eq!(text(page, "as-program").await?, shaped.sentence);
+        assert_eq!(page.js("return document.querySelectorAll('#as-program.bad').length").await?, json!(1));
+        unfold(page, "shaper").await?;
+        page.choose("#shaper-kind", "none").await?;
+        page.wait_for("document.querySelector('#as-program:not(.bad)')", 20.0).await?;
+        page.wait_for(stated, 20.0).await?;
+        assert_eq!(text(page, "as-program").await?, direct.sentence);
         Ok(())
     })
 }

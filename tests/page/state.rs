@@ -1,7 +1,8 @@
 //! Where the inputs come from and where they go: links, the browser's storage, undo and redo.
 
 use crate::browser::{DESKTOP, Key, Page, Result, visit};
-use crate::common::run;
+use crate::common::{job_text, run};
+use crate::hostile::drop_file;
 use crate::{current, shows, stale, text};
 use serde_json::json;
 
@@ -56,7 +57,7 @@ fn a_link_gives_the_same_bits_in_a_fresh_profile() -> Result {
         Ok(())
     })?;
     let link = link.get().ok_or("no link")?;
-    assert!(link.starts_with("job=1."), "{link}");
+    assert!(link.starts_with("job=2."), "{link}");
     visit(&format!("/#{link}"), DESKTOP, async |page| {
         shows(page, &report).await?;
         assert_eq!(notice(page).await?, "", "there was nothing before");
@@ -84,7 +85,7 @@ fn a_link_that_cannot_be_opened_says_why_and_the_default_stands() -> Result {
             (damaged, "cut off or damaged"),
             ("job=".to_owned(), "not of the form"),
             ("job=1.a*b".to_owned(), "not of the form"),
-            (good.replace("=1.", "=2."), "newer Armill"),
+            (good.replace("=2.", "=3."), "newer Armill"),
             (bomb, "more than 4 MB"),
             (fragment(page, "{\"motion\":{\"feed_mm_s\":-5}}").await?, "legal is 0.001 to 10000"),
             (fragment(page, "{\"motor\":1}").await?, "motor"),
@@ -112,6 +113,73 @@ fn a_link_that_cannot_be_opened_says_why_and_the_default_stands() -> Result {
         page.click("#undo").await?;
         assert_eq!(feed(page).await?, "70");
         Ok(())
+    })
+}
+
+/// What the page says when it opens a job whose figures an earlier model gave.
+const EARLIER: &str = "Computed with an earlier model; figures differ.";
+
+/// A job with this feed as it was saved by the model of this number, or before there was one.
+fn saved(feed: u32, model: Option<u32>) -> String {
+    let model = model.map(|model| ("model", json!(model)));
+    job_text(&[("motion.feed_mm_s", json!(feed))].into_iter().chain(model).collect::<Vec<_>>())
+}
+
+#[test]
+fn what_an_earlier_model_computed_says_so_on_opening() -> Result {
+    let of_feed = |feed: u32| run(&[("motion.feed_mm_s", json!(feed))]);
+    let kept = "JSON.parse(sessionStorage.getItem('armill-inputs')).state.job";
+    visit("/", DESKTOP, async |page| {
+        shows(page, &run(&[])).await?;
+        assert_eq!(notice(page).await?, "", "the page's own default");
+        let says = format!("document.querySelector('#notice').textContent.includes({})", json!(EARLIER));
+
+        // Links.
+        for (format, model, earlier) in [(1, None, true), (2, Some(1), true), (2, Some(2), false)] {
+            let link = fragment(page, &saved(80, model)).await?;
+            let link = link.replace("job=2.", &format!("job={format}."));
+            open(page, &link).await?;
+            shows(page, &of_feed(80)).await?;
+            assert_eq!(notice(page).await?.contains(EARLIER), earlier, "format {format}, model {model:?}");
+        }
+        let link = shared(page, "link").await?;
+        let (_, link) = link.split_once('#').ok_or("no fragment")?;
+        let job = page.with_module("link", &format!("({{ jobIn }}) => jobIn('{link}')")).await?;
+        assert!(job.as_str().is_some_and(|job| job.contains("\"model\":2")), "{job}");
+
+        // Files.
+        for model in [None, Some(1)] {
+            drop_file(page, "job.json", &json!([saved(60, model)]).to_string()).await?;
+            page.wait_for(&says, 20.0).await?;
+            page.click("#notice button").await?;
+        }
+        drop_file(page, "job.json", &json!([saved(70, Some(2))]).to_string()).await?;
+        shows(page, &of_feed(70)).await?;
+        assert_eq!(notice(page).await?, "");
+        drop_file(page, "job.json", &json!([saved(50, Some(3))]).to_string()).await?;
+        page.wait_for("document.querySelector('#alert').textContent.includes('1 to 2')", 20.0).await?;
+        assert_eq!(feed(page).await?, "70");
+
+        // What this browser kept.
+        page.wait_for(&format!("{kept}.motion.feed_mm_s === 70 && {kept}.model === 2"), 10.0).await?;
+        page.js("for (const store of [sessionStorage, localStorage]) { \
+             const inputs = JSON.parse(store.getItem('armill-inputs')); delete inputs.state.job.model; \
+             store.setItem('armill-inputs', JSON.stringify(inputs)); }")
+            .await?;
+        page.reload().await?;
+        shows(page, &of_feed(70)).await?;
+        assert_eq!(notice(page).await?, format!("{EARLIER}Close"));
+        page.type_into("#motion-feed_mm_s", "90").await?;
+        shows(page, &of_feed(90)).await?;
+        page.reload().await?;
+        shows(page, &of_feed(90)).await?;
+        assert_eq!(notice(page).await?, "", "it is of this model now");
+
+        // A frame with a link of before.
+        let link = fragment(page, &saved(80, None)).await?;
+        page.goto(&format!("embed.html#{link}&inputs=none&charts=none")).await?;
+        page.wait_for("document.querySelector('#status').textContent.includes('an earlier model')", 20.0)
+            .await
     })
 }
 
@@ -257,7 +325,7 @@ fn a_result_is_shared_in_three_forms() -> Result {
             &figures,
             "- Feed: 80 mm/s (default 100 mm/s)\n\n",
             &format!("({link})"),
-            &summary.fingerprint,
+            &format!("fingerprint `{}`, model 2\n", summary.fingerprint),
         ] {
             assert!(markdown.contains(part), "{part} is not in {markdown}");
         }

@@ -10,10 +10,11 @@ const identified = {}; // what was identified last, `stiffness` and `response`
 let surveyed; // { json, survey } of the map of places
 
 const answers = {
-  /** What a form is built from. */
+  /** What a form is built from. The job is as the page saves it: with the number of the model. */
   hello: () => ({
     version: armill.version(),
-    job: JSON.parse(armill.default_job()),
+    model: armill.model(),
+    job: { ...JSON.parse(armill.default_job()), model: armill.model() },
     fields: armill.fields(),
     presets: armill.presets(),
     formats: armill.formats(),

@@ -25,8 +25,8 @@ let good = null; // the job of the shown result
 let lost = false; // the shown result was lost to a trap and is being computed again
 
 /**
- * Begins to load the core, and resolves with what a form is built from: version, default job,
- * fields, presets, formats.
+ * Begins to load the core, and resolves with what a form is built from: version, model, default
+ * job, fields, presets, formats.
  */
 export function load() {
   hello ??= (spare ??= spawn()).ask("hello").then(

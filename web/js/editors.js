@@ -173,9 +173,13 @@ function wordOrVector(field) {
   select.append(make("option", { value: "" }, "a direction"));
   const own = vector({ path: `${field.path}.direction` });
   own.node.setAttribute("aria-labelledby", `${select.id}-label`);
-  // A direction starts as the first axis; afterwards as it was last. The style sheet hides it
-  // behind a word.
+  // A direction starts as the first axis; afterwards as it was last. It hides behind a word.
   own.write([1, 0, 0]);
+  const reveal = () => {
+    own.node.hidden = select.value !== "";
+  };
+  select.addEventListener("input", reveal);
+  reveal();
   return {
     node: make("div", { className: "word-or-vector" }, select, own.node),
     inputs: [select, ...own.inputs],
@@ -184,6 +188,7 @@ function wordOrVector(field) {
       const isWord = typeof value === "string";
       select.value = isWord ? value : "";
       if (!isWord) own.write(value);
+      reveal();
     },
     at: (rest) => (rest ? own.at(rest) : select),
   };

@@ -6,7 +6,7 @@ import { showBudget } from "./budget.js";
 import { setCharts, showPanel } from "./charts.js";
 import { byId, debounced, make, sentence } from "./dom.js";
 import { Form } from "./form.js";
-import { chartsIn, fieldsIn, jobOf, optionsIn } from "./guest.js";
+import { chartsIn, fieldsIn, isLinked, jobOf, optionsIn } from "./guest.js";
 import { Job } from "./job.js";
 import { fragmentOf } from "./link.js";
 import { formatNumber } from "./number.js";
@@ -21,6 +21,7 @@ let options; // what the host page asks for
 let scene; // if it is asked for
 let job;
 let form;
+let origin = ""; // what there is to say about the job of a link, until it is changed
 
 const state = (name) => (results.dataset.state = name);
 const say = (text) => (byId("status").textContent = text);
@@ -37,6 +38,7 @@ const compute = debounced(() => form.flawed || core.run(job.json), TYPING_MS);
 /** After every edit: compute, or say what is wrong and keep the last result. */
 function edited() {
   alertOff();
+  origin = "";
   link();
   if (form.flawed) {
     core.cancel();
@@ -61,7 +63,7 @@ const events = {
     }
     if (form.flawed) return;
     state("current");
-    say(`${formatNumber(summary.samples, 1)} samples in ${formatNumber(took / 1000, 2)} s`);
+    say(`${origin}${formatNumber(summary.samples, 1)} samples in ${formatNumber(took / 1000, 2)} s`);
   },
   onerror(error) {
     if (form.showError(error)) return alertOn(form.problem.message);
@@ -127,7 +129,10 @@ try {
   furnish();
   const hello = await core.start(events);
   const fields = fieldsIn(hello.fields, options.inputs);
-  job = new Job(await jobOf(options, hello), hello.fields, hello.presets);
+  const data = await jobOf(options, hello);
+  job = new Job(data, hello);
+  if (isLinked(options) && job.isAfter(data))
+    origin = "The link’s job was computed with an earlier model; figures differ. ";
   core.run(job.json); // while the form is built
   form = new Form(byId("form"), job, fields, hello.presets, edited);
   for (const group of document.querySelectorAll(".group")) group.open = !options.inputs.includes("all");

@@ -29,9 +29,14 @@ export function optionsIn(fragment) {
   };
 }
 
+/** Whether the job comes from a link rather than as JSON text. */
+export const isLinked = ({ job }) => Boolean(job) && !job.startsWith("{");
+
 /** The job to start from: the one given, or the default job with presets put in. */
-export async function jobOf({ job, preset }, { job: standard, presets }) {
-  const data = job ? JSON.parse(job.startsWith("{") ? job : await jobIn(`#job=${job}`)) : structuredClone(standard);
+export async function jobOf(options, { job: standard, presets }) {
+  const { job, preset } = options;
+  const text = isLinked(options) ? await jobIn(`#job=${job}`) : job;
+  const data = text ? JSON.parse(text) : structuredClone(standard);
   for (const name of preset) await put(name, data, presets);
   return data;
 }

@@ -23,14 +23,19 @@ export const textOf = (data) => JSON.stringify(data, null, 2);
 export class Job {
   #fields;
   #presets;
+  #model;
   #drafts = new Map(); // values of fields whose shape is not chosen now, kept for the way back
   #data;
 
-  /** A job from its plain object, the core's fields and its presets `{ robots, materials }`. */
-  constructor(data, fields, presets) {
-    this.#data = copy(listed(data));
+  /**
+   * A job from its plain object, and the core's fields, presets `{ robots, materials }` and number of
+   * the model.
+   */
+  constructor(data, { fields, presets, model }) {
     this.#fields = fields;
     this.#presets = { robot: presets.robots, material: presets.materials };
+    this.#model = model;
+    this.load(data);
   }
 
   get json() {
@@ -52,9 +57,10 @@ export class Job {
     return { job: copy(this.#data), drafts: copy(Object.fromEntries(this.#drafts)) };
   }
 
-  /** Replaces the whole job. */
+  /** Replaces the whole job; one of an earlier model is of this one from now on. */
   load(data, drafts = {}) {
-    this.#data = copy(listed(data));
+    const own = copy(listed(data));
+    this.#data = this.isAfter(own) ? { ...own, model: this.#model } : own;
     this.#drafts = new Map(Object.entries(copy(drafts)));
   }
 
@@ -104,7 +110,13 @@ export class Job {
 
   /** Another job of the same kind, from its plain object. */
   of(data) {
-    return new Job(data, this.#fields, { robots: this.#presets.robot, materials: this.#presets.material });
+    const { robot: robots, material: materials } = this.#presets;
+    return new Job(data, { fields: this.#fields, presets: { robots, materials }, model: this.#model });
+  }
+
+  /** Whether another job, a plain object, was saved by an earlier model; before model 2 it named none. */
+  isAfter({ model = 1 }) {
+    return model < this.#model;
   }
 
   /**

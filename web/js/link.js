@@ -1,10 +1,10 @@
 // A job as a link: the whole of it in the fragment, which a browser keeps to itself, as
-// `#job=1.<compressed JSON>`.
+// `#job=2.<compressed JSON>`. In format 1, which is read too, jobs named no model.
 //
 // The compression is zlib's ("deflate"), because its checksum tells a damaged link from a whole
 // one; base64url has no character that a mail program would break a link at.
 
-const FORMAT = 1;
+const FORMAT = 2;
 const LARGEST = 4_000_000; // bytes of JSON: what unfolds to more is refused, for a few kB can be made to unfold to gigabytes
 
 /**
@@ -28,9 +28,9 @@ export async function fragmentOf(json) {
  */
 export async function jobIn(fragment) {
   const [, format, body] = /^#?job=(\d+)\.([\w-]*)$/.exec(fragment) ?? [];
-  if (format === undefined) throw broken("it is not of the form #job=1.… with letters, digits, - and _ only");
+  if (format === undefined) throw broken("it is not of the form #job=2.… with letters, digits, - and _ only");
   if (Number(format) > FORMAT)
-    throw broken(`it was made by a newer Armill (format ${format}; this one reads format ${FORMAT})`);
+    throw broken(`it was made by a newer Armill (format ${format}; this one reads formats up to ${FORMAT})`);
   if (Number(format) < 1) throw broken(`there is no format ${format}`);
   let bytes;
   try {

@@ -389,7 +389,7 @@ function wireResultTools() {
 async function open() {
   const hello = await core.start(events);
   standard = hello.job;
-  job = new Job(standard, hello.fields, hello.presets);
+  job = new Job(standard, hello);
   byId("version").textContent = `v${hello.version}`;
   form = new Form(byId("form"), job, hello.fields, hello.presets, (typing, stepped) => session.edited(typing, stepped));
   byId("group-robot").querySelector("legend").after(armView.node);

@@ -33,7 +33,7 @@ export function markdown({ summary, job, standard, link }) {
         `- ${field.label}: ${escaped(inWords(field, own))} (default ${escaped(inWords(field, other))})`,
     ),
     "",
-    `${link ? `[Open in Armill](${link}), ` : ""}fingerprint \`${summary.fingerprint}\``,
+    `${link ? `[Open in Armill](${link}), ` : ""}fingerprint \`${summary.fingerprint}\`, model ${summary.model}`,
     "",
   ].join("\n");
 }

@@ -7,6 +7,10 @@ import { holdsJob, jobIn } from "./link.js";
 import { notify } from "./notice.js";
 
 const TYPED = "input:not([type=checkbox], [type=range]), textarea"; // what the browser undoes by itself while it is typed into
+const EARLIER = "Computed with an earlier model; figures differ.";
+const LISTED =
+  "The points of the path are too many for a field. They are shown as rows of points, line by line: the same path.";
+const LINKED = "Opened from the link. Undo brings your own inputs back.";
 
 export class Session {
   #job;
@@ -95,12 +99,15 @@ export class Session {
     return { ...this.#job.state, typed: this.#form.typed };
   }
 
-  #show(state) {
+  /** Shows a state of the inputs, of a link or not, and says what there is to know about it. */
+  #show(state, linked = false) {
     this.#put(state, () => this.#history.record(this.#state));
-    if (state.job.path?.kind !== this.#state.job.path?.kind)
-      notify(
-        "The points of the path are too many for a field. They are shown as rows of points, line by line: the same path.",
-      );
+    const messages = [
+      this.#job.isAfter(state.job) && EARLIER,
+      state.job.path?.kind !== this.#state.job.path?.kind && LISTED,
+      linked && this.#history.canUndo && LINKED,
+    ].filter(Boolean);
+    if (messages.length) notify(messages.join(" "));
   }
 
   #put({ job, drafts, typed }, then = () => {}) {
@@ -125,8 +132,7 @@ export class Session {
     try {
       const text = await jobIn(location.hash);
       await this.#core.check(text);
-      this.#show({ job: JSON.parse(text) });
-      notify(this.#history.canUndo ? "Opened from the link. Undo brings your own inputs back." : "");
+      this.#show({ job: JSON.parse(text) }, true);
     } catch ({ code, message }) {
       fail(code === "link" ? message : `The job in the link was not opened: ${message.replace(/[.]?$/, ".")}`);
     }
