@@ -5,7 +5,7 @@
 mod common;
 
 use armill::job::fields::{FieldKind, fields};
-use armill::report::warning::Severity;
+use armill::report::Severity;
 use armill::{Error, Job};
 use common::{job_text, refused, run};
 use serde_json::{Value, json};
