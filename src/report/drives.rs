@@ -48,8 +48,8 @@ fn acceleration(report: &Report, command: &Shaped<Joints>) -> Option<Warning> {
     let (first, last) = (beyond().next()?, beyond().next_back()?);
     let worst = beyond().max_by(|&a, &b| size(a).total_cmp(&size(b)))?;
     let message = format!(
-        "the command would accelerate the tool by {:.0} mm/s² at {:.3} s; the motion has {:.0} mm/s², and more than \
-         {ALLOWED:.0} times that is more than an arm follows. A shaper, rounded corners or a lighter cut make it smoother",
+        "the command would accelerate the tool by {:.0} mm/s² at {:.3} s, more than {ALLOWED:.0} times the motion's {:.0} \
+         mm/s²: no arm follows that; a shaper, rounded corners or a lighter cut make it smoother",
         size(worst) / MM,
         (worst * step) as f64 * dt,
         report.setup().limits.acceleration / MM

@@ -55,7 +55,7 @@ function showTolerance(summary) {
   const met = after_mm.max <= tolerance_mm;
   const line = byId("tolerance-met");
   const short = lengthUnit() !== "mm"; // more digits in the same room
-  const [within, above] = short ? ["≤", ">"] : ["within", "above"];
+  const [within, above] = short ? ["≤", ">"] : ["within", "over"];
   line.textContent = `${met ? `✓ ${within}` : `✗ ${above}`} ${toleranceText(summary)} ${lengthUnit()}`;
   line.classList.toggle("bad", !met);
   line.dataset.converged = String(converged);
