@@ -254,7 +254,7 @@ impl fmt::Display for Error {
                     f,
                     ", TCP at ({:.1}, {:.1}, {:.1}) mm in the base frame: joint {joint} would turn by {:.0} deg \
                      from one sample to the next; take another start_branch or spin (angle, reference, or free), \
-                     turn the tool over a longer move, or move the part",
+                     turn the tool over a longer move, take shorter samples, or move the part",
                     x * 1e3,
                     y * 1e3,
                     z * 1e3,

@@ -58,6 +58,16 @@ fn where_a_branch_ends_is_an_error_with_its_place() {
 
 /// A KR 210 or another arm at the pose of joint values [deg], then along Y.
 fn from_joints(robot: &str, q_deg: [f64; 6], more: &[(&'static str, Value)]) -> Report {
+    from_text(robot, q_deg, |x| format!("{x:e}"), more)
+}
+
+/// As [`from_joints`], with positions and axes as they are `written`.
+fn from_text(
+    robot: &str,
+    q_deg: [f64; 6],
+    written: impl Fn(f64) -> String,
+    more: &[(&'static str, Value)],
+) -> Report {
     let preset = library::robot(robot).unwrap();
     let arm = Robot::new("", preset.links(), preset.limits(), [0.0; 6]).unwrap();
     let tcp = forward::forward(&arm, &Joints::from(q_deg.map(f64::to_radians)));
@@ -66,7 +76,7 @@ fn from_joints(robot: &str, q_deg: [f64; 6], more: &[(&'static str, Value)]) -> 
     let level = (Vector3::y() - axis * axis.y).normalize().cross(&axis);
     let spin = axis.dot(&level.cross(&x)).atan2(level.dot(&x)).to_degrees();
     let [p, a] = [tcp.position * 1e3, axis];
-    let row = |y: f64| format!("{:e},{:e},{:e},{:e},{:e},{:e}", p.x, p.y + y, p.z, a.x, a.y, a.z);
+    let row = |y: f64| [p.x, p.y + y, p.z, a.x, a.y, a.z].map(&written).join(",");
     let path = json!({"kind": "csv", "text": format!("x,y,z,i,j,k\n{}\n{}", row(0.0), row(20.0))});
     let mut all = changes(robot, path, &[("spin", json!({"angle_deg": spin, "reference": "y"}))]);
     all.extend(more.iter().cloned());
@@ -120,4 +130,19 @@ fn a_start_in_the_wrist_singularity_has_q4_of_the_first_step() {
     let flipped = json!({"shoulder": "front", "elbow": "positive", "wrist": "flipped"});
     let other = from_joints("kuka-kr-210-2", [0.0, -60.0, 90.0, 0.0, 0.0, 0.0], &[("start_branch", flipped)]);
     assert!(!has(&other, "joint-jump"));
+}
+
+#[test]
+fn a_start_typed_with_seven_decimals_is_singular_too() {
+    // With six, rounding turns the tool axis as far as the first samples do.
+    for decimals in [7, 8, 9, 12] {
+        let written = |x: f64| format!("{x:.decimals$}");
+        let report = from_text("kuka-kr-210-2", [0.0, -60.0, 90.0, 0.0, 0.0, 0.0], written, &[]);
+        let largest = report.q.windows(2).map(|pair| (pair[1] - pair[0]).amax()).fold(0.0, f64::max);
+        assert!(largest.to_degrees() < 0.5, "{decimals} decimals: {} deg in a sample", largest.to_degrees());
+        assert!(!has(&report, "joint-jump") && !has(&report, "joint-speed"), "{decimals}");
+        // The pose is kept: twice 3e-6 rad on levers of half a metre.
+        let away = report.before.contour_error.iter().map(|error| error.norm()).fold(0.0, f64::max);
+        assert!(away < 3e-6, "{decimals}: {away} m");
+    }
 }

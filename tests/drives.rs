@@ -99,6 +99,15 @@ fn a_command_that_an_arm_follows_is_not_remarked() {
 }
 
 #[test]
+fn samples_too_far_apart_are_not_taken_for_an_answer() {
+    for (dt, unchecked) in [(0.012, false), (0.02, true), (0.1, true)] {
+        let report = rectangle(&[("motion.sample_time_s", json!(dt))]);
+        assert_eq!(warning(&report, "command-unchecked").is_some(), unchecked, "{dt}");
+        assert_eq!(warning(&report, "command-acceleration").is_some(), !unchecked, "{dt}");
+    }
+}
+
+#[test]
 fn joints_that_turn_too_fast_are_named() {
     for id in ["kuka-kr-210-2", "fanuc-r-2000ic-165f"] {
         let preset = library::robot(id).unwrap();
@@ -158,4 +167,32 @@ fn the_report_says_where_a_cut_begins_too_fast_for_the_shaper() {
     assert!(after[to + 1..].iter().all(|error| *error <= tolerance), "nothing is beyond it later on");
     // Nothing of the kind without a shaper: the command follows.
     assert!(warning(&run(&[("shaper", json!("none"))]), "run-in").is_none());
+}
+
+#[test]
+fn what_is_left_at_the_end_is_not_laid_to_the_beginning() {
+    let slot = |to: f64| {
+        run(&[
+            ("robot", json!({"preset":"kuka-kr-210-2"})),
+            ("workpiece_frame", json!({"xyz_mm":[1700,0,800]})),
+            ("tool_frame", json!({"xyz_mm":[0,0,250]})),
+            ("path", json!({"kind":"line","from_mm":[0,0,0],"to_mm":[0,to,0]})),
+            ("motion.feed_mm_s", json!(40)),
+            ("motion.acceleration_mm_s2", json!(400)),
+            ("motion.sample_time_s", json!(0.004)),
+            ("material", json!({"preset":"al-7075-t6"})),
+            ("cutting.engagement", json!("slot")),
+            ("shaper", json!({"kind":"zvd","frequency_hz":10,"damping":0.03})),
+        ])
+    };
+    let long = slot(200.0);
+    let found = warning(&long, "run-out").unwrap();
+    assert!(found.from_sample.unwrap() >= long.plan.trajectory.moving, "after the command has arrived");
+    if let Some(begin) = warning(&long, "run-in") {
+        assert!(begin.to_sample.unwrap() < long.plan.trajectory.moving);
+    }
+    assert!(warning(&long, "run-in-short").is_none());
+    // The run-in of this slot is 5 mm.
+    let short = warning(&slot(2.0), "run-in-short").unwrap().message.clone();
+    assert!(short.contains("5.0 mm") && short.contains("at most 35 %"), "{short}");
 }

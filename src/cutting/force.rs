@@ -74,8 +74,8 @@ fn wrapped(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).floor()
 }
 
-/// Tangential and radial force, and the force towards the spindle, at the immersion angle `phi` as a
-/// vector in {T} (eq. 4.3; the thesis's axial force always points to the spindle).
+/// Tangential and radial force, and the force `a` towards the spindle, at the immersion angle `phi`
+/// as a vector in {T} (eq. 4.3). The slices' coefficients carry the sign of the axial force.
 fn project(phi: f64, t: f64, r: f64, a: f64) -> Vector3<f64> {
     let (sin, cos) = math::sin_cos(phi);
     Vector3::new(-t * cos - r * sin, t * sin - r * cos, a)

@@ -64,6 +64,13 @@ impl Loading {
         self.chip.at(self.feed, None)
     }
 
+    /// Largest programmed feed per tooth of the moves that cut [m]; the job's own if none does.
+    pub fn largest_chip(&self, path: &Path) -> f64 {
+        let chip = |step: &Move| Some(self.chip.at(self.programmed(step)?, step.spindle));
+        let largest = path.moves().iter().filter_map(chip).reduce(f64::max);
+        largest.unwrap_or_else(|| self.feed_per_tooth())
+    }
+
     /// Programmed feed of a move [m/s]; `None` for a rapid move.
     pub fn programmed(&self, step: &Move) -> Option<f64> {
         match step.pace {

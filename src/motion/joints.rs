@@ -7,7 +7,7 @@ use crate::motion::{Trajectory, turns};
 use crate::path::{Axes, Path};
 use crate::progress::Progress;
 use crate::robot::inverse::{self, Margin, Solution};
-use crate::robot::{Joints, Robot};
+use crate::robot::{Joints, Robot, forward};
 use crate::units::DEG;
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
@@ -159,6 +159,10 @@ fn branch_ends(targets: &Targets, sample: usize, turn: &Joints) -> Error {
     }
 }
 
+/// Sine of the wrist angle below which a start counts as singular: what is left of a singular pose
+/// that is typed with seven decimals of the tool axis.
+const NEARLY_SINGULAR: f64 = 3e-6;
+
 /// The solution that the motion along targets starts from. In the wrist singularity, where any q4
 /// will do, it has that of the first sample beyond.
 fn start_solution(robot: &Robot, targets: &Targets, start: StartBranch) -> Result<Solution, Error> {
@@ -167,14 +171,29 @@ fn start_solution(robot: &Robot, targets: &Targets, start: StartBranch) -> Resul
         first_solution(robot, &targets.tcp(k), start).map_err(place)
     };
     let first = solution(0)?;
-    if first.margin.wrist > inverse::WRIST_SINGULAR {
+    if first.margin.wrist > NEARLY_SINGULAR {
         return Ok(first);
     }
     let next = (1..targets.position.len()).map_while(|k| solution(k).ok());
-    match next.into_iter().find(|next| next.margin.wrist > inverse::WRIST_SINGULAR) {
+    match next.into_iter().find(|next| next.margin.wrist > NEARLY_SINGULAR) {
+        Some(regular) if first.margin.wrist > inverse::WRIST_SINGULAR => {
+            Ok(turned_wrist(robot, &first, regular.q[3]))
+        }
         Some(regular) => nearest_start(robot, targets, &regular.q),
         None => Ok(first),
     }
+}
+
+/// A nearly singular solution with another q4 [rad]: axes 4 and 6 lie along each other, so joint 6
+/// takes back what joint 4 turns. The tool axis is off by twice the sine of the wrist angle at most.
+fn turned_wrist(robot: &Robot, solution: &Solution, q4: f64) -> Solution {
+    let frames = forward::frames(robot, &solution.q);
+    let [_, _, _, four, _, six] = robot.links();
+    let same_way = frames[3].rotation.column(2).dot(&frames[5].rotation.column(2)).signum();
+    let mut q = solution.q;
+    q[5] += same_way * four.sign * six.sign * (q[3] - q4);
+    q[3] = q4;
+    Solution { q, ..*solution }
 }
 
 /// The solution at the start nearest to joint values [rad].

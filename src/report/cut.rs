@@ -13,7 +13,8 @@ use crate::units::{DEG, KILOWATT, MINUTE, MM, N_PER_MM, N_PER_MM2};
 use nalgebra::Vector3;
 use serde::Serialize;
 
-/// Cutting figures at the job's feed per tooth (at full feed, if the chip load follows the feed).
+/// Cutting figures at the programmed feed; of a program, at that of its move with the largest feed
+/// per tooth.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct CutFigures {
     /// Tangential cutting coefficient [N/mm^2].
@@ -100,9 +101,9 @@ pub struct WallFigures {
 }
 
 impl Report {
-    /// Feed per tooth of the job [m]; at full feed, if the chip load follows the feed.
+    /// Feed per tooth at the programmed feed [m]; of a program, that of its move with the largest.
     pub fn feed_per_tooth(&self) -> f64 {
-        self.setup().loading.feed_per_tooth()
+        self.setup().loading.largest_chip(&self.setup().path)
     }
 
     /// Mean cutting power [W] at [`Report::feed_per_tooth`] and the job's spindle speed: torque
@@ -174,11 +175,12 @@ impl Report {
             let frames = forward::frames(robot, &q);
             let tip = frames[5].compose(robot.tool());
             budget.take(k, self.parts(k, &q, &frames, &tip.position));
-            if timing.engaged[k] < 0.5 || walls.is_empty() {
+            let load = loads.at(&timing, k);
+            // At rest nothing is cut.
+            if timing.engaged[k] < 0.5 || load == CutLoad::default() || walls.is_empty() {
                 return;
             }
             let y = axis.cross(&x);
-            let load = loads.at(&timing, k);
             let mean_of_turn = self.setup().mean_force.under(&load);
             let base = x * mean_of_turn.x + y * mean_of_turn.y + axis * mean_of_turn.z;
             let by =

@@ -34,6 +34,13 @@ pub(super) fn warnings(report: &Report) -> Vec<Warning> {
 fn acceleration(report: &Report, command: &Shaped<Joints>) -> Option<Warning> {
     let dt = report.plan.trajectory.sample_time;
     // Whole samples, and not every sample on a fine grid.
+    if dt > INTERVAL + 1e-9 {
+        let message = format!(
+            "samples every {dt} s are too far apart to tell what the drives follow: the acceleration of the command \
+             is not checked; take {INTERVAL} s or less (motion.sample_time_s)"
+        );
+        return Some(Warning::new("command-unchecked", message));
+    }
     let step = ((INTERVAL / dt / STEPS as f64).round() as usize).max(1);
     let reach = ((INTERVAL / (dt * step as f64)).round() as usize).max(1);
     let limit = ALLOWED * report.setup().limits.acceleration;
@@ -49,7 +56,7 @@ fn acceleration(report: &Report, command: &Shaped<Joints>) -> Option<Warning> {
     let worst = beyond().max_by(|&a, &b| size(a).total_cmp(&size(b)))?;
     let message = format!(
         "the command would accelerate the tool by {:.0} mm/s² at {:.3} s, more than {ALLOWED:.0} times the motion's {:.0} \
-         mm/s²: no arm follows that; a shaper, rounded corners or a lighter cut make it smoother",
+         mm/s²: no arm follows that; a shaper, rounded corners, leads in and out or a lighter cut make it smoother",
         size(worst) / MM,
         (worst * step) as f64 * dt,
         report.setup().limits.acceleration / MM

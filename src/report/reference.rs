@@ -9,8 +9,7 @@ pub(super) fn remark(path: &Path) -> Option<Warning> {
     match path.roll_reference() {
         RollReference::Set(_) | RollReference::Chosen(0, _) => None,
         RollReference::Chosen(i, _) => {
-            let (name, passed) =
-                if *i == 1 { ("+Y", "+X or -X") } else { ("+Z", "both the X and the Y axis") };
+            let (name, passed) = if *i == 1 { ("+Y", "+X or -X") } else { ("+Z", "X and of workpiece Y") };
             let message = format!(
                 "the tool axis comes within 15 deg of workpiece {passed}, so the spin counts from {name}; \
                  spin.reference sets another"

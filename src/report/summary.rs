@@ -60,7 +60,8 @@ pub struct Summary {
     pub duration_s: f64,
     /// Length of the desired path [mm].
     pub path_length_mm: f64,
-    /// Mean milling force in {T} at the programmed feed [N], z from tip to spindle.
+    /// Mean milling force in {T} at the programmed feed [N], z from tip to spindle; of a program,
+    /// at that of its move with the largest feed per tooth.
     pub mean_force_n: [f64; 3],
     /// Name of the material.
     pub material: String,
@@ -189,8 +190,7 @@ impl ProgramSummary {
 }
 
 impl Report {
-    /// Mean milling force in {T} [N], at the job's feed per tooth (at full feed, if the chip load
-    /// follows the feed).
+    /// Mean milling force in {T} [N] at [`Report::feed_per_tooth`].
     pub fn mean_force(&self) -> Vector3<f64> {
         self.setup().mean_force.at(self.feed_per_tooth())
     }

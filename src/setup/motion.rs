@@ -67,7 +67,7 @@ pub(super) fn with_reference(path: Path, spin: &job::Spin) -> Result<Path, Error
     let value = serde_json::to_string(&spin.reference).unwrap_or_default();
     let direction = Vector3::from(given);
     if direction.norm() < 1e-9 {
-        return Err(Error::invalid(field, value, "a direction; its length does not matter"));
+        return Err(Error::invalid(field, value, "a direction that is not zero; its length does not matter"));
     }
     let (clear, index) = path.clearance(&direction);
     if clear >= LEGAL {

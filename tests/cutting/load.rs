@@ -140,3 +140,19 @@ fn nothing_is_cut_at_rest() {
         assert!(report.compensation.converged, "{}", report.after.statistics.max);
     }
 }
+
+#[test]
+fn figures_of_a_program_are_those_of_its_largest_chip() {
+    let text = "G21 G90 S4000 M3\nG0 X600 Y-40 Z100\nG1 Y0 F600\nY60 F1200";
+    let report = run(&[
+        ("path", json!({"kind":"gcode","text":text})),
+        ("motion.feed_mm_s", json!(100)),
+        ("cutting.feed_per_tooth_mm", json!("from_feed")),
+        ("material", json!({"preset":"al-7075-t6"})),
+        ("shaper", json!("none")),
+    ]);
+    // 1200 mm/min at 4000 rpm and four flutes, not the job's 100 mm/s.
+    assert!((report.summary().cut.feed_per_tooth_mm - 0.075).abs() < 1e-12);
+    let largest = report.force.iter().map(|force| force.norm()).fold(0.0, f64::max);
+    assert!((largest - report.mean_force().norm()).abs() < 1e-9 * largest);
+}

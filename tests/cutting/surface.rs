@@ -16,15 +16,13 @@ fn the_wall_is_left_by_the_instant_that_makes_it() {
     assert_eq!(wall.side, -1.0);
     // Over all cutting samples, those at less than the programmed feed among them. Feed along +y, so
     // into the part on the right is +x.
-    let samples = report.samples() as f64;
+    let samples = report.force.iter().filter(|force| force.norm() > 0.0).count() as f64;
     let mean = column(&report, "force_x_n").iter().sum::<f64>() / samples;
     assert!((wall.mean_force_n - mean).abs() < 1e-9, "{wall:?} {mean}");
     // Static, at a nearly constant pose: the deviation by the mean force is the deflection across
     // the feed (here x of the base).
     let across = column(&report, "deflection_x_mm");
-    let average = across.iter().sum::<f64>() / across.len() as f64;
-    // Feed along +y, so y of {T} is -x of the base, and into the part on the right is +x; the
-    // resting sample at the end counts for both.
+    let average = across.iter().sum::<f64>() / samples;
     assert!((wall.by_mean_force_mm - average).abs() < 1e-9 * average.abs().max(1.0), "{wall:?} {average}");
     // Force when the edge passes 180 deg at the height z: another tooth is at 90 deg plus the lag;
     // brute force over thin slices.
@@ -71,5 +69,20 @@ fn the_wall_is_left_by_the_instant_that_makes_it() {
         for (a, b) in whole.instants.iter().zip(less.instants) {
             assert!((a.at(1e-4) - b.at(1e-4)).norm() < 1e-6 * a.at(1e-4).norm());
         }
+    }
+}
+
+#[test]
+fn a_wait_does_not_change_the_wall() {
+    // Nothing is cut while the tool waits.
+    let walls = |dwell: f64| {
+        let text = format!("G21 G90 S4000 M3\nG1 X600 Y-40 Z100 F2400\nG1 Y0\nG4 P{dwell}\nG1 Y40");
+        run(&[("path", json!({"kind":"gcode","text":text})), ("shaper", json!("none"))]).walls()
+    };
+    let (none, long) = (walls(0.5), walls(30.0));
+    for (a, b) in none.iter().zip(&long) {
+        // A sample more or less while the tool gains speed.
+        assert!((a.mean_force_n - b.mean_force_n).abs() < 0.05 * a.mean_force_n.abs(), "{a:?} {b:?}");
+        assert!((a.at_instant_mm - b.at_instant_mm).abs() < 0.05 * a.at_instant_mm.abs(), "{a:?} {b:?}");
     }
 }

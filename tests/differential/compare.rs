@@ -192,7 +192,11 @@ fn columns(question: &Question, answer: &Answer) -> BTreeMap<String, Vec<f64>> {
         question.run_in(&answer.desired).iter().map(|w| if w.is_nan() { 0.0 } else { *w }).collect(),
     );
     // Figures of the summary, as columns of their own.
-    let [c, figures] = [question.cut.per_tooth(question.cut.feed, None), 1e3];
+    let figures = 1e3;
+    // The largest of the pieces that cut.
+    let cuts = question.way.pieces.iter().filter(|piece| piece.cuts);
+    let chips = cuts.map(|piece| question.cut.per_tooth(piece.limit, piece.spindle));
+    let c = chips.reduce(f64::max).unwrap_or(question.cut.per_tooth(question.cut.feed, None));
     one("mean_force_n", (answer.force.cutting * c + answer.force.edge).iter().copied().collect());
     let before = [&answer.deflection_only, &answer.shaping_only, &answer.before];
     one("before", before.iter().flat_map(|outcome| outcome.figures().map(|f| f * figures)).collect());

@@ -1,7 +1,7 @@
 //! The compensated path as a Staubli VAL3 program (`.pgx`, VAL3 s7 and later).
 //!
-//! One program of an application whose data the file names: the frame `fPart` (in the world, at the
-//! height of axis 2), the tool `tMill`, the point `pPath` (in `fPart`) and the motion descriptor
+//! One program of an application whose data the file names: the frame `fPart` (in the world, on
+//! a Staubli arm at the height of axis 2), the tool `tMill`, the point `pPath` (in `fPart`) and the motion descriptor
 //! `mPath`. `movel` to each point; lengths in mm, rx, ry, rz [deg] about x, the new y, the new z;
 //! `tvel` in mm/s. Blending is off. The first move is a `movej`.
 //!
