@@ -44,8 +44,8 @@ pub const STAGES: [Work<Stages>; 9] = [
         )));
     }),
     ("cutting: force", |s| {
-        let Setup { mean_force, chip, .. } = &*s.plan.setup;
-        drop(black_box(along::forces(&s.plan.path, &s.timing, mean_force, chip)));
+        let Setup { mean_force, loading, .. } = &*s.plan.setup;
+        drop(black_box(along::forces(&s.plan.path, &s.timing, mean_force, loading)));
     }),
     ("deviation: contour error", |s| {
         let reference = s.reference();
