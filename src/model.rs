@@ -1,6 +1,6 @@
 //! The model's number: figures of the same number can be compared.
 //!
-//! Summaries, saved jobs and exported programs carry it, so that whoever opens an old one learns
+//! Summaries, saved jobs and exported programs carry it, so that opening an old one can say
 //! that its figures differ from today's.
 
 /// Number of the model that figures are computed with.

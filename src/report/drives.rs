@@ -4,6 +4,7 @@
 //! not accelerate an arm like that: it trips, or goes elsewhere.
 
 use crate::motion::shaper::Shaped;
+use crate::report::warning::range;
 use crate::report::{Report, Warning};
 use crate::robot::{Elbow, Joints, forward};
 use crate::units::{DEG, MM};
@@ -52,7 +53,7 @@ fn acceleration(report: &Report, command: &Shaped<Joints>) -> Option<Warning> {
     let size = |i: usize| (tips[i + reach] - tips[i] * 2.0 + tips[i - reach]).norm() / (span * span);
     let inner = reach..tips.len().saturating_sub(reach);
     let beyond = || inner.clone().filter(|&i| size(i) > limit);
-    let (first, last) = (beyond().next()?, beyond().next_back()?);
+    let (first, last) = range(tips.len(), |i| inner.contains(&i) && size(i) > limit)?;
     let worst = beyond().max_by(|&a, &b| size(a).total_cmp(&size(b)))?;
     let message = format!(
         "the command would accelerate the tool by {:.0} mm/s² at {:.3} s, more than {ALLOWED:.0} times the motion's {:.0} \

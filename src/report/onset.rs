@@ -1,6 +1,7 @@
 //! Where a cut sets in or fades faster than a shaped command can follow, and cuts that are shorter
 //! than their run-in.
 
+use crate::report::warning::range;
 use crate::report::{Report, Warning, millimetres};
 use crate::units::MM;
 
@@ -75,8 +76,9 @@ fn remark(
     let dt = report.plan.trajectory.sample_time;
     let size = |k: usize| report.after.contour_error[k].norm();
     let tolerance = report.setup().goal.tolerance;
-    let beyond: Vec<usize> = (0..report.samples()).filter(|&k| size(k) > tolerance && at(k)).collect();
-    let worst = *beyond.iter().max_by(|a, b| size(**a).total_cmp(&size(**b)))?;
+    let beyond = |k: usize| size(k) > tolerance && at(k);
+    let range = range(report.samples(), beyond)?;
+    let worst = (range.0..=range.1).filter(|&k| beyond(k)).max_by(|&a, &b| size(a).total_cmp(&size(b)))?;
     let message = text(millimetres(size(worst)), worst as f64 * dt);
-    Some(Warning::new(code, message).within((*beyond.first()?, *beyond.last()?), dt))
+    Some(Warning::new(code, message).within(range, dt))
 }

@@ -237,9 +237,10 @@ fn errors_by_force(case: &ConstantForce) -> ThesisRow {
         printed: "1.6 and 2.5",
         ours: mean_max(case.deflection_only.statistics.into()),
         agrees: false,
-        reason: "With the thesis's force: constant, its axial part towards the spindle. J C J^T of the thesis's own tables gives 1.5 to 2 times less; eq. 3.34 is off by one joint \
-                 for modified Denavit-Hartenberg frames, which explains most of it. Also d6 and the circle's \
-                 radius differ between text and tables.",
+        reason: "With the thesis's force: constant, its axial part towards the spindle. J C J^T of the thesis's \
+                 own tables gives 1.5 to 2 times less; eq. 3.34 is off by one joint for modified \
+                 Denavit-Hartenberg frames, which explains most of it. Also d6 and the circle's radius differ \
+                 between text and tables.",
     }
 }
 

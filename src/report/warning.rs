@@ -75,7 +75,7 @@ const RAMP: f64 = 30.0 * DEG;
 const SAME_TOOL: f64 = 0.01 * MM;
 
 /// First and last sample at which something holds.
-fn range(count: usize, holds: impl Fn(usize) -> bool) -> Option<(usize, usize)> {
+pub(super) fn range(count: usize, holds: impl Fn(usize) -> bool) -> Option<(usize, usize)> {
     let first = (0..count).find(|&k| holds(k))?;
     let last = (first..count).rev().find(|&k| holds(k))?;
     Some((first, last))

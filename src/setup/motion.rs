@@ -81,7 +81,7 @@ pub(super) fn with_reference(path: Path, spin: &job::Spin) -> Result<Path, Error
     let line = if step.line > 0 { format!(", line {}", step.line) } else { String::new() };
     let expected = format!(
         "the tool axis comes within {:.1} deg of it ({:.1} mm along the path{line}); \
-         legal is a direction that keeps {:.0} deg clear, such as {others}",
+         choose a direction that keeps {:.0} deg clear, such as {others}",
         clear / DEG,
         path.start(index) / MM,
         LEGAL / DEG

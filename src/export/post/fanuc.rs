@@ -2,7 +2,8 @@
 //!
 //! `L P[i] ... mm/sec FINE` to each point in user frame 1 with tool frame 1; lengths in mm, W, P, R
 //! [deg] about the fixed x, y and z axes. Frames are numbers on the controller, so their values are
-//! stated in remarks, counted from its world (at the height of axis 2 on a FANUC arm). `FINE` stops exactly at every point. `CONFIG` is written `N U T, 0, 0, 0`
+//! stated in remarks, counted from its world (at the height of axis 2 on a FANUC arm). `FINE` stops
+//! exactly at every point. `CONFIG` is written `N U T, 0, 0, 0`
 //! throughout: it depends on the controller's own joint zeros, so the arm must start in the desired
 //! configuration.
 //!
