@@ -48,6 +48,7 @@ pub mod setup;
 pub mod plan;
 pub mod deviation;
 pub mod compensation;
+pub mod uncertainty;
 pub mod report;
 pub mod simulation;
 pub mod identify;

@@ -6,7 +6,7 @@ use std::path::Path;
 /// The modules from left to right. The job is read first, but its fields and its setup name things
 /// that the stages offer (robots, materials, shapes), so these stand to its left. `column` is the
 /// currency of report, charts and files.
-const ORDER: [&str; 22] = [
+const ORDER: [&str; 23] = [
     "math",
     "units",
     "model",
@@ -22,6 +22,7 @@ const ORDER: [&str; 22] = [
     "plan",
     "deviation",
     "compensation",
+    "uncertainty",
     "report",
     "simulation",
     "identify",

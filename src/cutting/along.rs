@@ -21,6 +21,29 @@ pub fn forces(path: &Path, timing: &TimingLaw, mean: &LinearForce, loading: &Loa
     forces
 }
 
+/// As [`forces`], split into `parts` that add up to the mean force, at the samples `at` only, which
+/// rise.
+pub fn parts<const N: usize>(
+    path: &Path,
+    timing: &TimingLaw,
+    parts: &[LinearForce; N],
+    loading: &Loading,
+    at: &[usize],
+) -> Vec<[Vector3<f64>; N]> {
+    let mut forces = Vec::with_capacity(at.len());
+    let loads = loading.along(path);
+    each(path, timing, |k, x, axis| {
+        if at.get(forces.len()) == Some(&k) {
+            let load = loads.at(timing, k);
+            forces.push(parts.map(|part| {
+                let f = part.under(&load);
+                x * f.x + axis.cross(&x) * f.y + axis * f.z
+            }));
+        }
+    });
+    forces
+}
+
 /// Calls `at` for every sample with its number and the directions x and z of {T} there, in the base
 /// frame.
 pub fn each(path: &Path, timing: &TimingLaw, mut at: impl FnMut(usize, Vector3<f64>, Vector3<f64>)) {

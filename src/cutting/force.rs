@@ -128,6 +128,19 @@ impl Cut {
         mean
     }
 
+    /// The mean force by the tangential, the radial and the axial coefficients alone; they add up to
+    /// [`mean_force`](Cut::mean_force), which is linear in them.
+    pub fn mean_force_parts(&self) -> [LinearForce; 3] {
+        let k = &self.coefficients;
+        let none = Coefficients::default();
+        let alone = [
+            Coefficients { ktc: k.ktc, kte: k.kte, ..none },
+            Coefficients { krc: k.krc, kre: k.kre, ..none },
+            Coefficients { kac: k.kac, kae: k.kae, ..none },
+        ];
+        alone.map(|coefficients| Cut { coefficients, ..*self }.mean_force())
+    }
+
     /// Force [N] in {T} at the instant when the first tooth's tip is at the immersion angle `phi`,
     /// for the feed per tooth `c` [m].
     ///

@@ -52,6 +52,13 @@ impl Keyword for Unknown {
     const WORD: &'static str = "unknown";
 }
 
+/// `"library"`: what the library says of the robot or material.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Library;
+impl Keyword for Library {
+    const WORD: &'static str = "library";
+}
+
 /// Time at rest in a corner [s], or `"settle"`.
 pub type CornerDwell = Choice<Settle>;
 /// Feed per tooth [mm], or `"from_feed"`.
@@ -61,6 +68,8 @@ pub type FeedPerTooth = Choice<FromFeed>;
 pub type CornerRadius = Choice<Ball>;
 /// Spindle power [kW], or `"unknown"`.
 pub type SpindlePower = Choice<Unknown>;
+/// 95 % range to each side [%], or `"library"`.
+pub type SpreadPercent = Choice<Library>;
 /// Chip thickness [mm], or `"mean"`.
 pub type ChipThickness = Choice<Mean>;
 

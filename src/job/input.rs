@@ -7,6 +7,7 @@ use crate::job::json::{Node, Read, keys};
 use crate::job::path::{Path, PathKind};
 use crate::job::source::Source;
 use crate::job::spin::Spin;
+use crate::job::uncertainty::Uncertainty;
 use serde::Serialize;
 
 /// The whole job. `Job::default()` is the thesis's case.
@@ -45,6 +46,8 @@ pub struct Job {
     pub shaper: Shaper,
     /// The sources to compensate, and the tolerance.
     pub compensation: Compensation,
+    /// How well the inputs are known.
+    pub uncertainty: Uncertainty,
 }
 
 impl Default for Job {
@@ -75,6 +78,7 @@ impl Default for Job {
                 damping: 0.1,
             }),
             compensation: Compensation::default(),
+            uncertainty: Uncertainty::default(),
         }
     }
 }
@@ -367,7 +371,8 @@ keys!(Job {
     material,
     cutting,
     shaper,
-    compensation
+    compensation,
+    uncertainty
 });
 keys!(new Robot {
     preset, name, modified_dh, opw, joint_3, joint_limits_deg, joint_compliance_rad_per_nm,

@@ -11,11 +11,14 @@ mod spin;
 mod input;
 mod cutting;
 mod path;
+mod uncertainty;
 mod read;
 pub mod presets;
 pub mod fields;
 
-pub use choice::{ChipThickness, Choice, CornerDwell, CornerRadius, FeedPerTooth, SpindlePower};
+pub use choice::{
+    ChipThickness, Choice, CornerDwell, CornerRadius, FeedPerTooth, SpindlePower, SpreadPercent,
+};
 pub use cutting::{Cutting, Engaged, HelixHand, Line, Material, Tool, ToolBending};
 pub use input::{
     Branch, Compensation, DhRow, Elbow, Frame, Job, Joint3, Motion, Opw, Robot, SagZero, Shaper, ShaperKind,
@@ -24,3 +27,4 @@ pub use input::{
 pub use path::{FeedUnit, Path, PathKind, Unit};
 pub use source::{Source, Sources};
 pub use spin::{Spin, SpinGoal, SpinMode, SpinReference};
+pub use uncertainty::Uncertainty;

@@ -95,6 +95,10 @@ impl Report {
         series.push(Series::new("program_line", "Line of the program", "", count, move |samples| {
             timing.index[samples].iter().map(|&index| path.moves()[index as usize].line as f64).collect()
         }));
+        let band = &self.band;
+        series.push(Series::new("after_p95_mm", "Contour error after, 95 %", "mm", count, move |samples| {
+            samples.map(|k| band.p95_at(k) / MM).collect()
+        }));
         if self.roll.is_some() {
             series.push(Series::new("spin_deg", "Spin about the tool axis", "deg", count, move |samples| {
                 timing.arc_length[samples].iter().map(|&s| path.roll(s) / DEG).collect()

@@ -12,12 +12,15 @@ mod reference;
 mod roll;
 mod severity;
 mod summary;
+mod verdict;
+mod expected;
 
 pub use budget::{Budget, Parts};
 pub use cut::{CutFigures, WallFigures};
 pub use roll::{RollGain, RollOutcome};
 pub use severity::Severity;
 pub use summary::{Statistics, Summary};
+pub use verdict::VerdictState;
 pub use warning::Warning;
 
 use crate::compensation::{Compensation, Question, compensate};
@@ -28,6 +31,7 @@ use crate::progress::Progress;
 use crate::robot::Joints;
 use crate::robot::inverse::Branch;
 use crate::setup::Setup;
+use crate::uncertainty::Band;
 use crate::units::MM;
 use nalgebra::Vector3;
 use std::sync::{Arc, OnceLock};
@@ -58,6 +62,8 @@ pub struct Report {
     pub compensation: Compensation,
     /// Deviation with the compensated path commanded, every source acting.
     pub after: Arc<Deviation>,
+    /// What is left on the part with what is known of robot and material.
+    pub band: Band,
     /// Conditions that are odd but workable.
     pub warnings: Vec<Warning>,
     /// See [`Report::alone`]; computed on first use.

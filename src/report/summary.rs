@@ -5,7 +5,8 @@ use crate::deviation::Deviation;
 use crate::deviation::contour::MeanMax;
 use crate::model::MODEL;
 use crate::path::{MovePace, Path, SourceProgram};
-use crate::report::{Budget, CutFigures, Report, RollGain, WallFigures, Warning};
+use crate::report::expected::{Expected, HowSure};
+use crate::report::{Budget, CutFigures, Report, RollGain, VerdictState, WallFigures, Warning};
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -95,6 +96,13 @@ pub struct Summary {
     pub history_mean_mm: Vec<f64>,
     /// The verdict in words.
     pub verdict: String,
+    /// The verdict as a state.
+    pub verdict_state: VerdictState,
+    /// Largest contour error to expect after compensation, with what is known of robot and material
+    /// [mm].
+    pub expected_mm: Expected,
+    /// How sure that is.
+    pub how_sure: HowSure,
     /// Summary of the program, if the path came from one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub program: Option<ProgramSummary>,
@@ -234,6 +242,9 @@ impl Report {
             history_max_mm: mm(&self.compensation.history_max),
             history_mean_mm: mm(&self.compensation.history_mean),
             verdict: self.verdict(),
+            verdict_state: self.verdict_state(),
+            expected_mm: self.band.after.into(),
+            how_sure: self.how_sure(),
             program: self.setup().program.as_ref().map(|source| ProgramSummary::of(source, &self.plan.path)),
             spin: self.roll.clone(),
             robot: self.plan.robot.name().to_owned(),

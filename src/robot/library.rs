@@ -12,6 +12,19 @@ const ZEROS: &str = include_str!("library/zeros.csv");
 const STIFFNESS: &str = include_str!("library/stiffness.csv");
 const SOURCES: &str = include_str!("library/sources.txt");
 
+/// How well a stiffness is known: its 95 % range.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Known {
+    /// So much to each side [%].
+    Percent(f64),
+    /// From 1 / this to this times the stiffness.
+    Factor(f64),
+}
+
+/// Range of a stiffness that was not measured on the joint: a factor of 2.0 as one standard
+/// deviation (see [`assumed_compliance`]), so 2.0^1.96 at 95 %.
+const NOT_MEASURED: f64 = 3.9;
+
 /// A robot of the library.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Preset {
@@ -36,6 +49,8 @@ pub struct Preset {
     pub joint_compliance: [f64; 6],
     /// Whether the compliance is only the order-of-magnitude estimate of [`assumed_compliance`].
     pub stiffness_assumed: bool,
+    /// How well each joint's stiffness is known.
+    pub stiffness_known: [Known; 6],
     /// Where the geometry comes from and how far to trust it.
     pub geometry_note: String,
     /// Where the height of the controller's world is from.
@@ -142,6 +157,8 @@ pub struct Published {
     pub confidence: &'static str,
     /// Where it comes from.
     pub source: &'static str,
+    /// How well the measured values are known.
+    pub known: Known,
 }
 
 /// All published sets.
@@ -156,7 +173,12 @@ pub fn published() -> impl Iterator<Item = Published> {
             (!text.is_empty()).then_some(compliance)
         });
         let measured = values.map(|text| !text.is_empty() && !text.ends_with('?'));
-        Published { key, payload, compliance, measured, mode: row(), confidence: row(), source: row() }
+        let (mode, confidence, source, spread) = (row(), row(), row(), row());
+        let known = match spread.strip_prefix('x') {
+            Some(factor) => Known::Factor(number(factor)),
+            None => Known::Percent(number(spread)),
+        };
+        Published { key, payload, compliance, measured, mode, confidence, source, known }
     })
 }
 
@@ -211,6 +233,10 @@ fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
             None => assumed_compliance(payload),
         },
         stiffness_assumed: known.is_none(),
+        stiffness_known: std::array::from_fn(|joint| match &known {
+            Some(set) if set.measured[joint] => set.known,
+            _ => Known::Factor(NOT_MEASURED),
+        }),
         geometry_note: format!("Geometry: {source} (confidence {confidence})."),
         world_source,
         stiffness_note,

@@ -5,6 +5,8 @@ mod path;
 mod cutting;
 mod statics;
 mod motion;
+mod uncertainty;
+pub mod spread;
 
 pub use cutting::ResolvedMaterial;
 pub use robot::robot;
@@ -16,6 +18,7 @@ use crate::math::Pose;
 use crate::model::MODEL;
 use crate::motion::joints::StartBranch;
 use crate::motion::roll::RollRange;
+use crate::motion::shaper::ShaperType;
 use crate::motion::trajectory::MotionLimits;
 use crate::motion::{Shaper, Trajectory};
 use crate::path::{Path, Roll, SourceProgram};
@@ -23,6 +26,7 @@ use crate::progress::Progress;
 use crate::robot::{Joints, Robot, World};
 use crate::units::{DEG, KILOWATT, MM, RPM};
 use nalgebra::Vector3;
+use spread::Spreads;
 
 /// Most samples in a job; half an hour at 1 ms.
 const MAX_SAMPLES: f64 = 2e6;
@@ -61,6 +65,8 @@ pub struct Setup {
     /// Undamped natural frequency [rad/s] and damping ratio of the shaper's mode; `None` without a
     /// shaper.
     pub mode: Option<(f64, f64)>,
+    /// Kind of the shaper, if there is one.
+    pub shaper_type: Option<&'static ShaperType>,
     /// The cut.
     pub cut: Cut,
     /// Mean milling force in {T}.
@@ -83,6 +89,8 @@ pub struct Setup {
     pub goal: Goal,
     /// What is compensated.
     pub sources: Sources,
+    /// How far the true values may be from these.
+    pub spreads: Spreads,
 }
 
 /// Stopping criterion of the compensation.
@@ -107,7 +115,7 @@ impl Setup {
             return Err(Error::invalid("model", model, format!("1 to {MODEL}, the model of this Armill")));
         }
         fields::check_ranges(job)?;
-        let robot::BareArm { robot, world, joint_speeds, stiffness_note, stiffness_assumed } =
+        let robot::BareArm { robot, world, joint_speeds, stiffness_note, stiffness_assumed, spread } =
             robot::arm(&job.robot)?;
         let robot = robot.with_tool(frame(&job.tool_frame));
         let base = frame(&job.base_frame);
@@ -119,7 +127,7 @@ impl Setup {
         let path = motion::with_reference(path, &job.spin)?;
         let path = path.placed(&workpiece).with_roll(Roll::fixed(roll));
         let roll_range = motion::roll_range(&job.spin)?;
-        let (shaper, mode) = motion::shaper(&job.shaper)?;
+        let (shaper, mode, shaper_type) = motion::shaper(&job.shaper)?;
         let (cut, material) = cutting::cut(job)?;
         let bending = cutting::bending(&job.tool)?;
         let limits = motion::limits(&job.motion, &shaper);
@@ -129,6 +137,8 @@ impl Setup {
             max_passes: job.compensation.max_passes as usize,
         };
         let sources = sources(&job.compensation.sources)?;
+        let compliance = (*robot.compliance()).into();
+        let spreads = uncertainty::spreads(&job.uncertainty, &compliance, spread, &material)?;
         Ok(Self {
             robot,
             world,
@@ -144,6 +154,7 @@ impl Setup {
             limits,
             shaper,
             mode,
+            shaper_type,
             mean_force: cut.mean_force(),
             material,
             rake: job.tool.rake_deg.unwrap_or(0.0) * DEG,
@@ -158,6 +169,7 @@ impl Setup {
             start: motion::start(job.start_branch),
             goal,
             sources,
+            spreads,
         })
     }
 

@@ -2,7 +2,9 @@
 
 use crate::error::Error;
 use crate::job::{self, Job, Joint3};
+use crate::robot::library::Known;
 use crate::robot::{Elbow, Joints, Link, Opw, Robot, World, library};
+use crate::setup::spread::Spread;
 use crate::units::{DEG, MM};
 
 /// An arm without its tool.
@@ -17,6 +19,8 @@ pub(super) struct BareArm {
     pub(super) stiffness_note: String,
     /// Whether the compliance is only an order of magnitude.
     pub(super) stiffness_assumed: bool,
+    /// How far the library's stiffness may be from the true one, if the job takes that.
+    pub(super) spread: Option<[Spread; 6]>,
 }
 
 /// A job's arm with its tool.
@@ -47,7 +51,11 @@ pub(super) fn arm(given: &job::Robot) -> Result<BareArm, Error> {
         elbow = preset.elbow;
         world = preset.world();
         joint_speeds = preset.joint_speed_deg_s.map(|speeds| Joints::from(speeds) * DEG);
-        library_note = Some((preset.stiffness_note.clone(), preset.stiffness_assumed));
+        library_note = Some((
+            preset.stiffness_note.clone(),
+            preset.stiffness_assumed,
+            preset.stiffness_known.map(spread_of),
+        ));
         (preset.name(), preset.links(), preset.limits(), Some(preset.joint_compliance))
     } else if let Some(rows) = given.modified_dh {
         let links = rows.map(|row| Link {
@@ -68,9 +76,10 @@ pub(super) fn arm(given: &job::Robot) -> Result<BareArm, Error> {
     let compliance = given.joint_compliance_rad_per_nm.or(compliance).ok_or_else(|| {
         Error::missing("robot.joint_compliance_rad_per_nm", "six compliances, 0 for a rigid joint")
     })?;
-    let (stiffness_note, stiffness_assumed) = match (given.joint_compliance_rad_per_nm, library_note) {
-        (None, Some(note)) => note,
-        _ => ("Joint stiffness: as given in the job.".into(), false),
+    let (stiffness_note, stiffness_assumed, spread) = match (given.joint_compliance_rad_per_nm, library_note)
+    {
+        (None, Some((note, assumed, spread))) => (note, assumed, Some(spread)),
+        _ => ("Joint stiffness: as given in the job.".into(), false, None),
     };
     let robot = Robot::new(given.name.clone().unwrap_or(name), links, limits, compliance)?;
     let elbow = match given.joint_3 {
@@ -79,7 +88,16 @@ pub(super) fn arm(given: &job::Robot) -> Result<BareArm, Error> {
         Some(Joint3::Parallelogram) => Elbow::Parallelogram,
         None => elbow,
     };
-    Ok(BareArm { robot: robot.with_elbow(elbow)?, world, joint_speeds, stiffness_note, stiffness_assumed })
+    let robot = robot.with_elbow(elbow)?;
+    Ok(BareArm { robot, world, joint_speeds, stiffness_note, stiffness_assumed, spread })
+}
+
+/// What the library says of a stiffness, as a distribution.
+fn spread_of(known: Known) -> Spread {
+    match known {
+        Known::Percent(percent) => Spread::percent(percent),
+        Known::Factor(factor) => Spread::factor(factor),
+    }
 }
 
 /// The parameters, checked for errors that a table of links could not name.

@@ -13,6 +13,7 @@ use crate::plan::Plan;
 use crate::report::{Report, warning};
 use crate::robot::Joints;
 use crate::setup::{Goal, Setup};
+use crate::uncertainty::band;
 use std::sync::Arc;
 
 /// Computes a job.
@@ -39,6 +40,8 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     let (compensation, after, deflection_only) = correct(&plan, reference, &q, &before, &steps, progress);
     let roll = roll::gain(&plan, &q, &before.total);
     let ErrorsBySource { total: before, shaping: shaping_only, deflection } = before;
+    let errors = (before.contour_error.as_slice(), after.contour_error.as_slice());
+    let band = band(&plan, (&q, &compensation.q), errors);
     let mut report = Report {
         plan,
         q,
@@ -51,6 +54,7 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
         before,
         compensation,
         after,
+        band,
         warnings: singular,
         alone: Default::default(),
         fingerprint: Default::default(),

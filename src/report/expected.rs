@@ -1,0 +1,134 @@
+//! What to expect on the part, as the summary states it.
+
+use crate::report::Report;
+use crate::setup::spread::Stiffness;
+use crate::uncertainty::{Quantiles, Share};
+use crate::units::MM;
+use serde::Serialize;
+
+/// Median and 95 % quantile of a largest error [mm].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Expected {
+    /// Half of the plants leave less.
+    pub p50: f64,
+    /// 95 % of the plants leave less.
+    pub p95: f64,
+    /// 95 % interval of that quantile itself, for the number of draws.
+    pub p95_interval: [f64; 2],
+}
+
+impl From<Quantiles> for Expected {
+    fn from(Quantiles { p50, p95, p95_interval }: Quantiles) -> Self {
+        Self { p50: p50 / MM, p95: p95 / MM, p95_interval: p95_interval.map(|p95| p95 / MM) }
+    }
+}
+
+/// How sure the figures are.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct HowSure {
+    /// How well joint stiffness is known, in words.
+    pub stiffness: String,
+    /// How well the cutting forces are known, in words.
+    pub cutting: String,
+    /// How well the filter's frequency is known, in words.
+    pub frequency: String,
+    /// Number of draws.
+    pub draws: usize,
+    /// Share of each input in the variance where the band is widest.
+    pub shares: Vec<InputShare>,
+    /// What to measure first, if that narrows the band.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measure_first: Option<MeasureFirst>,
+    /// The same band without compensation [mm].
+    pub without_compensation_mm: Expected,
+    /// The same band at the top of the cut [mm].
+    pub wall_mm: Expected,
+    /// Compensating pays while the true deflection is more than this share of the assumed one [%];
+    /// absent if it always does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub break_even_percent: Option<f64>,
+    /// Share of the draws in which compensating makes the largest error larger [%].
+    pub worse_percent: f64,
+    /// What the band leaves out.
+    pub left_out: &'static str,
+}
+
+/// An input's share.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct InputShare {
+    /// Stable slug.
+    pub input: String,
+    /// Its share of the variance [%].
+    pub percent: f64,
+}
+
+/// The measurement that narrows the band most.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MeasureFirst {
+    /// Stable slug: `stiffness`, `cutting` or `frequency`.
+    pub input: &'static str,
+    /// Its 95 % range after the measurement, to each side [%].
+    pub percent: f64,
+    /// 95 % quantile of the largest contour error after it [mm].
+    pub p95_mm: f64,
+    /// What to do and what it would bring.
+    pub sentence: String,
+}
+
+/// What no spread covers.
+const LEFT_OUT: &str = "Friction and lost motion in the gears, the arm's calibration, heat, tool wear and the \
+                        arm's own frequency are not in the band.";
+
+impl Report {
+    /// How sure the figures are.
+    pub fn how_sure(&self) -> HowSure {
+        let (band, spreads) = (&self.band, &self.setup().spreads);
+        let measure_first = band.measure_first.map(|measure| {
+            let p95 = crate::report::length_text(measure.p95, MM, 3);
+            let how = match measure.input {
+                "stiffness" => "the joint stiffness from a few loaded poses (Identify)",
+                "cutting" => "the cutting forces with a dynamometer",
+                _ => "the filter's frequency",
+            };
+            let sentence = format!("Measure {how}: known to ±{} %, 95 % would be {p95} mm.", measure.percent);
+            MeasureFirst {
+                input: measure.input,
+                percent: measure.percent,
+                p95_mm: measure.p95 / MM,
+                sentence,
+            }
+        });
+        let shares = band
+            .shares
+            .iter()
+            .map(|Share { input, share }| InputShare { input: input.clone(), percent: 100.0 * share });
+        HowSure {
+            stiffness: stiffness(&spreads.stiffness),
+            cutting: spreads.cutting.words(),
+            frequency: spreads.frequency.words(),
+            draws: spreads.draws,
+            shares: shares.collect(),
+            measure_first,
+            without_compensation_mm: band.before.into(),
+            wall_mm: band.wall.into(),
+            break_even_percent: band.break_even.deflection.map(|share| 100.0 * share),
+            worse_percent: 100.0 * band.break_even.worse,
+            left_out: LEFT_OUT,
+        }
+    }
+}
+
+/// How well stiffness is known, in words.
+fn stiffness(stiffness: &Stiffness) -> String {
+    match stiffness {
+        Stiffness::Together(_) => "by the covariance of an identification".to_owned(),
+        Stiffness::Each(spreads) => {
+            let mut words: Vec<String> = spreads.iter().map(|spread| spread.words()).collect();
+            words.dedup();
+            match words.as_slice() {
+                [one] => one.clone(),
+                _ => format!("joints 1 to 6: {}", spreads.map(|spread| spread.words()).join(", ")),
+            }
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! Spreads of the inputs: how far from its number the true value may be (JCGM 100:2008, 4.3; JCGM
+//! 101:2008, 6.4).
+
+use crate::math;
+use nalgebra::Matrix6;
+
+/// Standard normal quantile of 97.5 %: half a 95 % range in standard deviations.
+pub const COVERAGE: f64 = 1.959_963_984_540_054;
+
+/// The distribution of a factor: true value over assumed value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Spread {
+    /// Normal about 1, with this standard deviation.
+    Normal(f64),
+    /// Lognormal about 1: the standard deviation of the factor's logarithm.
+    Lognormal(f64),
+}
+
+impl Spread {
+    /// No spread: the number is taken as exact.
+    pub const NONE: Self = Self::Normal(0.0);
+
+    /// A 95 % range of `percent` to each side.
+    pub fn percent(percent: f64) -> Self {
+        Self::Normal(percent / 100.0 / COVERAGE)
+    }
+
+    /// A 95 % range from 1 / `factor` to `factor`.
+    pub fn factor(factor: f64) -> Self {
+        Self::Lognormal(math::ln(factor) / COVERAGE)
+    }
+
+    /// The factor at the standard normal deviate `z`.
+    pub fn at(&self, z: f64) -> f64 {
+        match self {
+            Self::Normal(deviation) => 1.0 + deviation * z,
+            Self::Lognormal(deviation) => math::exp(deviation * z),
+        }
+    }
+
+    /// Relative standard deviation; of a lognormal, that of the logarithm.
+    pub fn deviation(&self) -> f64 {
+        let (Self::Normal(deviation) | Self::Lognormal(deviation)) = self;
+        *deviation
+    }
+
+    /// The 95 % range in words.
+    pub fn words(&self) -> String {
+        match self {
+            Self::Normal(deviation) => format!("±{:.0} %", 100.0 * COVERAGE * deviation),
+            Self::Lognormal(deviation) => format!("a factor of {:.1}", math::exp(COVERAGE * deviation)),
+        }
+    }
+}
+
+/// How the joint compliances vary.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Stiffness {
+    /// The stiffness of each joint by itself.
+    Each([Spread; 6]),
+    /// Compliances from one fit, which vary together: lower triangular factor L of the covariance
+    /// of their logarithms, and half its diagonal, which keeps the means.
+    Together(Box<(Matrix6<f64>, [f64; 6])>),
+}
+
+impl Stiffness {
+    /// Compliances with the means `compliance` [rad/(N m)] and a covariance [(rad/(N m))^2],
+    /// lognormal so that none is negative. With S_ij = ln(1 + V_ij / (c_i c_j)), the exponential of
+    /// normal deviates with covariance S and mean -S_ii / 2 has exactly the means 1 and the
+    /// covariance V_ij / (c_i c_j). `None` if no set of compliances has this covariance.
+    pub fn together(compliance: &[f64; 6], covariance: &[[f64; 6]; 6]) -> Option<Self> {
+        let mut logarithms = Matrix6::zeros();
+        for i in 0..6 {
+            for j in 0..6 {
+                let scale = compliance[i] * compliance[j];
+                let value = covariance[i][j];
+                if scale > 0.0 {
+                    logarithms[(i, j)] = math::ln((1.0 + value / scale).max(0.0));
+                } else if value != 0.0 {
+                    return None;
+                }
+            }
+        }
+        let half = std::array::from_fn(|i| logarithms[(i, i)] / 2.0);
+        cholesky(&logarithms).map(|factor| Self::Together(Box::new((factor, half))))
+    }
+
+    /// Factors on the joint compliances at six standard normal deviates.
+    pub fn at(&self, z: &[f64; 6]) -> [f64; 6] {
+        match self {
+            Self::Each(spreads) => std::array::from_fn(|i| 1.0 / spreads[i].at(z[i])),
+            Self::Together(both) => {
+                let (factor, half) = &**both;
+                std::array::from_fn(|i| {
+                    let sum: f64 = (0..=i).map(|j| factor[(i, j)] * z[j]).sum();
+                    math::exp(sum - half[i])
+                })
+            }
+        }
+    }
+
+    /// Covariance of the factors, to first order.
+    pub fn covariance(&self) -> Matrix6<f64> {
+        match self {
+            Self::Each(spreads) => Matrix6::from_fn(|i, j| {
+                let deviation = if i == j { spreads[i].deviation() } else { 0.0 };
+                deviation * deviation
+            }),
+            Self::Together(both) => both.0 * both.0.transpose(),
+        }
+    }
+}
+
+/// Share of a variance below which a pivot counts as zero.
+const ROUNDING: f64 = 1e-9;
+
+/// Lower triangular L with L L^T = `matrix`, which may have rows of zeros; `None` if it is not
+/// positive semidefinite.
+fn cholesky(matrix: &Matrix6<f64>) -> Option<Matrix6<f64>> {
+    let mut factor = Matrix6::zeros();
+    for j in 0..6 {
+        let pivot = matrix[(j, j)] - (0..j).map(|k| factor[(j, k)] * factor[(j, k)]).sum::<f64>();
+        let slack = ROUNDING * matrix[(j, j)].abs();
+        if !pivot.is_finite() || pivot < -slack {
+            return None;
+        }
+        let root = if pivot > slack { pivot.sqrt() } else { 0.0 };
+        factor[(j, j)] = root;
+        for i in j + 1..6 {
+            let rest = matrix[(i, j)] - (0..j).map(|k| factor[(i, k)] * factor[(j, k)]).sum::<f64>();
+            if !rest.is_finite()
+                || (root == 0.0 && rest * rest > ROUNDING * matrix[(i, i)].abs() * matrix[(j, j)].abs())
+            {
+                return None;
+            }
+            factor[(i, j)] = if root > 0.0 { rest / root } else { 0.0 };
+        }
+    }
+    Some(factor)
+}
+
+/// The spreads of a job's inputs, and how they are drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spreads {
+    /// Of the joint compliances.
+    pub stiffness: Stiffness,
+    /// Of all cutting coefficients together.
+    pub cutting: Spread,
+    /// Of the ratios of radial to tangential and of axial to tangential force, each by itself.
+    pub ratios: Spread,
+    /// Of the frequency of the filter that runs in the controller.
+    pub frequency: Spread,
+    /// Number of draws.
+    pub draws: usize,
+    /// Seed of the draws.
+    pub seed: u64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_covariance_comes_back_from_its_factor() {
+        let compliance = [1.0, 2.0, 3.0, 0.0, 5.0, 6.0].map(|c| c * 1e-7);
+        let roots = Matrix6::from_fn(|i, j| {
+            if i == 3 { 0.0 } else { 0.03 * compliance[i] * (1.0 + (i * 3 + j * 5) as f64 % 7.0) }
+        });
+        let matrix = roots * roots.transpose();
+        let covariance: [[f64; 6]; 6] = std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]));
+        let spread = Stiffness::together(&compliance, &covariance).unwrap().covariance();
+        for i in 0..6 {
+            for j in 0..6 {
+                let scale = compliance[i] * compliance[j];
+                let wanted = if scale > 0.0 { math::ln(1.0 + covariance[i][j] / scale) } else { 0.0 };
+                assert!((spread[(i, j)] - wanted).abs() < 1e-12, "{i} {j}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_covariance_is_refused() {
+        let compliance = [1e-7; 6];
+        let mut covariance = [[0.0; 6]; 6];
+        covariance[0][0] = -1e-16;
+        assert!(Stiffness::together(&compliance, &covariance).is_none());
+        covariance[0] = [1e-16, 2e-16, 0.0, 0.0, 0.0, 0.0];
+        covariance[1] = [2e-16, 1e-16, 0.0, 0.0, 0.0, 0.0];
+        assert!(Stiffness::together(&compliance, &covariance).is_none());
+    }
+
+    #[test]
+    fn a_range_of_95_percent_ends_where_it_says() {
+        assert!((Spread::percent(20.0).at(COVERAGE) - 1.2).abs() < 1e-15);
+        assert!((Spread::factor(4.0).at(-COVERAGE) - 0.25).abs() < 1e-15);
+    }
+}

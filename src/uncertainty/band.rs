@@ -1,0 +1,325 @@
+//! The band of the largest contour error over the drawn plants, what widens it, and what it would
+//! be otherwise.
+
+use crate::deviation::contour::contour_error;
+use crate::job::Sources;
+use crate::plan::Plan;
+use crate::robot::Joints;
+use crate::setup::Setup;
+use crate::setup::spread::{Spread, Spreads, Stiffness};
+use crate::uncertainty::draw::{self, Deviates, Draw};
+use crate::uncertainty::place::{Place, places};
+use crate::uncertainty::{Quantiles, chosen, quantile};
+use nalgebra::Vector3;
+use std::sync::Arc;
+
+/// Most places at which every draw is evaluated.
+const PLACES: usize = 256;
+/// Places, the worst of them, that decide where only the largest error counts.
+const DECISIVE: usize = 48;
+/// Frequencies at which the filtered motion is computed; in between it is interpolated.
+const FREQUENCIES: usize = 9;
+/// 95 % ranges after a measurement [%]: stiffness identified from loaded poses, coefficients from a
+/// dynamometer, the filter's frequency read from the controller.
+const MEASURED: [f64; 3] = [5.0, 10.0, 1.0];
+
+/// What the drawn plants leave.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Band {
+    /// The samples that were evaluated, rising.
+    pub samples: Vec<usize>,
+    /// 95 % quantile of the contour error at each of them [m].
+    pub p95: Vec<f64>,
+    /// Largest contour error with the commands kept.
+    pub after: Quantiles,
+    /// The same at the top of the cut.
+    pub wall: Quantiles,
+    /// The same with the desired path commanded.
+    pub before: Quantiles,
+    /// What the band consists of where it is widest; the shares add up to 1.
+    pub shares: Vec<Share>,
+    /// The measurement that narrows the band most, if one does.
+    pub measure_first: Option<Measure>,
+    /// How wrong the model may be.
+    pub break_even: BreakEven,
+}
+
+/// An input's share of the variance of the tip where the band is widest, to first order (JCGM
+/// 100:2008, 5.1.2 and 5.2.2).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Share {
+    /// Stable slug: `joint-1` to `joint-6`, `cutting`, `radial-ratio`, `axial-ratio`, `frequency`.
+    pub input: String,
+    /// Its share; with a covariance it may be negative.
+    pub share: f64,
+}
+
+/// A measurement and what it would bring.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measure {
+    /// Stable slug: `stiffness`, `cutting` or `frequency`.
+    pub input: &'static str,
+    /// 95 % range after the measurement, to each side [%].
+    pub percent: f64,
+    /// 95 % quantile of the largest contour error after it [m].
+    pub p95: f64,
+}
+
+/// Where compensating stops to pay.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BreakEven {
+    /// Compensating pays while the true deflection is more than this share of the assumed one; none
+    /// if it always does.
+    pub deflection: Option<f64>,
+    /// Share of the draws in which compensating makes the largest error larger.
+    pub worse: f64,
+}
+
+impl Band {
+    /// 95 % quantile of the contour error at a sample [m], straight between the places.
+    pub fn p95_at(&self, sample: usize) -> f64 {
+        let above = self.samples.partition_point(|&k| k < sample);
+        let Some(&to) = self.samples.get(above) else { return self.p95.last().copied().unwrap_or(0.0) };
+        if to == sample || above == 0 {
+            return self.p95[above];
+        }
+        let from = self.samples[above - 1];
+        let part = (sample - from) as f64 / (to - from) as f64;
+        self.p95[above - 1] + (self.p95[above] - self.p95[above - 1]) * part
+    }
+}
+
+/// Commands sent through plants whose filter has one of a few frequencies.
+struct Field<'a> {
+    plan: &'a Plan,
+    /// Factors on the frequency, rising, and the places with each.
+    nodes: Vec<(f64, Vec<Place>)>,
+}
+
+impl<'a> Field<'a> {
+    fn of(plan: &'a Plan, q: &[Joints], at: &[usize], height: f64) -> Self {
+        let spread = plan.setup.spreads.frequency;
+        let nominal = |factor| (factor, places(plan, &plan.timing(Sources::ALL), q, at, height));
+        let Some(((frequency, damping), kind)) = plan.setup.mode.zip(plan.setup.shaper_type) else {
+            return Self { plan, nodes: vec![nominal(1.0)] };
+        };
+        if spread.deviation() == 0.0 {
+            return Self { plan, nodes: vec![nominal(1.0)] };
+        }
+        let node = |k: usize| {
+            let factor = spread.at(draw::CUT_OFF * (2.0 * k as f64 / (FREQUENCIES - 1) as f64 - 1.0));
+            let shaper = crate::motion::Shaper::new(kind, frequency * factor, damping);
+            let setup = Arc::new(Setup { shaper, ..(*plan.setup).clone() });
+            let plan = Plan { setup, ..plan.clone() };
+            (factor, places(&plan, &plan.timing(Sources::ALL), q, at, height))
+        };
+        Self { plan, nodes: (0..FREQUENCIES).map(node).collect() }
+    }
+
+    /// Contour error at a place with a drawn plant [m].
+    fn error(&self, place: usize, draw: &Draw) -> Vector3<f64> {
+        let (path, node) = (&self.plan.path, |k: usize| &self.nodes[k].1[place]);
+        let above = self.nodes.partition_point(|(factor, _)| *factor < draw.frequency);
+        if above == 0 || above == self.nodes.len() {
+            let place = node(above.min(self.nodes.len() - 1));
+            return contour_error(path, (place.arc_length, &place.target), &place.tip(self.plan, draw));
+        }
+        let (from, to) = (node(above - 1), node(above));
+        let (low, high) = (self.nodes[above - 1].0, self.nodes[above].0);
+        let part = (draw.frequency - low) / (high - low);
+        let s = from.arc_length + (to.arc_length - from.arc_length) * part;
+        let tip = from.tip(self.plan, draw).lerp(&to.tip(self.plan, draw), part);
+        contour_error(path, (s, &path.point(s)), &tip)
+    }
+
+    fn largest(&self, places: &[usize], draw: &Draw) -> f64 {
+        places.iter().map(|&place| self.error(place, draw).norm()).fold(0.0, f64::max)
+    }
+}
+
+/// The band of the commands `kept`, and of those for the `desired` path [rad]; `before` and `after`
+/// are their nominal contour errors [m].
+pub fn band(
+    plan: &Plan,
+    (desired, kept): (&[Joints], &[Joints]),
+    (before, after): (&[Vector3<f64>], &[Vector3<f64>]),
+) -> Band {
+    let spreads = &plan.setup.spreads;
+    let norms = |errors: &[Vector3<f64>]| errors.iter().map(Vector3::norm).collect::<Vec<_>>();
+    let signals = [norms(before), norms(after)];
+    let samples = chosen::places(&[&signals[0], &signals[1]], PLACES);
+    let deviates = draw::deviates(spreads.seed, spreads.draws);
+    let draws: Vec<Draw> = deviates.iter().map(|z| Draw::at(spreads, z)).collect();
+
+    let field = Field::of(plan, kept, &samples, 0.0);
+    let mut largest = vec![0.0_f64; draws.len()];
+    let mut errors = Vec::with_capacity(draws.len());
+    let p95: Vec<f64> = (0..samples.len())
+        .map(|place| {
+            errors.clear();
+            errors.extend(draws.iter().map(|draw| field.error(place, draw).norm()));
+            for (largest, error) in largest.iter_mut().zip(&errors) {
+                *largest = largest.max(*error);
+            }
+            errors.sort_unstable_by(f64::total_cmp);
+            quantile::quantile(&errors, 0.95)
+        })
+        .collect();
+    let decisive = most(&p95, |_| true);
+    let wall = wall(plan, kept, (&samples, &p95), &draws);
+    let (left_as_is, largest_before) = uncompensated(plan, desired, (&samples, &signals[0]), &draws);
+    let worse = largest.iter().zip(&largest_before).filter(|(after, before)| after > before).count();
+    let break_even = BreakEven {
+        deflection: break_even((&field, &decisive), &left_as_is),
+        worse: worse as f64 / draws.len() as f64,
+    };
+    let after = Quantiles::of(largest);
+    Band {
+        measure_first: measure_first(spreads, &deviates, after.p95, |draw| field.largest(&decisive, draw)),
+        shares: decisive.first().map(|&widest| shares(&field, widest)).unwrap_or_default(),
+        samples,
+        p95,
+        after,
+        wall,
+        before: Quantiles::of(largest_before),
+        break_even,
+    }
+}
+
+/// The places with the largest values.
+fn most(values: &[f64], counts: impl Fn(&usize) -> bool) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..values.len()).filter(counts).collect();
+    order.sort_by(|a, b| values[*b].total_cmp(&values[*a]).then(a.cmp(b)));
+    order.truncate(DECISIVE);
+    order
+}
+
+/// The band at the top of the cut, where the tool cuts.
+fn wall(plan: &Plan, kept: &[Joints], (samples, p95): (&[usize], &[f64]), draws: &[Draw]) -> Quantiles {
+    let engaged = &plan.timing(Sources::ALL).engaged;
+    let decisive = most(p95, |place| engaged[samples[*place]] > 0.0);
+    let mut at: Vec<usize> = decisive.iter().map(|&place| samples[place]).collect();
+    at.sort_unstable();
+    let field = Field::of(plan, kept, &at, plan.setup.cut.axial_depth);
+    let all: Vec<usize> = (0..at.len()).collect();
+    Quantiles::of(draws.iter().map(|draw| field.largest(&all, draw)).collect())
+}
+
+/// The desired path's commands at the places where they err most, and their largest errors.
+fn uncompensated<'a>(
+    plan: &'a Plan,
+    desired: &[Joints],
+    (samples, before): (&[usize], &[f64]),
+    draws: &[Draw],
+) -> (Field<'a>, Vec<f64>) {
+    let nominal: Vec<f64> = samples.iter().map(|&k| before[k]).collect();
+    let mut at: Vec<usize> = most(&nominal, |_| true).iter().map(|&place| samples[place]).collect();
+    at.sort_unstable();
+    let field = Field::of(plan, desired, &at, 0.0);
+    let all: Vec<usize> = (0..at.len()).collect();
+    let largest = draws.iter().map(|draw| field.largest(&all, draw)).collect();
+    (field, largest)
+}
+
+/// The factor on the arm's compliance below which the kept commands err more than the desired ones,
+/// by bisection; none if they never do.
+fn break_even((kept, decisive): (&Field, &[usize]), desired: &Field) -> Option<f64> {
+    let all: Vec<usize> = (0..desired.nodes[0].1.len()).collect();
+    let loses = |factor: f64| {
+        let draw = Draw { compliance: [factor; 6], ..Draw::NOMINAL };
+        kept.largest(decisive, &draw) > desired.largest(&all, &draw)
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    if !loses(low) || loses(high) {
+        return None;
+    }
+    for _ in 0..20 {
+        let middle = 0.5 * (low + high);
+        if loses(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Some(0.5 * (low + high))
+}
+
+/// What each input contributes where the band is widest: the derivative of the tip across the path,
+/// times the input's standard deviation.
+fn shares(field: &Field, widest: usize) -> Vec<Share> {
+    let Field { plan, nodes } = field;
+    let place = &nodes[nodes.len() / 2].1[widest];
+    let spreads = &plan.setup.spreads;
+    let tangent = plan.path.tangent(place.arc_length);
+    let across = |v: Vector3<f64>| v - tangent * tangent.dot(&v);
+    let joints = place.by_joint(plan, &[1.0; 3]).map(across);
+    let covariance = spreads.stiffness.covariance();
+    let mut squares: Vec<(String, f64)> = (0..6)
+        .map(|i| {
+            let square = (0..6).map(|j| covariance[(i, j)] * joints[i].dot(&joints[j])).sum();
+            (format!("joint-{}", i + 1), square)
+        })
+        .collect();
+    // A step small enough to be a derivative, even with springs that are not linear.
+    let step = 1e-3;
+    let moved = |force: [f64; 3], frequency: f64| {
+        let at = |sign: f64| {
+            let draw = Draw {
+                force: force.map(|share| 1.0 + sign * step * share),
+                frequency: 1.0 + sign * step * frequency,
+                ..Draw::NOMINAL
+            };
+            field.error(widest, &draw)
+        };
+        across(at(1.0) - at(-1.0)) / (2.0 * step)
+    };
+    for (input, force, frequency, spread) in [
+        ("cutting", [1.0, 1.0, 1.0], 0.0, spreads.cutting),
+        ("radial-ratio", [0.0, 1.0, 0.0], 0.0, spreads.ratios),
+        ("axial-ratio", [0.0, 0.0, 1.0], 0.0, spreads.ratios),
+        ("frequency", [0.0; 3], 1.0, spreads.frequency),
+    ] {
+        let deviation = spread.deviation();
+        let size = if deviation > 0.0 { moved(force, frequency).norm() * deviation } else { 0.0 };
+        squares.push((input.to_owned(), size * size));
+    }
+    let total: f64 = squares.iter().map(|(_, square)| square).sum();
+    let share = |square: f64| if total > 0.0 { square / total } else { 0.0 };
+    squares.into_iter().map(|(input, square)| Share { input, share: share(square) }).collect()
+}
+
+/// The measurement that brings most, by the same draws with that input's spread narrowed.
+fn measure_first(
+    spreads: &Spreads,
+    deviates: &[Deviates],
+    p95: f64,
+    largest: impl Fn(&Draw) -> f64,
+) -> Option<Measure> {
+    let [stiffness, cutting, frequency] = MEASURED.map(Spread::percent);
+    let narrowed = |known: Spread, better: Spread| {
+        if known.deviation() > better.deviation() { better } else { known }
+    };
+    let with_stiffness = match &spreads.stiffness {
+        Stiffness::Each(each) => Stiffness::Each(each.map(|known| narrowed(known, stiffness))),
+        fitted => fitted.clone(),
+    };
+    let cut = narrowed(spreads.cutting, cutting);
+    let tried = [
+        ("stiffness", MEASURED[0], Spreads { stiffness: with_stiffness, ..spreads.clone() }),
+        ("cutting", MEASURED[1], Spreads { cutting: cut, ratios: cut, ..spreads.clone() }),
+        (
+            "frequency",
+            MEASURED[2],
+            Spreads { frequency: narrowed(spreads.frequency, frequency), ..spreads.clone() },
+        ),
+    ];
+    tried
+        .into_iter()
+        .filter(|(_, _, tried)| tried != spreads)
+        .map(|(input, percent, tried)| {
+            let errors = deviates.iter().map(|z| largest(&Draw::at(&tried, z))).collect();
+            Measure { input, percent, p95: Quantiles::of(errors).p95 }
+        })
+        .filter(|measure| measure.p95 < p95)
+        .min_by(|a, b| a.p95.total_cmp(&b.p95))
+}

@@ -1,0 +1,54 @@
+//! Random plants: one draw of every input.
+
+use crate::math::{self, TAU};
+use crate::setup::spread::Spreads;
+
+/// Deviates beyond this many standard deviations are drawn again: two in a thousand, so the 95 %
+/// ranges hold, and no stiffness comes near zero.
+pub(super) const CUT_OFF: f64 = 3.09;
+
+/// The true plant, as factors on what is assumed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Draw {
+    /// On the joint compliances.
+    pub compliance: [f64; 6],
+    /// On the parts of the force by tangential, radial and axial coefficients.
+    pub force: [f64; 3],
+    /// On the filter's frequency.
+    pub frequency: f64,
+}
+
+/// Standard normal deviates behind one draw: six joints, the force, two ratios, the filter.
+pub type Deviates = [f64; 10];
+
+impl Draw {
+    /// The plant as assumed.
+    pub const NOMINAL: Self = Self { compliance: [1.0; 6], force: [1.0; 3], frequency: 1.0 };
+
+    /// The plant at given deviates.
+    pub fn at(spreads: &Spreads, z: &Deviates) -> Self {
+        let [joints @ .., cutting, radial, axial, frequency] = z;
+        let cutting = spreads.cutting.at(*cutting);
+        let [radial, axial] = [radial, axial].map(|z| cutting * spreads.ratios.at(*z));
+        Self {
+            compliance: spreads.stiffness.at(joints),
+            force: [cutting, radial, axial],
+            frequency: spreads.frequency.at(*frequency),
+        }
+    }
+}
+
+/// `count` sets of deviates from a seed, by the Box-Muller transform.
+pub fn deviates(seed: u64, count: usize) -> Vec<Deviates> {
+    let mut random = fastrand::Rng::with_seed(seed);
+    // An even number in (0, 1) from the upper 53 bits.
+    let mut even = || ((random.u64(..) >> 11) as f64 + 0.5) / 9_007_199_254_740_992.0;
+    let mut normal = || loop {
+        let radius = (-2.0 * math::ln(even())).sqrt();
+        let z = radius * math::cos(TAU * even());
+        if z.abs() <= CUT_OFF {
+            return z;
+        }
+    };
+    (0..count).map(|_| std::array::from_fn(|_| normal())).collect()
+}

@@ -1,0 +1,17 @@
+//! How sure: the spread of the inputs sent through the model (JCGM 101:2008, propagation of
+//! distributions by a Monte Carlo method).
+//!
+//! The commands found for the nominal model are kept and the plant is drawn: joint stiffness, the
+//! cutting coefficients and the frequency of the filter. What stays on the part is then a band, not
+//! a number. Left out: friction and lost motion in the gears, the arm's own calibration, heat, wear,
+//! the arm's own frequency.
+
+pub mod draw;
+pub mod place;
+pub mod quantile;
+mod band;
+mod chosen;
+
+pub use band::{Band, BreakEven, Measure, Share, band};
+pub use draw::Draw;
+pub use quantile::Quantiles;
