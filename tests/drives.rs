@@ -65,7 +65,7 @@ fn a_command_that_jumps_is_said_to_be_impossible() {
         let largest = all.iter().copied().fold(0.0, f64::max);
         assert!(largest > 3.0 * 400.0, "{largest}");
         let found = warning(&report, "command-acceleration").unwrap();
-        assert_eq!(severity(found), "cannot run");
+        assert_eq!(severity(found), "cannot-run");
         assert_eq!(report.warnings[0].code, "command-acceleration", "before all that it would achieve");
         let said: f64 = found
             .message
@@ -139,7 +139,7 @@ fn joints_that_turn_too_fast_are_named() {
         let worst = (0..6).max_by(|&a, &b| share(a).total_cmp(&share(b))).unwrap();
         assert!(share(worst) > 1.0, "{id}: {}", share(worst));
         let found = warning(&fast, "joint-speed").unwrap();
-        assert_eq!(severity(found), "cannot run");
+        assert_eq!(severity(found), "cannot-run");
         let expected =
             format!("joint {} would have to turn at {:.0} deg/s", worst + 1, share(worst) * limits[worst]);
         assert!(found.message.starts_with(&expected), "{id}: {} instead of {expected}", found.message);

@@ -6,7 +6,7 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub enum Severity {
     /// The arm cannot run the command.
-    #[serde(rename = "cannot run")]
+    #[serde(rename = "cannot-run")]
     CannotRun,
     /// The figures or the part may be off.
     #[serde(rename = "matters")]

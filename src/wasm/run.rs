@@ -15,7 +15,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 const TYPES: &'static str = r#"
 export interface Statistics { mean: number; max: number; }
 export interface Warning {
-  code: string; severity: "cannot run" | "matters" | "note"; message: string;
+  code: string; severity: "cannot-run" | "matters" | "note"; message: string;
   from_sample?: number; to_sample?: number; from_s?: number; to_s?: number;
 }
 export interface Parts { joints: number[]; tool: number; shaping: number; total: number; }

@@ -80,7 +80,7 @@ function showWarnings(warnings) {
 }
 
 /** What the arm cannot run is said before what it would achieve. */
-const impossible = ({ severity }) => (severity === "cannot run" ? "cannot run: " : "");
+const impossible = ({ severity }) => (severity === "cannot-run" ? "cannot run: " : "");
 
 function warningItem({ code, severity, message, from_s, to_s }) {
   const when =
