@@ -8,7 +8,7 @@ use serde::Serialize;
 
 /// Median and 95 % quantile of a largest error [mm].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Expected {
+pub struct ExpectedError {
     /// Half of the plants leave less.
     pub p50: f64,
     /// 95 % of the plants leave less.
@@ -17,7 +17,7 @@ pub struct Expected {
     pub p95_interval: [f64; 2],
 }
 
-impl From<Quantiles> for Expected {
+impl From<Quantiles> for ExpectedError {
     fn from(Quantiles { p50, p95, p95_interval }: Quantiles) -> Self {
         Self { p50: p50 / MM, p95: p95 / MM, p95_interval: p95_interval.map(|p95| p95 / MM) }
     }
@@ -40,9 +40,9 @@ pub struct HowSure {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measure_first: Option<MeasureFirst>,
     /// The same band without compensation [mm].
-    pub without_compensation_mm: Expected,
+    pub without_compensation_mm: ExpectedError,
     /// The same band at the top of the cut [mm].
-    pub wall_mm: Expected,
+    pub wall_mm: ExpectedError,
     /// Compensating pays while the true deflection is more than this share of the assumed one [%];
     /// absent if it always does.
     #[serde(skip_serializing_if = "Option::is_none")]

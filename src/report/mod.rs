@@ -31,7 +31,7 @@ use crate::progress::Progress;
 use crate::robot::Joints;
 use crate::robot::inverse::Branch;
 use crate::setup::Setup;
-use crate::uncertainty::Band;
+use crate::uncertainty::ErrorBand;
 use crate::units::MM;
 use nalgebra::Vector3;
 use std::sync::{Arc, OnceLock};
@@ -63,7 +63,7 @@ pub struct Report {
     /// Deviation with the compensated path commanded, every source acting.
     pub after: Arc<Deviation>,
     /// What is left on the part with what is known of robot and material.
-    pub band: Band,
+    pub band: ErrorBand,
     /// Conditions that are odd but workable.
     pub warnings: Vec<Warning>,
     /// See [`Report::alone`]; computed on first use.

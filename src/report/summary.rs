@@ -5,7 +5,7 @@ use crate::deviation::Deviation;
 use crate::deviation::contour::MeanMax;
 use crate::model::MODEL;
 use crate::path::{MovePace, Path, SourceProgram};
-use crate::report::expected::{Expected, HowSure};
+use crate::report::expected::{ExpectedError, HowSure};
 use crate::report::{Budget, CutFigures, Report, RollGain, VerdictState, WallFigures, Warning};
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
@@ -100,7 +100,7 @@ pub struct Summary {
     pub verdict_state: VerdictState,
     /// Largest contour error to expect after compensation, with what is known of robot and material
     /// [mm].
-    pub expected_mm: Expected,
+    pub expected_mm: ExpectedError,
     /// How sure that is.
     pub how_sure: HowSure,
     /// Summary of the program, if the path came from one.

@@ -57,11 +57,11 @@ pub(super) fn spreads(
 /// Compliances from one fit.
 fn together(compliance: &[f64; 6], covariance: &[[f64; 6]; 6]) -> Result<Stiffness, Error> {
     let field = "uncertainty.compliance_covariance";
-    for i in 0..6 {
-        for j in 0..i {
-            if covariance[i][j] != covariance[j][i] {
+    for (i, row) in covariance.iter().enumerate() {
+        for (j, value) in row.iter().enumerate().take(i) {
+            if *value != covariance[j][i] {
                 let expected = format!("the same number as in row {}, column {}", j + 1, i + 1);
-                return Err(Error::invalid(format!("{field}[{i}][{j}]"), covariance[i][j], expected));
+                return Err(Error::invalid(format!("{field}[{i}][{j}]"), value, expected));
             }
         }
     }

@@ -8,14 +8,14 @@ use crate::robot::Joints;
 use crate::setup::Setup;
 use crate::setup::spread::{Spread, Spreads, Stiffness};
 use crate::uncertainty::draw::{self, Deviates, Draw};
-use crate::uncertainty::place::{Place, places};
+use crate::uncertainty::place::{DrawnPlace, places};
 use crate::uncertainty::{Quantiles, chosen, quantile};
 use nalgebra::Vector3;
 use std::sync::Arc;
 
 /// Most places at which every draw is evaluated.
 const PLACES: usize = 256;
-/// Places, the worst of them, that decide where only the largest error counts.
+/// Places that decide where only the largest error counts.
 const DECISIVE: usize = 48;
 /// Frequencies at which the filtered motion is computed; in between it is interpolated.
 const FREQUENCIES: usize = 9;
@@ -25,7 +25,7 @@ const MEASURED: [f64; 3] = [5.0, 10.0, 1.0];
 
 /// What the drawn plants leave.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Band {
+pub struct ErrorBand {
     /// The samples that were evaluated, rising.
     pub samples: Vec<usize>,
     /// 95 % quantile of the contour error at each of them [m].
@@ -75,7 +75,7 @@ pub struct BreakEven {
     pub worse: f64,
 }
 
-impl Band {
+impl ErrorBand {
     /// 95 % quantile of the contour error at a sample [m], straight between the places.
     pub fn p95_at(&self, sample: usize) -> f64 {
         let above = self.samples.partition_point(|&k| k < sample);
@@ -90,13 +90,13 @@ impl Band {
 }
 
 /// Commands sent through plants whose filter has one of a few frequencies.
-struct Field<'a> {
+struct Kept<'a> {
     plan: &'a Plan,
     /// Factors on the frequency, rising, and the places with each.
-    nodes: Vec<(f64, Vec<Place>)>,
+    nodes: Vec<(f64, Vec<DrawnPlace>)>,
 }
 
-impl<'a> Field<'a> {
+impl<'a> Kept<'a> {
     fn of(plan: &'a Plan, q: &[Joints], at: &[usize], height: f64) -> Self {
         let spread = plan.setup.spreads.frequency;
         let nominal = |factor| (factor, places(plan, &plan.timing(Sources::ALL), q, at, height));
@@ -143,7 +143,7 @@ pub fn band(
     plan: &Plan,
     (desired, kept): (&[Joints], &[Joints]),
     (before, after): (&[Vector3<f64>], &[Vector3<f64>]),
-) -> Band {
+) -> ErrorBand {
     let spreads = &plan.setup.spreads;
     let norms = |errors: &[Vector3<f64>]| errors.iter().map(Vector3::norm).collect::<Vec<_>>();
     let signals = [norms(before), norms(after)];
@@ -151,7 +151,7 @@ pub fn band(
     let deviates = draw::deviates(spreads.seed, spreads.draws);
     let draws: Vec<Draw> = deviates.iter().map(|z| Draw::at(spreads, z)).collect();
 
-    let field = Field::of(plan, kept, &samples, 0.0);
+    let field = Kept::of(plan, kept, &samples, 0.0);
     let mut largest = vec![0.0_f64; draws.len()];
     let mut errors = Vec::with_capacity(draws.len());
     let p95: Vec<f64> = (0..samples.len())
@@ -174,7 +174,7 @@ pub fn band(
         worse: worse as f64 / draws.len() as f64,
     };
     let after = Quantiles::of(largest);
-    Band {
+    ErrorBand {
         measure_first: measure_first(spreads, &deviates, after.p95, |draw| field.largest(&decisive, draw)),
         shares: decisive.first().map(|&widest| shares(&field, widest)).unwrap_or_default(),
         samples,
@@ -186,11 +186,19 @@ pub fn band(
     }
 }
 
-/// The places with the largest values.
+/// The places with the largest values, the largest first, and as many all along the path: with
+/// another spread, the worst may lie elsewhere.
 fn most(values: &[f64], counts: impl Fn(&usize) -> bool) -> Vec<usize> {
     let mut order: Vec<usize> = (0..values.len()).filter(counts).collect();
+    let along: Vec<usize> =
+        order.iter().copied().step_by(order.len().div_ceil(DECISIVE / 2).max(1)).collect();
     order.sort_by(|a, b| values[*b].total_cmp(&values[*a]).then(a.cmp(b)));
-    order.truncate(DECISIVE);
+    order.truncate(DECISIVE / 2);
+    for place in along {
+        if !order.contains(&place) {
+            order.push(place);
+        }
+    }
     order
 }
 
@@ -200,7 +208,7 @@ fn wall(plan: &Plan, kept: &[Joints], (samples, p95): (&[usize], &[f64]), draws:
     let decisive = most(p95, |place| engaged[samples[*place]] > 0.0);
     let mut at: Vec<usize> = decisive.iter().map(|&place| samples[place]).collect();
     at.sort_unstable();
-    let field = Field::of(plan, kept, &at, plan.setup.cut.axial_depth);
+    let field = Kept::of(plan, kept, &at, plan.setup.cut.axial_depth);
     let all: Vec<usize> = (0..at.len()).collect();
     Quantiles::of(draws.iter().map(|draw| field.largest(&all, draw)).collect())
 }
@@ -211,11 +219,11 @@ fn uncompensated<'a>(
     desired: &[Joints],
     (samples, before): (&[usize], &[f64]),
     draws: &[Draw],
-) -> (Field<'a>, Vec<f64>) {
+) -> (Kept<'a>, Vec<f64>) {
     let nominal: Vec<f64> = samples.iter().map(|&k| before[k]).collect();
     let mut at: Vec<usize> = most(&nominal, |_| true).iter().map(|&place| samples[place]).collect();
     at.sort_unstable();
-    let field = Field::of(plan, desired, &at, 0.0);
+    let field = Kept::of(plan, desired, &at, 0.0);
     let all: Vec<usize> = (0..at.len()).collect();
     let largest = draws.iter().map(|draw| field.largest(&all, draw)).collect();
     (field, largest)
@@ -223,7 +231,7 @@ fn uncompensated<'a>(
 
 /// The factor on the arm's compliance below which the kept commands err more than the desired ones,
 /// by bisection; none if they never do.
-fn break_even((kept, decisive): (&Field, &[usize]), desired: &Field) -> Option<f64> {
+fn break_even((kept, decisive): (&Kept, &[usize]), desired: &Kept) -> Option<f64> {
     let all: Vec<usize> = (0..desired.nodes[0].1.len()).collect();
     let loses = |factor: f64| {
         let draw = Draw { compliance: [factor; 6], ..Draw::NOMINAL };
@@ -246,8 +254,8 @@ fn break_even((kept, decisive): (&Field, &[usize]), desired: &Field) -> Option<f
 
 /// What each input contributes where the band is widest: the derivative of the tip across the path,
 /// times the input's standard deviation.
-fn shares(field: &Field, widest: usize) -> Vec<Share> {
-    let Field { plan, nodes } = field;
+fn shares(field: &Kept, widest: usize) -> Vec<Share> {
+    let Kept { plan, nodes } = field;
     let place = &nodes[nodes.len() / 2].1[widest];
     let spreads = &plan.setup.spreads;
     let tangent = plan.path.tangent(place.arc_length);

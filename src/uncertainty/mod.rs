@@ -12,6 +12,6 @@ pub mod quantile;
 mod band;
 mod chosen;
 
-pub use band::{Band, BreakEven, Measure, Share, band};
+pub use band::{BreakEven, ErrorBand, Measure, Share, band};
 pub use draw::Draw;
 pub use quantile::Quantiles;

@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 
 /// What a place needs to tell where the tip goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct DrawnPlace {
     /// Sample.
     pub sample: usize,
     /// Arc length of the tool [m].
@@ -36,7 +36,7 @@ pub struct Place {
 
 /// The places of joint commands `q` [rad] at the samples `at`, with the point of the tool at the
 /// height `height` [m] above the tip; the tool is where `timing` says.
-pub fn places(plan: &Plan, timing: &TimingLaw, q: &[Joints], at: &[usize], height: f64) -> Vec<Place> {
+pub fn places(plan: &Plan, timing: &TimingLaw, q: &[Joints], at: &[usize], height: f64) -> Vec<DrawnPlace> {
     let parts = plan.setup.cut.mean_force_parts();
     let forces = along::parts(&plan.path, timing, &parts, &plan.setup.loading, at);
     let shaped = plan.shaper().shaped(q, plan.trajectory.sample_time);
@@ -66,7 +66,7 @@ pub fn places(plan: &Plan, timing: &TimingLaw, q: &[Joints], at: &[usize], heigh
             let (moved, turned) = bend.unwrap_or_default();
             moved + turned.cross(&axis) * height
         });
-        Place {
+        DrawnPlace {
             sample,
             arc_length: s,
             target: plan.path.point_at(plan.path.within(index, s)),
@@ -81,7 +81,7 @@ pub fn places(plan: &Plan, timing: &TimingLaw, q: &[Joints], at: &[usize], heigh
     at.iter().zip(forces).map(place).collect()
 }
 
-impl Place {
+impl DrawnPlace {
     /// Displacement of the tip by each joint's turn [m] with a drawn force and nominal stiffness.
     pub fn by_joint(&self, plan: &Plan, force: &[f64; 3]) -> [Vector3<f64>; 6] {
         let turn = |joint: usize| {

@@ -112,7 +112,7 @@ pub(crate) type Pinned = (&'static str, Vec<(&'static str, Value)>, &'static str
 pub(crate) fn pinned() -> [Pinned; 5] {
     use serde_json::json;
     [
-        ("default", vec![], "7154e6a5eb661ad9f983bad8420b81cc"),
+        ("default", vec![], "bcac12a00764612f0141fc3a968c4ac0"),
         (
             "rounded rectangle, EI in Hz, chip from feed, tilted part, offset tool",
             vec![
@@ -126,7 +126,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("workpiece_frame", json!({"xyz_mm":[10,20,30],"rpy_deg":[10,-20,30]})),
                 ("tool_frame", json!({"xyz_mm":[0,50,120],"rpy_deg":[0,30,0]})),
             ],
-            "274a143e1cd4da048a623f72f631c8cc",
+            "e45e90d7a246b215fd409c069a7b59cc",
         ),
         (
             "points, ZVDD, another branch",
@@ -135,7 +135,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("shaper", json!({"kind":"zvdd","frequency_rad_s":60,"damping":0.02})),
                 ("start_branch", json!({"shoulder":"front","elbow":"negative","wrist":"flipped"})),
             ],
-            "7f5b8c9700c57a34a13b67ba66da5933",
+            "7d1deb1a595c7175ca1619d8f3c2a60b",
         ),
         (
             "arc without shaper",
@@ -146,7 +146,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ),
                 ("shaper", json!("none")),
             ],
-            "1c13fb0a7432a3c72873badbb7e04344",
+            "220af0627d6940b3c3060c9aae9bf99a",
         ),
         (
             "ball nose by catalogue constants, conventional milling, a tool that bends",
@@ -163,7 +163,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("cutting.engagement", json!("conventional")),
                 ("cutting.radial_depth_mm", json!(2.5)),
             ],
-            "2a1613c18133d7fb41d033ddaa409911",
+            "7fd1233f3465de92ee1acec4efb4c343",
         ),
     ]
 }

@@ -15,6 +15,7 @@ const GROUPS = {
   cutting: "Cutting",
   shaper: "Vibration",
   compensation: "Compensation",
+  uncertainty: "How sure",
 };
 const OPEN = ["path", "motion"]; // the groups that most visits change
 
