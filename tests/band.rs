@@ -8,7 +8,7 @@ use armill::math;
 use armill::plan::Plan;
 use armill::report::Report;
 use armill::setup::Setup;
-use armill::setup::spread::{Spread, Stiffness};
+use armill::setup::spread::{InputSpread, Stiffness};
 use armill::uncertainty::Draw;
 use armill::uncertainty::draw::deviates;
 use armill::{Progress, run, run_json};
@@ -105,7 +105,7 @@ fn one_spread_has_a_closed_form() {
 /// The product of two normal factors, x k: E (x k - 1)^2 = s^2 + t^2 + s^2 t^2.
 #[test]
 fn a_product_of_normals_has_its_variance() {
-    let (s, t) = (Spread::percent(20.0), Spread::percent(30.0));
+    let (s, t) = (InputSpread::percent(20.0), InputSpread::percent(30.0));
     let draws = deviates(7, 20_000);
     let mean = draws.iter().map(|z| (s.at(z[0]) * t.at(z[6]) - 1.0).powi(2)).sum::<f64>() / 2e4;
     let (s, t) = (s.deviation().powi(2), t.deviation().powi(2));

@@ -26,6 +26,8 @@ impl From<Quantiles> for ExpectedError {
 /// How sure the figures are.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HowSure {
+    /// What to expect on the part, in words.
+    pub sentence: String,
     /// How well joint stiffness is known, in words.
     pub stiffness: String,
     /// How well the cutting forces are known, in words.
@@ -80,6 +82,20 @@ const LEFT_OUT: &str = "Friction and lost motion in the gears, the arm's calibra
                         arm's own frequency are not in the band.";
 
 impl Report {
+    /// What to expect on the part, in words.
+    fn expectation(&self) -> String {
+        let text = |length: f64| crate::report::length_text(length, MM, 2);
+        let Quantiles { p50, p95, .. } = self.band.after;
+        format!(
+            "Expect {} mm on the part, and up to {} mm in 95 of 100 cases, with what is known of stiffness ({}) and \
+             cutting forces ({}).",
+            text(p50),
+            text(p95),
+            stiffness(&self.setup().spreads.stiffness),
+            self.setup().spreads.cutting.words()
+        )
+    }
+
     /// How sure the figures are.
     pub fn how_sure(&self) -> HowSure {
         let (band, spreads) = (&self.band, &self.setup().spreads);
@@ -103,6 +119,7 @@ impl Report {
             .iter()
             .map(|Share { input, share }| InputShare { input: input.clone(), percent: 100.0 * share });
         HowSure {
+            sentence: self.expectation(),
             stiffness: stiffness(&spreads.stiffness),
             cutting: spreads.cutting.words(),
             frequency: spreads.frequency.words(),
@@ -124,11 +141,9 @@ fn stiffness(stiffness: &Stiffness) -> String {
         Stiffness::Together(_) => "by the covariance of an identification".to_owned(),
         Stiffness::Each(spreads) => {
             let mut words: Vec<String> = spreads.iter().map(|spread| spread.words()).collect();
+            words.sort();
             words.dedup();
-            match words.as_slice() {
-                [one] => one.clone(),
-                _ => format!("joints 1 to 6: {}", spreads.map(|spread| spread.words()).join(", ")),
-            }
+            words.join(" or ")
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::job::{self, Job, Joint3};
 use crate::robot::library::Known;
 use crate::robot::{Elbow, Joints, Link, Opw, Robot, World, library};
-use crate::setup::spread::Spread;
+use crate::setup::spread::InputSpread;
 use crate::units::{DEG, MM};
 
 /// An arm without its tool.
@@ -20,7 +20,7 @@ pub(super) struct BareArm {
     /// Whether the compliance is only an order of magnitude.
     pub(super) stiffness_assumed: bool,
     /// How far the library's stiffness may be from the true one, if the job takes that.
-    pub(super) spread: Option<[Spread; 6]>,
+    pub(super) spread: Option<[InputSpread; 6]>,
 }
 
 /// A job's arm with its tool.
@@ -93,10 +93,10 @@ pub(super) fn arm(given: &job::Robot) -> Result<BareArm, Error> {
 }
 
 /// What the library says of a stiffness, as a distribution.
-fn spread_of(known: Known) -> Spread {
+fn spread_of(known: Known) -> InputSpread {
     match known {
-        Known::Percent(percent) => Spread::percent(percent),
-        Known::Factor(factor) => Spread::factor(factor),
+        Known::Percent(percent) => InputSpread::percent(percent),
+        Known::Factor(factor) => InputSpread::factor(factor),
     }
 }
 

@@ -9,14 +9,14 @@ pub const COVERAGE: f64 = 1.959_963_984_540_054;
 
 /// The distribution of a factor: true value over assumed value.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Spread {
+pub enum InputSpread {
     /// Normal about 1, with this standard deviation.
     Normal(f64),
     /// Lognormal about 1: the standard deviation of the factor's logarithm.
     Lognormal(f64),
 }
 
-impl Spread {
+impl InputSpread {
     /// No spread: the number is taken as exact.
     pub const NONE: Self = Self::Normal(0.0);
 
@@ -57,7 +57,7 @@ impl Spread {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Stiffness {
     /// The stiffness of each joint by itself.
-    Each([Spread; 6]),
+    Each([InputSpread; 6]),
     /// Compliances from one fit, which vary together: lower triangular factor L of the covariance
     /// of their logarithms, and half its diagonal, which keeps the means.
     Together(Box<(Matrix6<f64>, [f64; 6])>),
@@ -145,11 +145,11 @@ pub struct Spreads {
     /// Of the joint compliances.
     pub stiffness: Stiffness,
     /// Of all cutting coefficients together.
-    pub cutting: Spread,
+    pub cutting: InputSpread,
     /// Of the ratios of radial to tangential and of axial to tangential force, each by itself.
-    pub ratios: Spread,
+    pub ratios: InputSpread,
     /// Of the frequency of the filter that runs in the controller.
-    pub frequency: Spread,
+    pub frequency: InputSpread,
     /// Number of draws.
     pub draws: usize,
     /// Seed of the draws.
@@ -191,7 +191,7 @@ mod tests {
 
     #[test]
     fn a_range_of_95_percent_ends_where_it_says() {
-        assert!((Spread::percent(20.0).at(COVERAGE) - 1.2).abs() < 1e-15);
-        assert!((Spread::factor(4.0).at(-COVERAGE) - 0.25).abs() < 1e-15);
+        assert!((InputSpread::percent(20.0).at(COVERAGE) - 1.2).abs() < 1e-15);
+        assert!((InputSpread::factor(4.0).at(-COVERAGE) - 0.25).abs() < 1e-15);
     }
 }

@@ -4,7 +4,7 @@
 use crate::error::Error;
 use crate::job::{self, Choice};
 use crate::setup::ResolvedMaterial;
-use crate::setup::spread::{Spread, Spreads, Stiffness};
+use crate::setup::spread::{InputSpread, Spreads, Stiffness};
 
 /// 95 % range of numbers that the job gives itself [%]: cutting forces lie within 20 % of those from
 /// coefficients identified on the machine (Bhattacharyya, Schueller, Mann, Schmitz, Gomez, ASME
@@ -15,7 +15,7 @@ const OWN: f64 = 20.0;
 pub(super) fn spreads(
     given: &job::Uncertainty,
     compliance: &[f64; 6],
-    stiffness: Option<[Spread; 6]>,
+    stiffness: Option<[InputSpread; 6]>,
     material: &ResolvedMaterial,
 ) -> Result<Spreads, Error> {
     let job::Uncertainty { stiffness_percent, stiffness_factor, compliance_covariance, .. } = given;
@@ -32,15 +32,15 @@ pub(super) fn spreads(
         ));
     }
     let stiffness = if let Choice::Value(percent, _) = stiffness_percent {
-        Stiffness::Each([Spread::percent(*percent); 6])
+        Stiffness::Each([InputSpread::percent(*percent); 6])
     } else if let Some(factor) = stiffness_factor {
-        Stiffness::Each([Spread::factor(*factor); 6])
+        Stiffness::Each([InputSpread::factor(*factor); 6])
     } else if let Some(covariance) = compliance_covariance {
         together(compliance, covariance)?
     } else {
-        Stiffness::Each(stiffness.unwrap_or([Spread::percent(OWN); 6]))
+        Stiffness::Each(stiffness.unwrap_or([InputSpread::percent(OWN); 6]))
     };
-    let cutting = Spread::percent(match given.cutting_percent {
+    let cutting = InputSpread::percent(match given.cutting_percent {
         Choice::Value(percent, _) => percent,
         Choice::Word => material.material.map_or(OWN, |material| material.spread),
     });
@@ -48,7 +48,7 @@ pub(super) fn spreads(
         stiffness,
         cutting,
         ratios: cutting,
-        frequency: Spread::percent(given.frequency_percent),
+        frequency: InputSpread::percent(given.frequency_percent),
         draws: given.draws as usize,
         seed: u64::from(given.seed),
     })

@@ -6,7 +6,7 @@ use crate::job::Sources;
 use crate::plan::Plan;
 use crate::robot::Joints;
 use crate::setup::Setup;
-use crate::setup::spread::{Spread, Spreads, Stiffness};
+use crate::setup::spread::{InputSpread, Spreads, Stiffness};
 use crate::uncertainty::draw::{self, Deviates, Draw};
 use crate::uncertainty::place::{DrawnPlace, places};
 use crate::uncertainty::{Quantiles, chosen, quantile};
@@ -303,8 +303,8 @@ fn measure_first(
     p95: f64,
     largest: impl Fn(&Draw) -> f64,
 ) -> Option<Measure> {
-    let [stiffness, cutting, frequency] = MEASURED.map(Spread::percent);
-    let narrowed = |known: Spread, better: Spread| {
+    let [stiffness, cutting, frequency] = MEASURED.map(InputSpread::percent);
+    let narrowed = |known: InputSpread, better: InputSpread| {
         if known.deviation() > better.deviation() { better } else { known }
     };
     let with_stiffness = match &spreads.stiffness {

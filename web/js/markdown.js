@@ -19,6 +19,8 @@ export function markdown({ summary, job, standard, link }) {
   return [
     `**${escaped(summary.verdict)}**`,
     "",
+    escaped(summary.how_sure.sentence),
+    "",
     "| Contour error, mm | mean | max |",
     "|---|---:|---:|",
     ...rows.map(([name, { mean, max }]) => `| ${name} | ${formatError(mean)} | ${formatError(max)} |`),

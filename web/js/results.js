@@ -23,6 +23,7 @@ export function showSummary(summary) {
   const { before_mm: before, after_mm: after } = summary;
   showUnits();
   byId("verdict").textContent = summary.verdict;
+  byId("expected").textContent = summary.how_sure.sentence;
   put("before-mean", before.both.mean, lengthText);
   put("before-max", before.both.max, lengthText);
   put("after-mean", after.mean, lengthText);
