@@ -53,6 +53,16 @@ export interface Summary {
   program?: Understood; spin?: SpinGain;
   passes: number; converged: boolean; tolerance_mm: number;
   history_max_mm: number[]; history_mean_mm: number[]; verdict: string;
+  verdict_state: "cannot-run" | "met" | "met-if-nominal" | "not-met";
+  expected_mm: { p50: number; p95: number; p95_interval: [number, number] };
+  how_sure: {
+    sentence: string; stiffness: string; cutting: string; frequency: string; draws: number;
+    shares: { input: string; percent: number }[];
+    measure_first?: { input: string; percent: number; p95_mm: number; sentence: string };
+    without_compensation_mm: { p50: number; p95: number; p95_interval: [number, number] };
+    wall_mm: { p50: number; p95: number; p95_interval: [number, number] };
+    break_even_percent?: number; worse_percent: number; left_out: string;
+  };
   robot: string; inverse: "closed form" | "numerically"; stiffness: string; branch: string;
   warnings: Warning[];
 }
