@@ -35,6 +35,7 @@ pub struct Readme;
 
 pub mod math;
 pub mod units;
+pub mod spread;
 pub mod model;
 pub mod error;
 pub mod column;

@@ -6,9 +6,10 @@ use std::path::Path;
 /// The modules from left to right. The job is read first, but its fields and its setup name things
 /// that the stages offer (robots, materials, shapes), so these stand to its left. `column` is the
 /// currency of report, charts and files.
-const ORDER: [&str; 23] = [
+const ORDER: [&str; 24] = [
     "math",
     "units",
+    "spread",
     "model",
     "error",
     "column",

@@ -16,7 +16,7 @@ pub fn forces(path: &Path, timing: &TimingLaw, mean: &LinearForce, loading: &Loa
     let loads = loading.along(path);
     each(path, timing, |k, x, axis| {
         let f = mean.under(&loads.at(timing, k));
-        forces.push(x * f.x + axis.cross(&x) * f.y + axis * f.z);
+        forces.push(in_base(&f, &x, &axis));
     });
     forces
 }
@@ -35,13 +35,15 @@ pub fn parts<const N: usize>(
     each(path, timing, |k, x, axis| {
         if at.get(forces.len()) == Some(&k) {
             let load = loads.at(timing, k);
-            forces.push(parts.map(|part| {
-                let f = part.under(&load);
-                x * f.x + axis.cross(&x) * f.y + axis * f.z
-            }));
+            forces.push(parts.map(|part| in_base(&part.under(&load), &x, &axis)));
         }
     });
     forces
+}
+
+/// A force in {T}, whose x and z point along `x` and `axis`, in the base frame (eq. 4.11).
+fn in_base(force: &Vector3<f64>, x: &Vector3<f64>, axis: &Vector3<f64>) -> Vector3<f64> {
+    x * force.x + axis.cross(x) * force.y + axis * force.z
 }
 
 /// Calls `at` for every sample with its number and the directions x and z of {T} there, in the base

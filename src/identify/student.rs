@@ -1,9 +1,7 @@
 //! Student's t: how many standard errors a 95 % interval reaches to each side.
 
 use crate::math;
-
-/// The 0.975 quantile of the standard normal distribution.
-const NORMAL: f64 = 1.959_963_984_540_054;
+use crate::spread::COVERAGE;
 
 /// The 0.975 quantile of Student's t with `freedom` degrees of freedom.
 ///
@@ -16,7 +14,7 @@ pub fn quantile_975(freedom: usize) -> f64 {
         2 => return 0.95 * (2.0_f64 / (0.975 * 0.025 * 4.0)).sqrt(),
         n => n as f64,
     };
-    let x = NORMAL;
+    let x = COVERAGE;
     let s = x * x;
     let g1 = x * (s + 1.0) / 4.0;
     let g2 = x * ((5.0 * s + 16.0) * s + 3.0) / 96.0;

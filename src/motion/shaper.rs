@@ -140,6 +140,13 @@ impl Shaper {
         Self { impulses: (kind.impulses)(frequency, damping) }
     }
 
+    /// This shaper for `factor` times the frequency with the same damping: every delay is a share of
+    /// the damped period.
+    pub fn tuned(&self, factor: f64) -> Self {
+        let sooner = |impulse: &Impulse| Impulse { time: impulse.time / factor, ..*impulse };
+        Self { impulses: self.impulses.iter().map(sooner).collect() }
+    }
+
     /// The impulses in time order.
     pub fn impulses(&self) -> &[Impulse] {
         &self.impulses

@@ -1,7 +1,7 @@
 //! What to expect on the part, as the summary states it.
 
 use crate::report::Report;
-use crate::setup::spread::Stiffness;
+use crate::spread::Stiffness;
 use crate::uncertainty::{Quantiles, Share};
 use crate::units::MM;
 use serde::Serialize;

@@ -5,21 +5,13 @@ use crate::error::Error;
 use crate::math;
 use crate::robot::model::{Elbow, Link};
 use crate::robot::{Opw, World};
+use crate::spread::InputSpread;
 use crate::units::{DEG, MM};
 
 const ROBOTS: &str = include_str!("library/robots.csv");
 const ZEROS: &str = include_str!("library/zeros.csv");
 const STIFFNESS: &str = include_str!("library/stiffness.csv");
 const SOURCES: &str = include_str!("library/sources.txt");
-
-/// How well a stiffness is known: its 95 % range.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Known {
-    /// So much to each side [%].
-    Percent(f64),
-    /// From 1 / this to this times the stiffness.
-    Factor(f64),
-}
 
 /// Range of a stiffness that was not measured on the joint: a factor of 2.0 as one standard
 /// deviation (see [`assumed_compliance`]), so 2.0^1.96 at 95 %.
@@ -50,7 +42,7 @@ pub struct Preset {
     /// Whether the compliance is only the order-of-magnitude estimate of [`assumed_compliance`].
     pub stiffness_assumed: bool,
     /// How well each joint's stiffness is known.
-    pub stiffness_known: [Known; 6],
+    pub stiffness_spread: [InputSpread; 6],
     /// Where the geometry comes from and how far to trust it.
     pub geometry_note: String,
     /// Where the height of the controller's world is from.
@@ -158,7 +150,7 @@ pub struct Published {
     /// Where it comes from.
     pub source: &'static str,
     /// How well the measured values are known.
-    pub known: Known,
+    pub spread: InputSpread,
 }
 
 /// All published sets.
@@ -174,11 +166,11 @@ pub fn published() -> impl Iterator<Item = Published> {
         });
         let measured = values.map(|text| !text.is_empty() && !text.ends_with('?'));
         let (mode, confidence, source, spread) = (row(), row(), row(), row());
-        let known = match spread.strip_prefix('x') {
-            Some(factor) => Known::Factor(number(factor)),
-            None => Known::Percent(number(spread)),
+        let spread = match spread.strip_prefix('x') {
+            Some(factor) => InputSpread::factor(number(factor)),
+            None => InputSpread::percent(number(spread)),
         };
-        Published { key, payload, compliance, measured, mode, confidence, source, known }
+        Published { key, payload, compliance, measured, mode, confidence, source, spread }
     })
 }
 
@@ -233,9 +225,9 @@ fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
             None => assumed_compliance(payload),
         },
         stiffness_assumed: known.is_none(),
-        stiffness_known: std::array::from_fn(|joint| match &known {
-            Some(set) if set.measured[joint] => set.known,
-            _ => Known::Factor(NOT_MEASURED),
+        stiffness_spread: std::array::from_fn(|joint| match &known {
+            Some(set) if set.measured[joint] => set.spread,
+            _ => InputSpread::factor(NOT_MEASURED),
         }),
         geometry_note: format!("Geometry: {source} (confidence {confidence})."),
         world_source,

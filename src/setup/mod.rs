@@ -6,7 +6,6 @@ mod cutting;
 mod statics;
 mod motion;
 mod uncertainty;
-pub mod spread;
 
 pub use cutting::ResolvedMaterial;
 pub use robot::robot;
@@ -18,15 +17,14 @@ use crate::math::Pose;
 use crate::model::MODEL;
 use crate::motion::joints::StartBranch;
 use crate::motion::roll::RollRange;
-use crate::motion::shaper::ShaperType;
 use crate::motion::trajectory::MotionLimits;
 use crate::motion::{Shaper, Trajectory};
 use crate::path::{Path, Roll, SourceProgram};
 use crate::progress::Progress;
 use crate::robot::{Joints, Robot, World};
+use crate::spread::Spreads;
 use crate::units::{DEG, KILOWATT, MM, RPM};
 use nalgebra::Vector3;
-use spread::Spreads;
 
 /// Most samples in a job; half an hour at 1 ms.
 const MAX_SAMPLES: f64 = 2e6;
@@ -65,8 +63,6 @@ pub struct Setup {
     /// Undamped natural frequency [rad/s] and damping ratio of the shaper's mode; `None` without a
     /// shaper.
     pub mode: Option<(f64, f64)>,
-    /// Kind of the shaper, if there is one.
-    pub shaper_type: Option<&'static ShaperType>,
     /// The cut.
     pub cut: Cut,
     /// Mean milling force in {T}.
@@ -127,7 +123,7 @@ impl Setup {
         let path = motion::with_reference(path, &job.spin)?;
         let path = path.placed(&workpiece).with_roll(Roll::fixed(roll));
         let roll_range = motion::roll_range(&job.spin)?;
-        let (shaper, mode, shaper_type) = motion::shaper(&job.shaper)?;
+        let (shaper, mode) = motion::shaper(&job.shaper)?;
         let (cut, material) = cutting::cut(job)?;
         let bending = cutting::bending(&job.tool)?;
         let limits = motion::limits(&job.motion, &shaper);
@@ -154,7 +150,6 @@ impl Setup {
             limits,
             shaper,
             mode,
-            shaper_type,
             mean_force: cut.mean_force(),
             material,
             rake: job.tool.rake_deg.unwrap_or(0.0) * DEG,

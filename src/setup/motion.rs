@@ -4,7 +4,6 @@ use crate::error::Error;
 use crate::job::{self, Choice, Elbow, ShaperSpec, Shoulder, SpinGoal, SpinMode, SpinReference, Wrist};
 use crate::motion::joints::StartBranch;
 use crate::motion::roll::{RollGoal, RollRange};
-use crate::motion::shaper::ShaperType;
 use crate::motion::trajectory::MotionLimits;
 use crate::motion::{Shaper, shaper};
 use crate::path::{Path, reference};
@@ -90,13 +89,10 @@ pub(super) fn with_reference(path: Path, spin: &job::Spin) -> Result<Path, Error
     Err(Error::invalid(field, value, expected))
 }
 
-/// A shaper, frequency [rad/s] and damping ratio of its mode, and its kind.
-type Filter = (Shaper, Option<(f64, f64)>, Option<&'static ShaperType>);
-
 /// The shaper, with frequency [rad/s] and damping ratio of its mode.
-pub(super) fn shaper(given: &job::Shaper) -> Result<Filter, Error> {
+pub(super) fn shaper(given: &job::Shaper) -> Result<(Shaper, Option<(f64, f64)>), Error> {
     let job::Shaper::Spec(ShaperSpec { kind, frequency_rad_s, frequency_hz, damping }) = *given else {
-        return Ok((Shaper::none(), None, None));
+        return Ok((Shaper::none(), None));
     };
     let frequency = match (frequency_rad_s, frequency_hz) {
         (Some(rad_s), None) => rad_s,
@@ -117,5 +113,5 @@ pub(super) fn shaper(given: &job::Shaper) -> Result<Filter, Error> {
         let field = "shaper.damping".into();
         return Err(Error::OutOfRange { field, value: damping, min: 0.0, max: kind.damping_max, unit: "" });
     }
-    Ok((Shaper::new(kind, frequency, damping), Some((frequency, damping)), Some(kind)))
+    Ok((Shaper::new(kind, frequency, damping), Some((frequency, damping))))
 }

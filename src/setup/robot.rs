@@ -2,9 +2,8 @@
 
 use crate::error::Error;
 use crate::job::{self, Job, Joint3};
-use crate::robot::library::Known;
 use crate::robot::{Elbow, Joints, Link, Opw, Robot, World, library};
-use crate::setup::spread::InputSpread;
+use crate::spread::InputSpread;
 use crate::units::{DEG, MM};
 
 /// An arm without its tool.
@@ -51,11 +50,8 @@ pub(super) fn arm(given: &job::Robot) -> Result<BareArm, Error> {
         elbow = preset.elbow;
         world = preset.world();
         joint_speeds = preset.joint_speed_deg_s.map(|speeds| Joints::from(speeds) * DEG);
-        library_note = Some((
-            preset.stiffness_note.clone(),
-            preset.stiffness_assumed,
-            preset.stiffness_known.map(spread_of),
-        ));
+        library_note =
+            Some((preset.stiffness_note.clone(), preset.stiffness_assumed, preset.stiffness_spread));
         (preset.name(), preset.links(), preset.limits(), Some(preset.joint_compliance))
     } else if let Some(rows) = given.modified_dh {
         let links = rows.map(|row| Link {
@@ -90,14 +86,6 @@ pub(super) fn arm(given: &job::Robot) -> Result<BareArm, Error> {
     };
     let robot = robot.with_elbow(elbow)?;
     Ok(BareArm { robot, world, joint_speeds, stiffness_note, stiffness_assumed, spread })
-}
-
-/// What the library says of a stiffness, as a distribution.
-fn spread_of(known: Known) -> InputSpread {
-    match known {
-        Known::Percent(percent) => InputSpread::percent(percent),
-        Known::Factor(factor) => InputSpread::factor(factor),
-    }
 }
 
 /// The parameters, checked for errors that a table of links could not name.

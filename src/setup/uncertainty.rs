@@ -4,7 +4,7 @@
 use crate::error::Error;
 use crate::job::{self, Choice};
 use crate::setup::ResolvedMaterial;
-use crate::setup::spread::{InputSpread, Spreads, Stiffness};
+use crate::spread::{InputSpread, Spreads, Stiffness};
 
 /// 95 % range of numbers that the job gives itself [%]: cutting forces lie within 20 % of those from
 /// coefficients identified on the machine (Bhattacharyya, Schueller, Mann, Schmitz, Gomez, ASME

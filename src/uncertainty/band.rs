@@ -1,12 +1,14 @@
 //! The band of the largest contour error over the drawn plants, what widens it, and what it would
 //! be otherwise.
 
+use crate::cutting::LinearForce;
 use crate::deviation::contour::contour_error;
 use crate::job::Sources;
+use crate::motion::TimingLaw;
 use crate::plan::Plan;
 use crate::robot::Joints;
 use crate::setup::Setup;
-use crate::setup::spread::{InputSpread, Spreads, Stiffness};
+use crate::spread::{InputSpread, Spreads, Stiffness};
 use crate::uncertainty::draw::{self, Deviates, Draw};
 use crate::uncertainty::place::{DrawnPlace, places};
 use crate::uncertainty::{Quantiles, chosen, quantile};
@@ -89,33 +91,53 @@ impl ErrorBand {
     }
 }
 
-/// Commands sent through plants whose filter has one of a few frequencies.
-struct Kept<'a> {
+/// The plant with one of a few frequencies of its filter: factor on the frequency, plan, and timing of
+/// the tool.
+type Filtered<'a> = (f64, &'a Plan, &'a TimingLaw);
+
+/// The plan with each frequency of the filter at which it is computed, rising; the nominal one is in
+/// the middle.
+fn filtered(plan: &Plan) -> Vec<(f64, Plan)> {
+    let spread = plan.setup.spreads.frequency;
+    if spread.deviation() == 0.0 || plan.shaper().duration() == 0.0 {
+        return vec![(1.0, plan.clone())];
+    }
+    let tuned = |k: usize| {
+        let factor = spread.at(draw::CUT_OFF * (2.0 * k as f64 / (FREQUENCIES - 1) as f64 - 1.0));
+        let setup = Setup { shaper: plan.shaper().tuned(factor), ..(*plan.setup).clone() };
+        (factor, Plan { setup: Arc::new(setup), ..plan.clone() })
+    };
+    (0..FREQUENCIES).map(tuned).collect()
+}
+
+/// What every set of commands is sent through.
+struct Plants<'a> {
+    filtered: Vec<Filtered<'a>>,
+    parts: [LinearForce; 3],
+}
+
+impl Plants<'_> {
+    fn nominal(&self) -> Filtered<'_> {
+        self.filtered[self.filtered.len() / 2]
+    }
+
+    /// The outcome of joint commands [rad] at samples, at a height above the tip [m].
+    fn send(&self, q: &[Joints], at: &[usize], height: f64) -> Outcomes<'_> {
+        let node = |(factor, plan, timing): &Filtered| {
+            (*factor, places(plan, (timing, &self.parts), (q, at), height))
+        };
+        Outcomes { plan: self.nominal().1, nodes: self.filtered.iter().map(node).collect() }
+    }
+}
+
+/// Where commands take the tip at a few places.
+struct Outcomes<'a> {
     plan: &'a Plan,
-    /// Factors on the frequency, rising, and the places with each.
+    /// Factors on the filter's frequency, rising, and the places with each.
     nodes: Vec<(f64, Vec<DrawnPlace>)>,
 }
 
-impl<'a> Kept<'a> {
-    fn of(plan: &'a Plan, q: &[Joints], at: &[usize], height: f64) -> Self {
-        let spread = plan.setup.spreads.frequency;
-        let nominal = |factor| (factor, places(plan, &plan.timing(Sources::ALL), q, at, height));
-        let Some(((frequency, damping), kind)) = plan.setup.mode.zip(plan.setup.shaper_type) else {
-            return Self { plan, nodes: vec![nominal(1.0)] };
-        };
-        if spread.deviation() == 0.0 {
-            return Self { plan, nodes: vec![nominal(1.0)] };
-        }
-        let node = |k: usize| {
-            let factor = spread.at(draw::CUT_OFF * (2.0 * k as f64 / (FREQUENCIES - 1) as f64 - 1.0));
-            let shaper = crate::motion::Shaper::new(kind, frequency * factor, damping);
-            let setup = Arc::new(Setup { shaper, ..(*plan.setup).clone() });
-            let plan = Plan { setup, ..plan.clone() };
-            (factor, places(&plan, &plan.timing(Sources::ALL), q, at, height))
-        };
-        Self { plan, nodes: (0..FREQUENCIES).map(node).collect() }
-    }
-
+impl Outcomes<'_> {
     /// Contour error at a place with a drawn plant [m].
     fn error(&self, place: usize, draw: &Draw) -> Vector3<f64> {
         let (path, node) = (&self.plan.path, |k: usize| &self.nodes[k].1[place]);
@@ -132,8 +154,14 @@ impl<'a> Kept<'a> {
         contour_error(path, (s, &path.point(s)), &tip)
     }
 
-    fn largest(&self, places: &[usize], draw: &Draw) -> f64 {
+    /// Largest contour error with a drawn plant [m], at some of the places.
+    fn largest_at(&self, places: &[usize], draw: &Draw) -> f64 {
         places.iter().map(|&place| self.error(place, draw).norm()).fold(0.0, f64::max)
+    }
+
+    /// Largest contour error with a drawn plant [m].
+    fn largest(&self, draw: &Draw) -> f64 {
+        (0..self.nodes[0].1.len()).map(|place| self.error(place, draw).norm()).fold(0.0, f64::max)
     }
 }
 
@@ -151,13 +179,17 @@ pub fn band(
     let deviates = draw::deviates(spreads.seed, spreads.draws);
     let draws: Vec<Draw> = deviates.iter().map(|z| Draw::at(spreads, z)).collect();
 
-    let field = Kept::of(plan, kept, &samples, 0.0);
+    let plans = filtered(plan);
+    let timings: Vec<_> = plans.iter().map(|(_, plan)| plan.timing(Sources::ALL)).collect();
+    let filtered = plans.iter().zip(&timings).map(|((factor, plan), timing)| (*factor, plan, &**timing));
+    let plants = Plants { filtered: filtered.collect(), parts: plan.setup.cut.mean_force_parts() };
+    let compensated = plants.send(kept, &samples, 0.0);
     let mut largest = vec![0.0_f64; draws.len()];
     let mut errors = Vec::with_capacity(draws.len());
     let p95: Vec<f64> = (0..samples.len())
         .map(|place| {
             errors.clear();
-            errors.extend(draws.iter().map(|draw| field.error(place, draw).norm()));
+            errors.extend(draws.iter().map(|draw| compensated.error(place, draw).norm()));
             for (largest, error) in largest.iter_mut().zip(&errors) {
                 *largest = largest.max(*error);
             }
@@ -166,22 +198,32 @@ pub fn band(
         })
         .collect();
     let decisive = most(&p95, |_| true);
-    let wall = wall(plan, kept, (&samples, &p95), &draws);
-    let (left_as_is, largest_before) = uncompensated(plan, desired, (&samples, &signals[0]), &draws);
+    let at = |places: Vec<usize>| {
+        let mut at: Vec<usize> = places.into_iter().map(|place| samples[place]).collect();
+        at.sort_unstable();
+        at
+    };
+    let engaged = &plants.nominal().2.engaged;
+    let cutting = at(most(&p95, |place| engaged[samples[*place]] > 0.0));
+    let top = plants.send(kept, &cutting, plan.setup.cut.axial_depth);
+    let nominal: Vec<f64> = samples.iter().map(|&k| signals[0][k]).collect();
+    let uncompensated = plants.send(desired, &at(most(&nominal, |_| true)), 0.0);
+    let largest_before: Vec<f64> = draws.iter().map(|draw| uncompensated.largest(draw)).collect();
     let worse = largest.iter().zip(&largest_before).filter(|(after, before)| after > before).count();
+    let at_decisive = |draw: &Draw| compensated.largest_at(&decisive, draw);
     let break_even = BreakEven {
-        deflection: break_even((&field, &decisive), &left_as_is),
+        deflection: break_even(at_decisive, |draw| uncompensated.largest(draw)),
         worse: worse as f64 / draws.len() as f64,
     };
     let after = Quantiles::of(largest);
     ErrorBand {
-        measure_first: measure_first(spreads, &deviates, after.p95, |draw| field.largest(&decisive, draw)),
-        shares: decisive.first().map(|&widest| shares(&field, widest)).unwrap_or_default(),
+        measure_first: measure_first(spreads, &deviates, after.p95, at_decisive),
+        shares: decisive.first().map(|&widest| shares(&compensated, widest)).unwrap_or_default(),
+        wall: Quantiles::of(draws.iter().map(|draw| top.largest(draw)).collect()),
+        before: Quantiles::of(largest_before),
         samples,
         p95,
         after,
-        wall,
-        before: Quantiles::of(largest_before),
         break_even,
     }
 }
@@ -202,40 +244,12 @@ fn most(values: &[f64], counts: impl Fn(&usize) -> bool) -> Vec<usize> {
     order
 }
 
-/// The band at the top of the cut, where the tool cuts.
-fn wall(plan: &Plan, kept: &[Joints], (samples, p95): (&[usize], &[f64]), draws: &[Draw]) -> Quantiles {
-    let engaged = &plan.timing(Sources::ALL).engaged;
-    let decisive = most(p95, |place| engaged[samples[*place]] > 0.0);
-    let mut at: Vec<usize> = decisive.iter().map(|&place| samples[place]).collect();
-    at.sort_unstable();
-    let field = Kept::of(plan, kept, &at, plan.setup.cut.axial_depth);
-    let all: Vec<usize> = (0..at.len()).collect();
-    Quantiles::of(draws.iter().map(|draw| field.largest(&all, draw)).collect())
-}
-
-/// The desired path's commands at the places where they err most, and their largest errors.
-fn uncompensated<'a>(
-    plan: &'a Plan,
-    desired: &[Joints],
-    (samples, before): (&[usize], &[f64]),
-    draws: &[Draw],
-) -> (Kept<'a>, Vec<f64>) {
-    let nominal: Vec<f64> = samples.iter().map(|&k| before[k]).collect();
-    let mut at: Vec<usize> = most(&nominal, |_| true).iter().map(|&place| samples[place]).collect();
-    at.sort_unstable();
-    let field = Kept::of(plan, desired, &at, 0.0);
-    let all: Vec<usize> = (0..at.len()).collect();
-    let largest = draws.iter().map(|draw| field.largest(&all, draw)).collect();
-    (field, largest)
-}
-
 /// The factor on the arm's compliance below which the kept commands err more than the desired ones,
 /// by bisection; none if they never do.
-fn break_even((kept, decisive): (&Kept, &[usize]), desired: &Kept) -> Option<f64> {
-    let all: Vec<usize> = (0..desired.nodes[0].1.len()).collect();
+fn break_even(kept: impl Fn(&Draw) -> f64, desired: impl Fn(&Draw) -> f64) -> Option<f64> {
     let loses = |factor: f64| {
         let draw = Draw { compliance: [factor; 6], ..Draw::NOMINAL };
-        kept.largest(decisive, &draw) > desired.largest(&all, &draw)
+        kept(&draw) > desired(&draw)
     };
     let (mut low, mut high) = (0.0, 1.0);
     if !loses(low) || loses(high) {
@@ -254,8 +268,8 @@ fn break_even((kept, decisive): (&Kept, &[usize]), desired: &Kept) -> Option<f64
 
 /// What each input contributes where the band is widest: the derivative of the tip across the path,
 /// times the input's standard deviation.
-fn shares(field: &Kept, widest: usize) -> Vec<Share> {
-    let Kept { plan, nodes } = field;
+fn shares(outcomes: &Outcomes, widest: usize) -> Vec<Share> {
+    let Outcomes { plan, nodes } = outcomes;
     let place = &nodes[nodes.len() / 2].1[widest];
     let spreads = &plan.setup.spreads;
     let tangent = plan.path.tangent(place.arc_length);
@@ -277,7 +291,7 @@ fn shares(field: &Kept, widest: usize) -> Vec<Share> {
                 frequency: 1.0 + sign * step * frequency,
                 ..Draw::NOMINAL
             };
-            field.error(widest, &draw)
+            outcomes.error(widest, &draw)
         };
         across(at(1.0) - at(-1.0)) / (2.0 * step)
     };

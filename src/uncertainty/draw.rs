@@ -1,7 +1,7 @@
 //! Random plants: one draw of every input.
 
 use crate::math::{self, TAU};
-use crate::setup::spread::Spreads;
+use crate::spread::Spreads;
 
 /// Deviates beyond this many standard deviations are drawn again: two in a thousand, so the 95 %
 /// ranges hold, and no stiffness comes near zero.
@@ -41,11 +41,11 @@ impl Draw {
 /// `count` sets of deviates from a seed, by the Box-Muller transform.
 pub fn deviates(seed: u64, count: usize) -> Vec<Deviates> {
     let mut random = fastrand::Rng::with_seed(seed);
-    // An even number in (0, 1) from the upper 53 bits.
-    let mut even = || ((random.u64(..) >> 11) as f64 + 0.5) / 9_007_199_254_740_992.0;
+    // A uniform number in (0, 1) from the upper 53 bits.
+    let mut uniform = || ((random.u64(..) >> 11) as f64 + 0.5) / 9_007_199_254_740_992.0;
     let mut normal = || loop {
-        let radius = (-2.0 * math::ln(even())).sqrt();
-        let z = radius * math::cos(TAU * even());
+        let radius = (-2.0 * math::ln(uniform())).sqrt();
+        let z = radius * math::cos(TAU * uniform());
         if z.abs() <= CUT_OFF {
             return z;
         }

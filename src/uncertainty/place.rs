@@ -4,7 +4,7 @@
 //! the parts of the force: bilinear in the factors on both. Springs that are not linear and weight
 //! are kept, with the levers held as they are under the nominal force (they turn by less than 1e-3).
 
-use crate::cutting::along;
+use crate::cutting::{LinearForce, along};
 use crate::motion::TimingLaw;
 use crate::plan::Plan;
 use crate::robot::{Joints, equilibrium, forward, jacobian};
@@ -14,8 +14,6 @@ use nalgebra::Vector3;
 /// What a place needs to tell where the tip goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DrawnPlace {
-    /// Sample.
-    pub sample: usize,
     /// Arc length of the tool [m].
     pub arc_length: f64,
     /// Where the tool should be [m].
@@ -35,10 +33,15 @@ pub struct DrawnPlace {
 }
 
 /// The places of joint commands `q` [rad] at the samples `at`, with the point of the tool at the
-/// height `height` [m] above the tip; the tool is where `timing` says.
-pub fn places(plan: &Plan, timing: &TimingLaw, q: &[Joints], at: &[usize], height: f64) -> Vec<DrawnPlace> {
-    let parts = plan.setup.cut.mean_force_parts();
-    let forces = along::parts(&plan.path, timing, &parts, &plan.setup.loading, at);
+/// height `height` [m] above the tip; the tool is where `timing` says, under the `parts` of the
+/// force.
+pub fn places(
+    plan: &Plan,
+    (timing, parts): (&TimingLaw, &[LinearForce; 3]),
+    (q, at): (&[Joints], &[usize]),
+    height: f64,
+) -> Vec<DrawnPlace> {
+    let forces = along::parts(&plan.path, timing, parts, &plan.setup.loading, at);
     let shaped = plan.shaper().shaped(q, plan.trajectory.sample_time);
     let place = |(&sample, force): (&usize, [Vector3<f64>; 3])| {
         let q = shaped.at(sample);
@@ -67,7 +70,6 @@ pub fn places(plan: &Plan, timing: &TimingLaw, q: &[Joints], at: &[usize], heigh
             moved + turned.cross(&axis) * height
         });
         DrawnPlace {
-            sample,
             arc_length: s,
             target: plan.path.point_at(plan.path.within(index, s)),
             base: tcp.position + (axis - wanted) * height,

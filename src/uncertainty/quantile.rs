@@ -1,6 +1,6 @@
 //! Quantiles of a sample, and how sure they are.
 
-use crate::setup::spread::COVERAGE;
+use crate::spread::COVERAGE;
 
 /// Median and 95 % quantile of a length [m].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

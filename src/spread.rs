@@ -17,9 +17,6 @@ pub enum InputSpread {
 }
 
 impl InputSpread {
-    /// No spread: the number is taken as exact.
-    pub const NONE: Self = Self::Normal(0.0);
-
     /// A 95 % range of `percent` to each side.
     pub fn percent(percent: f64) -> Self {
         Self::Normal(percent / 100.0 / COVERAGE)
