@@ -154,6 +154,23 @@ fn shares_add_up_and_the_measurement_narrows() {
     assert!((report.band.break_even.deflection.unwrap() - 0.5).abs() < 0.03);
 }
 
+/// A range wide enough to turn the force round is no range of a force: the widest allowed keeps its
+/// sign in every draw.
+#[test]
+fn no_draw_turns_the_force_or_a_stiffness_round() {
+    let widest =
+        json!({"stiffness_percent": 60, "cutting_percent": 60, "frequency_percent": 60, "draws": 20000});
+    let report = default_with(widest);
+    let spreads = &report.setup().spreads;
+    for z in deviates(spreads.seed, spreads.draws) {
+        let Draw { compliance, force, frequency } = Draw::at(spreads, &z);
+        assert!(compliance.iter().chain(&force).chain([&frequency]).all(|factor| *factor > 0.0), "{z:?}");
+    }
+    let mut job = Job::default();
+    job.uncertainty.cutting_percent = armill::job::Choice::value(100.0);
+    assert!(run(&job, &mut Progress::none()).is_err());
+}
+
 #[test]
 fn the_filter_s_frequency_widens_the_band() {
     let without = default_with(json!({"stiffness_percent": 0, "cutting_percent": 0}));

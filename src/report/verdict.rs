@@ -18,7 +18,8 @@ pub enum VerdictState {
 }
 
 impl Report {
-    /// The verdict as a state: it takes the worst of the errors at the tip and at the top of the cut.
+    /// The verdict as a state. `Met` needs both the tip and the top of the cut; the nominal model is
+    /// judged at the tip alone.
     pub fn verdict_state(&self) -> VerdictState {
         let tolerance = self.setup().goal.tolerance;
         if self.warnings.iter().any(|warning| warning.severity == Severity::CannotRun) {

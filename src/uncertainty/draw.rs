@@ -4,7 +4,7 @@ use crate::math::{self, TAU};
 use crate::spread::Spreads;
 
 /// Deviates beyond this many standard deviations are drawn again: two in a thousand, so the 95 %
-/// ranges hold, and no stiffness comes near zero.
+/// ranges hold, and no factor of a range up to 60 % comes near zero or turns its sign.
 pub(super) const CUT_OFF: f64 = 3.09;
 
 /// The true plant, as factors on what is assumed.
