@@ -1,6 +1,6 @@
 //! What to expect on the part, as the summary states it.
 
-use crate::report::Report;
+use crate::report::{Report, VerdictState};
 use crate::spread::Stiffness;
 use crate::uncertainty::{Quantiles, Share};
 use crate::units::MM;
@@ -86,14 +86,32 @@ impl Report {
     fn expectation(&self) -> String {
         let text = |length: f64| crate::report::length_text(length, MM, 2);
         let Quantiles { p50, p95, .. } = self.band.after;
+        let expect = match self.verdict_state() {
+            VerdictState::CannotRun => "The arm cannot run this. If it could, expect",
+            _ => "Expect",
+        };
         format!(
-            "Expect {} mm on the part, and up to {} mm in 95 of 100 cases, with what is known of stiffness ({}) and \
-             cutting forces ({}).",
+            "{expect} {} mm on the part and up to {} mm in 95 of 100 cases (stiffness {}, cutting forces {}).",
             text(p50),
             text(p95),
-            stiffness(&self.setup().spreads.stiffness),
+            self.stiffness_known(),
             self.setup().spreads.cutting.words()
         )
+    }
+
+    /// How well stiffness is known, in words; a rigid joint has none.
+    fn stiffness_known(&self) -> String {
+        let compliance = self.plan.robot.compliance();
+        match &self.setup().spreads.stiffness {
+            Stiffness::Together(_) => "by the covariance of an identification".to_owned(),
+            Stiffness::Each(spreads) => {
+                let soft = spreads.iter().zip(compliance).filter(|(_, compliance)| **compliance > 0.0);
+                let mut words: Vec<String> = soft.map(|(spread, _)| spread.words()).collect();
+                words.sort();
+                words.dedup();
+                if words.is_empty() { "infinite".to_owned() } else { words.join(" or ") }
+            }
+        }
     }
 
     /// How sure the figures are.
@@ -120,7 +138,7 @@ impl Report {
             .map(|Share { input, share }| InputShare { input: input.clone(), percent: 100.0 * share });
         HowSure {
             sentence: self.expectation(),
-            stiffness: stiffness(&spreads.stiffness),
+            stiffness: self.stiffness_known(),
             cutting: spreads.cutting.words(),
             frequency: spreads.frequency.words(),
             draws: spreads.draws,
@@ -131,19 +149,6 @@ impl Report {
             break_even_percent: band.break_even.deflection.map(|share| 100.0 * share),
             worse_percent: 100.0 * band.break_even.worse,
             left_out: LEFT_OUT,
-        }
-    }
-}
-
-/// How well stiffness is known, in words.
-fn stiffness(stiffness: &Stiffness) -> String {
-    match stiffness {
-        Stiffness::Together(_) => "by the covariance of an identification".to_owned(),
-        Stiffness::Each(spreads) => {
-            let mut words: Vec<String> = spreads.iter().map(|spread| spread.words()).collect();
-            words.sort();
-            words.dedup();
-            words.join(" or ")
         }
     }
 }

@@ -60,6 +60,25 @@ fn units_colours_and_open_panels_are_remembered() -> Result {
     })
 }
 
+/// What to expect has a place of its own, also while an error is shown.
+#[test]
+fn what_to_expect_covers_nothing() -> Result {
+    for size in [DESKTOP, PHONE] {
+        visit("/", size, async |page| {
+            let report = run(&[]);
+            shows(page, &report).await?;
+            assert_eq!(text(page, "expected").await?, report.how_sure().sentence);
+            assert!(report.how_sure().sentence.starts_with("The arm cannot run this."));
+            let apart = "const box = (id) => document.getElementById(id).getBoundingClientRect();
+                const [top, middle, bottom] = ['verdict', 'expected', 'as-program'].map(box);
+                return top.bottom <= middle.top && middle.bottom <= bottom.top;";
+            assert_eq!(page.js(apart).await?, true, "{size:?}");
+            Ok(())
+        })?;
+    }
+    Ok(())
+}
+
 #[test]
 fn nothing_moves_while_the_page_opens_and_typing_never_waits() -> Result {
     let watch = "localStorage.setItem('armill-settings', JSON.stringify({ length: 'inch', force: 'lbf', theme: 'dark' }));
