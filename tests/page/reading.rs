@@ -70,8 +70,8 @@ fn what_to_expect_covers_nothing() -> Result {
             assert_eq!(text(page, "expected").await?, report.how_sure().sentence);
             assert!(report.how_sure().sentence.starts_with("The arm cannot run this."));
             let apart = "const box = (id) => document.getElementById(id).getBoundingClientRect();
-                const [top, middle, bottom] = ['verdict', 'expected', 'as-program'].map(box);
-                return top.bottom <= middle.top && middle.bottom <= bottom.top;";
+                const [top, middle, bottom] = ['verdict', 'expected', 'errors'].map(box);
+                return middle.height > 0 && top.bottom <= middle.top && middle.bottom <= bottom.top;";
             assert_eq!(page.js(apart).await?, true, "{size:?}");
             Ok(())
         })?;
