@@ -2,6 +2,7 @@
 //! contour error of both (thesis sections 4.3-4.5, 5.2).
 
 pub mod contour;
+pub mod missed;
 pub mod reference;
 pub mod simulate;
 
@@ -29,6 +30,15 @@ pub struct Deviation {
     /// Angle between the actual tool axis and the desired one at the tool's place on the path
     /// [rad]; empty unless every source acts.
     pub axis_error: Vec<f64>,
+}
+
+/// The largest value of a length along the path, and where.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Largest {
+    /// The value [m].
+    pub max: f64,
+    /// Arc length of its place on the path [m].
+    pub at: f64,
 }
 
 /// A tip [m] with its tool axis, or their displacement [m] and rotation [rad] by deflection.
