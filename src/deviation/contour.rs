@@ -1,17 +1,17 @@
 //! Contour error: distance of the tip from the desired path, regardless of timing (thesis eqs. 5.1,
 //! 5.2).
 
-use crate::path::Path;
+use crate::path::{Closest, Path};
 use nalgebra::Vector3;
 
-/// Contour error vector epsilon = P_c - P_a [m] (eq. 5.2) of a tip that should be at `target`, the
-/// path's point at the arc length `s` [m].
+/// The point P_c of the path closest to a tip P_a that should be at `target`, the path's point at
+/// the arc length `s` [m]. The contour error is epsilon = P_c - P_a (eq. 5.2).
 ///
-/// P_c is searched near `target`. If the target is at the distance d from the tip, the closest
+/// It is searched near `target`. If the target is at the distance d from the tip, the closest
 /// point is no further away, so the two are at most 2 d apart; 3 d allows for the path's bends.
-pub fn contour_error(path: &Path, (s, target): (f64, &Vector3<f64>), tip: &Vector3<f64>) -> Vector3<f64> {
+pub fn closest(path: &Path, (s, target): (f64, &Vector3<f64>), tip: &Vector3<f64>) -> Closest {
     let distance = (tip - target).norm();
-    path.closest(tip, s, 3.0 * distance + 1e-6).point - tip
+    path.closest(tip, s, 3.0 * distance + 1e-6)
 }
 
 /// Mean and largest length of contour errors.

@@ -23,10 +23,7 @@ pub fn missed(path: &Path, arc_length: &[f64], tips: &[Vector3<f64>]) -> Largest
         if s > last {
             last = s;
             let enough = largest.max * (1.0 + RESOLUTION);
-            let distance = track.distance(point, due, enough);
-            if distance > enough {
-                largest = Largest { max: distance, at: s };
-            }
+            largest.raise(track.distance(point, due, enough), s);
         }
     };
     let mut k = 0;

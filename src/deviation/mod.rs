@@ -5,13 +5,14 @@ pub mod contour;
 pub mod missed;
 pub mod reference;
 pub mod simulate;
+pub mod wall;
 
 pub use crate::job::{Source, Sources};
 pub use reference::Reference;
 pub use simulate::{ErrorsBySource, simulate, simulate_by_source};
 
 use crate::math;
-use crate::path::Path;
+use crate::plan::Plan;
 use contour::MeanMax;
 use nalgebra::Vector3;
 
@@ -30,6 +31,8 @@ pub struct Deviation {
     /// Angle between the actual tool axis and the desired one at the tool's place on the path
     /// [rad]; empty unless every source acts.
     pub axis_error: Vec<f64>,
+    /// Largest error at the top of the cut, see [`wall`]; 0 unless every source acts.
+    pub wall: Largest,
 }
 
 /// The largest value of a length along the path, and where.
@@ -41,12 +44,21 @@ pub struct Largest {
     pub at: f64,
 }
 
+impl Largest {
+    /// Takes a value [m] at the arc length `s` [m] if it is larger.
+    fn raise(&mut self, value: f64, s: f64) {
+        if value > self.max {
+            *self = Self { max: value, at: s };
+        }
+    }
+}
+
 /// A tip [m] with its tool axis, or their displacement [m] and rotation [rad] by deflection.
 type TipAndAxis = (Vector3<f64>, Vector3<f64>);
 
 /// Collects a [`Deviation`] sample by sample.
 struct DeviationBuilder<'a> {
-    path: &'a Path,
+    plan: &'a Plan,
     reference: &'a Reference<'a>,
     keeps_axes: bool,
     keeps_angles: bool,
@@ -54,25 +66,27 @@ struct DeviationBuilder<'a> {
 }
 
 impl<'a> DeviationBuilder<'a> {
-    fn new(path: &'a Path, reference: &'a Reference<'a>, acting: Sources) -> Self {
+    fn new(plan: &'a Plan, reference: &'a Reference<'a>, acting: Sources) -> Self {
         let samples = reference.arc_length.len();
-        let (keeps_axes, keeps_angles) = (path.is_multi_axis(), acting == Sources::ALL);
+        let (keeps_axes, keeps_angles) = (plan.path.is_multi_axis(), acting == Sources::ALL);
         let deviation = Deviation {
             actual: Vec::with_capacity(samples),
             axis: Vec::with_capacity(if keeps_axes { samples } else { 0 }),
             contour_error: Vec::with_capacity(samples),
             statistics: MeanMax::default(),
             axis_error: Vec::with_capacity(if keeps_angles { samples } else { 0 }),
+            wall: Largest::default(),
         };
-        Self { path, reference, keeps_axes, keeps_angles, deviation }
+        Self { plan, reference, keeps_axes, keeps_angles, deviation }
     }
 
     /// Adds the sample `k`: the shaped pose, displaced [m] and rotated [rad] by deflection.
     fn push(&mut self, k: usize, (tip, axis): &TipAndAxis, (moved, turned): &TipAndAxis) {
-        let Self { path, reference, deviation, .. } = self;
+        let Self { plan, reference, deviation, .. } = self;
         let tip = tip + moved;
         let place = (reference.arc_length[k], &reference.target[k]);
-        deviation.contour_error.push(contour::contour_error(path, place, &tip));
+        let closest = contour::closest(&plan.path, place, &tip);
+        deviation.contour_error.push(closest.point - tip);
         deviation.actual.push(tip);
         if !(self.keeps_axes || self.keeps_angles) {
             return;
@@ -80,6 +94,10 @@ impl<'a> DeviationBuilder<'a> {
         let axis = (axis + turned.cross(axis)).normalize();
         if self.keeps_angles {
             deviation.axis_error.push(math::angle_between(&axis, reference.axis.at(k)));
+            let top = plan.setup.cut.axial_depth;
+            if let Some(error) = wall::error_at_height(&plan.path, &closest, (&tip, &axis), top) {
+                deviation.wall.raise(error.norm(), closest.s_on(&plan.path));
+            }
         }
         if self.keeps_axes {
             deviation.axis.push(axis);

@@ -125,6 +125,13 @@ impl Report {
         })
     }
 
+    /// The largest error at the top of the cut with the compensated path commanded, every source
+    /// acting [m]: that of the tip and what the tilt of the tool adds over the axial depth, across
+    /// the path, where the tool cuts.
+    pub fn wall(&self) -> Largest {
+        self.after.wall
+    }
+
     /// The path to command: the desired positions with their correction, base frame [m].
     pub fn commanded(&self) -> Vec<Vector3<f64>> {
         self.plan.trajectory.position.iter().zip(&self.compensation.correction).map(|(p, c)| p + c).collect()

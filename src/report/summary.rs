@@ -97,6 +97,9 @@ pub struct Summary {
     /// Largest distance from a point of the desired path to the nearest place that the tip passes
     /// after compensation, every source acting [mm]: what of the path is never reached.
     pub missed_mm: WorstPlace,
+    /// Largest error at the top of the cut after compensation, every source acting [mm]: that of the
+    /// tip and what the tilt of the tool adds over the axial depth.
+    pub wall_mm: WorstPlace,
     /// Angle between actual and desired tool axis before compensation, every source acting [deg].
     pub before_axis_deg: Statistics,
     /// Angle between actual and desired tool axis after compensation, every source acting [deg]; it
@@ -246,6 +249,7 @@ impl Report {
             budget,
             after_mm: statistics(&self.after),
             missed_mm: self.missed().into(),
+            wall_mm: self.wall().into(),
             before_axis_deg: Statistics::of_angles(&self.before.axis_error),
             after_axis_deg: Statistics::of_angles(&self.after.axis_error),
             passes: self.compensation.passes,

@@ -50,7 +50,7 @@ export interface Summary {
   mean_force_n: [number, number, number];
   material: string; material_note: string; cut: CutFigures; walls: WallFigures[];
   before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics };
-  after_mm: Statistics; missed_mm: WorstPlace; budget: Budget; before_axis_deg: Statistics; after_axis_deg: Statistics;
+  after_mm: Statistics; missed_mm: WorstPlace; wall_mm: WorstPlace; budget: Budget; before_axis_deg: Statistics; after_axis_deg: Statistics;
   program?: Understood; spin?: SpinGain;
   passes: number; converged: boolean; tolerance_mm: number;
   history_max_mm: number[]; history_mean_mm: number[]; verdict: string;
