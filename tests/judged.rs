@@ -1,11 +1,14 @@
 //! What a run is judged by beside the tip's contour error: what of the path is never reached, and
-//! the error at the top of the cut.
+//! the error at the top of the cut; and what of the tool the compensation brings onto its place.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
 
 use armill::Report;
+use armill::export::ExportOptions;
+use armill::math::Pose;
 use armill::robot::{Joints, forward};
+use armill::verification::{Programs, export, read_back};
 use common::program::small_jobs;
 use common::run;
 use nalgebra::Vector3;
@@ -110,27 +113,32 @@ fn a_tip_that_stays_on_the_path_misses_only_its_waits() {
     assert!(report.missed().max < 1e-6, "{:?}", report.missed());
 }
 
-/// Arc length of the command and error at the top of the cut on a circle [m], from the joints up:
-/// shaped joint values, the turns of sprung joints, and the circle's own geometry.
+/// The pose of the tool at the sample `k` with the compensated path commanded, from the joints up:
+/// shaped joint values and the turns of sprung joints.
+fn bent(report: &Report, k: usize) -> Pose {
+    let robot = &report.plan.robot;
+    let (q, force) = (report.shaped(&report.compensation.q).at(k), report.force[k]);
+    let tip = |q: &Joints| forward::forward(robot, q).position;
+    // A joint's torque is the force times the tip's motion, by central differences.
+    let turns = Joints::from_fn(|i, _| {
+        let mut step = Joints::zeros();
+        step[i] = 1e-5;
+        robot.compliance()[i] * force.dot(&(tip(&(q + step)) - tip(&(q - step)))) / 2e-5
+    });
+    forward::forward(robot, &(q + turns))
+}
+
+/// Arc length of the command and error at the top of the cut on a circle [m], by the circle's own
+/// geometry.
 fn wall_on_a_circle(
     report: &Report,
     center: &Vector3<f64>,
     normal: &Vector3<f64>,
     radius: f64,
 ) -> Vec<(f64, f64)> {
-    let robot = &report.plan.robot;
     let depth = report.setup().cut.axial_depth;
-    let shaped = report.shaped(&report.compensation.q);
     let error = |k: usize| {
-        let (q, force) = (shaped.at(k), report.force[k]);
-        let tip = |q: &Joints| forward::forward(robot, q).position;
-        // A joint's torque is the force times the tip's motion, by central differences.
-        let turns = Joints::from_fn(|i, _| {
-            let mut step = Joints::zeros();
-            step[i] = 1e-5;
-            robot.compliance()[i] * force.dot(&(tip(&(q + step)) - tip(&(q - step)))) / 2e-5
-        });
-        let bent = forward::forward(robot, &(q + turns));
+        let bent = bent(report, k);
         let top = bent.position - bent.rotation.column(2) * depth;
         // On the circle moved up by the depth along the desired axis, +Z of the workpiece; errors
         // along the tangent at the tip's place do not count.
@@ -197,4 +205,111 @@ fn a_rigid_arm_leaves_upright_walls() {
     let report = run(&[("robot", rigid), ("shaper", json!("none"))]);
     // The closure error of the inverse model.
     assert!(report.wall().max < 1e-9, "{:?}", report.wall());
+}
+
+/// A line along y, with or without a shaper, compensated at a part of the tool.
+fn at(part: &str, more: &[(&'static str, Value)]) -> Report {
+    let line = json!({"kind":"line","from_mm":[600,-60,100],"to_mm":[600,60,100]});
+    let changes = [("path", line), ("shaper", json!("none")), ("compensation.at", json!(part))];
+    run(&[&changes, more].concat())
+}
+
+#[test]
+fn the_tip_is_compensated_unless_the_job_says_otherwise() {
+    let (tip, absent) = (at("tip", &[]), at("tip", &[("compensation.at", Value::Null)]));
+    assert_eq!(tip.fingerprint(), absent.fingerprint());
+    assert!(tip.after.axis.is_empty() && tip.after.middle.is_empty());
+    assert_eq!(tip.after.judged, tip.after.statistics);
+}
+
+#[test]
+fn compensated_in_the_middle_the_wall_errs_as_much_above_as_below() {
+    let (tip, middle) = (at("tip", &[]), at("middle", &[]));
+    let depth = middle.setup().cut.axial_depth;
+    let mut largest = [0.0_f64; 3];
+    for k in (0..middle.samples()).step_by(11) {
+        let pose = bent(&middle, k);
+        let up = -Vector3::from(pose.rotation.column(2));
+        // The line x = 600, z = 100 and its copies above it.
+        let error = |height: f64| {
+            let point = pose.position + up * height - Vector3::new(0.6, 0.0, 0.1 + height);
+            Vector3::new(point.x, 0.0, point.z)
+        };
+        let [bottom, half, top] = [0.0, depth / 2.0, depth].map(error);
+        assert!((top + bottom - half * 2.0).norm() < 1e-12);
+        for (most, error) in largest.iter_mut().zip([bottom, half, top]) {
+            *most = most.max(error.norm());
+        }
+    }
+    let [bottom, half, top] = largest;
+    // The middle is where the tip is otherwise: well within the tolerance.
+    assert!(middle.after.judged.max < 1e-6 && tip.after_max() < 1e-6);
+    // From the joints up, to the squares of their turns: 1.5 m times 1 mrad twice.
+    let square = 3e-6;
+    assert!(half < square, "{half}");
+    assert!((bottom - top).abs() < 2.0 * half && top > 10e-6, "{bottom} {top}");
+    assert!((middle.after_max() - bottom).abs() < square && (middle.wall().max - top).abs() < square);
+    // The tilt is the same, so each has half of what the top had.
+    let (wall, half_wall) = (middle.wall().max, tip.wall().max / 2.0);
+    assert!((wall - half_wall).abs() < 0.05 * half_wall, "{wall} {half_wall}");
+    assert!((middle.after_max() - half_wall).abs() < 0.05 * half_wall);
+    assert!(middle.compensation.converged);
+}
+
+#[test]
+fn with_the_axis_compensated_the_wall_stands_upright() {
+    let shaped = ("shaper", json!({"kind":"zvd","frequency_hz":10,"damping":0.03}));
+    let [(_, arc), ..] = small_jobs();
+    for more in [vec![], [arc, vec![shaped]].concat()] {
+        let (tip, axis) = (at("tip", &more), at("axis", &more));
+        assert!(axis.compensation.converged, "{:?}", axis.compensation.history_max);
+        // What is left is less than the tolerance, by which the passes judge tip and top.
+        let (left, tolerance) = (axis.wall().max, axis.setup().goal.tolerance);
+        assert!(left <= tolerance && left < 0.5 * tip.wall().max, "{left} of {:?}", tip.wall());
+        assert!(axis.after_max() <= tolerance);
+        // It is the error of the tip and what is left of the tilt.
+        let tilt = axis.after.axis_error.iter().copied().fold(0.0, f64::max);
+        assert!(left <= axis.after_max() + tilt * axis.setup().cut.axial_depth + 1e-12);
+    }
+}
+
+#[test]
+fn a_tip_within_the_tolerance_is_no_reason_to_leave_the_wall_slanted() {
+    // Only the shoulder gives way, far below the cut: the top of the tool is moved more than the tip.
+    let robot = json!({"preset":"staubli-rx90","joint_compliance_rad_per_nm":[0,1e-6,0,0,0,0]});
+    let high = json!({"kind":"line","from_mm":[500,-60,650],"to_mm":[500,60,650]});
+    let job = [("robot", robot), ("path", high)];
+    let with = |part, more: (&'static str, Value)| at(part, &[&job[..], &[more]].concat());
+    let as_desired = with("axis", ("compensation.max_passes", json!(0)));
+    let (tip, top) = (as_desired.after_max(), as_desired.wall().max);
+    assert!(tip < top, "{tip} {top}");
+    let between = ("compensation.tolerance_mm", json!((tip + top) / 2.0 * 1e3));
+    assert_eq!(with("tip", between.clone()).compensation.passes, 0);
+    let report = with("axis", between);
+    assert!(report.compensation.passes > 0 && report.wall().max <= report.setup().goal.tolerance);
+}
+
+#[test]
+fn programs_command_the_tilt_and_keep_the_wall_upright() {
+    let [(_, arc), ..] = small_jobs();
+    let report = at("axis", &arc);
+    let (programs, options) = (Programs::default(), ExportOptions::default());
+    let tolerance = report.setup().goal.tolerance;
+    for format in ["apt", "path-csv"] {
+        let outcome = read_back(&report, &programs, format, &options).unwrap();
+        let (tip, wall) = (outcome.largest(), outcome.deviation.wall);
+        assert!(tip <= tolerance && wall.max <= tolerance, "{format}: {tip} {wall:?}");
+    }
+    for format in ["krl", "rapid", "val3", "fanuc", "joints-csv", "compensated-csv"] {
+        export(&report, format, &options).unwrap();
+    }
+    let refused = export(&report, "gcode", &options).unwrap_err();
+    assert_eq!((refused.code(), refused.field()), ("invalid", Some("compensation.at")));
+    assert!(refused.to_string().contains("middle"), "{refused}");
+    // A program read from G-code cannot be rewritten either; in the middle of the cut it can.
+    let text = "G21 G90 M3 S4000\nG0 X560 Y-60 Z110\nG1 Z100 F3000\nG1 Y60\nG0 Z110\nM30";
+    let program = ("path", json!({"kind":"gcode","text":text}));
+    let refused = export(&at("axis", std::slice::from_ref(&program)), "gcode", &options).unwrap_err();
+    assert_eq!(refused.field(), Some("compensation.at"));
+    export(&at("middle", &[program]), "gcode", &options).unwrap();
 }

@@ -26,12 +26,30 @@ pub struct MeanMax {
 impl MeanMax {
     /// Mean and largest length of error vectors [m].
     pub fn of(errors: &[Vector3<f64>]) -> Self {
-        let (mut sum, mut max) = (0.0, 0.0_f64);
-        for error in errors {
-            let norm = error.norm();
-            sum += norm;
-            max = max.max(norm);
-        }
-        Self { mean: sum / errors.len().max(1) as f64, max }
+        let mut tally = Tally::default();
+        errors.iter().for_each(|error| tally.add(error.norm()));
+        tally.mean_max()
+    }
+}
+
+/// Errors [m] as they come, for their mean and maximum.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Tally {
+    count: usize,
+    sum: f64,
+    max: f64,
+}
+
+impl Tally {
+    /// Adds one.
+    pub fn add(&mut self, error: f64) {
+        self.count += 1;
+        self.sum += error;
+        self.max = self.max.max(error);
+    }
+
+    /// Mean and largest.
+    pub fn mean_max(&self) -> MeanMax {
+        MeanMax { mean: self.sum / self.count.max(1) as f64, max: self.max }
     }
 }

@@ -18,8 +18,8 @@ pub mod fields;
 pub use choice::{ChipThickness, Choice, CornerDwell, CornerRadius, FeedPerTooth, SpindlePower};
 pub use cutting::{Cutting, Engaged, HelixHand, Line, Material, Tool, ToolBending};
 pub use input::{
-    Branch, Compensation, DhRow, Elbow, Frame, Job, Joint3, Motion, Opw, Robot, SagZero, Shaper, ShaperKind,
-    ShaperSpec, Shoulder, Wrist,
+    Branch, CompensateAt, Compensation, DhRow, Elbow, Frame, Job, Joint3, Motion, Opw, Robot, SagZero,
+    Shaper, ShaperKind, ShaperSpec, Shoulder, Wrist,
 };
 pub use path::{FeedUnit, Path, PathKind, Unit};
 pub use source::{Source, Sources};

@@ -103,7 +103,7 @@ pub struct Summary {
     /// Angle between actual and desired tool axis before compensation, every source acting [deg].
     pub before_axis_deg: Statistics,
     /// Angle between actual and desired tool axis after compensation, every source acting [deg]; it
-    /// is corrected only along a path whose tool axis turns.
+    /// is corrected only along a path whose tool axis turns, or if the job compensates the axis.
     pub after_axis_deg: Statistics,
     /// Number of the pass whose path is commanded.
     pub passes: usize,
@@ -111,9 +111,10 @@ pub struct Summary {
     pub converged: bool,
     /// The tolerance [mm].
     pub tolerance_mm: f64,
-    /// Largest contour error before the first pass and after each [mm].
+    /// Largest contour error before the first pass and after each [mm]: of the tip, or what the job
+    /// compensates instead.
     pub history_max_mm: Vec<f64>,
-    /// Mean contour error before the first pass and after each [mm].
+    /// Mean of that error before the first pass and after each [mm].
     pub history_mean_mm: Vec<f64>,
     /// The verdict in words.
     pub verdict: String,

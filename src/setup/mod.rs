@@ -11,7 +11,7 @@ pub use robot::robot;
 
 use crate::cutting::{Bending, Cut, LinearForce, Loading};
 use crate::error::Error;
-use crate::job::{Choice, Frame, Job, Source, Sources, fields};
+use crate::job::{Choice, CompensateAt, Frame, Job, Source, Sources, fields};
 use crate::math::Pose;
 use crate::model::MODEL;
 use crate::motion::joints::StartBranch;
@@ -83,12 +83,14 @@ pub struct Setup {
     pub goal: Goal,
     /// What is compensated.
     pub sources: Sources,
+    /// What of the tool is brought onto its desired place.
+    pub compensate_at: CompensateAt,
 }
 
 /// Stopping criterion of the compensation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Goal {
-    /// Largest contour error to reach [m].
+    /// Largest error to reach [m]: the contour error of what is brought onto the path.
     pub tolerance: f64,
     /// Largest number of passes.
     pub max_passes: usize,
@@ -158,6 +160,7 @@ impl Setup {
             start: motion::start(job.start_branch),
             goal,
             sources,
+            compensate_at: job.compensation.at.unwrap_or_default(),
         })
     }
 
