@@ -7,7 +7,8 @@
 //! is the distance from the tip to the path point where the shaped motion should be, not eq. 5.2's
 //! distance to the closest point. It is smooth around corners and puts ends and corners where they
 //! belong, which the contour error cannot see. The report still states the contour error. If the
-//! tool axis turns along the path, it is corrected in the same way. The command rests once it has
+//! tool axis turns along the path, or the job says so, it is corrected in the same way. If the job
+//! compensates in the middle of the cut, that point takes the place of the tip. The command rests once it has
 //! arrived at the end, so that a program can express it.
 //!
 //! [`Shaper::undo`]: crate::motion::Shaper::undo
@@ -17,7 +18,7 @@ use crate::deviation::{Deviation, Reference, simulate};
 use crate::error::Error;
 use crate::motion::Trajectory;
 use crate::motion::joints::{Targets, joint_trajectory_from};
-use crate::path::{Axes, Path};
+use crate::path::Axes;
 use crate::plan::Plan;
 use crate::progress::Progress;
 use crate::robot::Joints;
@@ -43,15 +44,15 @@ pub struct Question<'a> {
 pub struct Compensation {
     /// Correction of the desired position, one per sample, base frame [m].
     pub correction: Vec<Vector3<f64>>,
-    /// Tool axis to command, base frame; the desired one if the path keeps a constant axis.
+    /// Tool axis to command, base frame; the desired one if only tips are corrected.
     pub axis: Axes,
     /// Joint commands for the corrected path [rad].
     pub q: Arc<Vec<Joints>>,
     /// Their result in the same model.
     pub result: Arc<Deviation>,
-    /// Largest contour error before the first pass and after each pass [m].
+    /// Largest error (see [`Deviation::judged`]) before the first pass and after each pass [m].
     pub history_max: Vec<f64>,
-    /// Mean contour error before the first pass and after each pass [m].
+    /// Mean of that error before the first pass and after each pass [m].
     pub history_mean: Vec<f64>,
     /// Number of the pass whose path is commanded (0: the desired path itself).
     pub passes: usize,
@@ -70,7 +71,7 @@ const IMPROVEMENT: f64 = 0.99;
 /// only slowly is not worth the passes.
 const STALLED: f64 = 0.8;
 
-/// Corrects the path until the largest contour error is well within the tolerance (a tenth of it),
+/// Corrects the path until the largest error is well within the tolerance (a tenth of it),
 /// the passes are used up, or a pass brings no more improvement. The best pass is kept. A path
 /// already within the tolerance stays as it is.
 pub fn compensate(plan: &Plan, question: &Question, progress: &mut Progress) -> Compensation {
@@ -80,10 +81,10 @@ pub fn compensate(plan: &Plan, question: &Question, progress: &mut Progress) -> 
         axis: plan.trajectory.axis.clone(),
         q: q.clone(),
         result: before.clone(),
-        history_max: vec![before.statistics.max],
-        history_mean: vec![before.statistics.mean],
+        history_max: vec![before.judged.max],
+        history_mean: vec![before.judged.mean],
         passes: 0,
-        converged: before.statistics.max <= goal.tolerance,
+        converged: before.judged.max <= goal.tolerance,
         stopped: None,
     };
     for pass in 1..=goal.max_passes {
@@ -105,7 +106,7 @@ pub fn compensate(plan: &Plan, question: &Question, progress: &mut Progress) -> 
             }
         };
         let result = Arc::new(simulate(plan, reference, &commands, &mut progress.part("", 0.5, 1.0)));
-        let MeanMax { mean, max } = result.statistics;
+        let MeanMax { mean, max } = result.judged;
         let least = best.history_max[best.passes];
         best.history_max.push(max);
         best.history_mean.push(mean);
@@ -135,7 +136,7 @@ fn next_correction(plan: &Plan, reference: &Reference, best: &Compensation) -> (
         if reference.acting.shaping { plan.shaper().undo(&missing, sample_time, moving) } else { missing }
     };
     let wanted = (&*reference.target, &reference.axis);
-    corrected(&plan.path, wanted, &best.result, (&best.correction, &best.axis), undone)
+    corrected(wanted, &best.result, (&best.correction, &best.axis), undone)
 }
 
 /// Joint commands for the desired path with a correction [m] and tool axes, from near `start` [rad].
@@ -155,18 +156,17 @@ fn commands(
 /// A correction [m] and tool axes, one per sample, plus what `result` lacks of the desired tips and
 /// axes. `undone` converts the missing vectors into those to add to the commands.
 pub(crate) fn corrected(
-    path: &Path,
     (target, wanted): (&[Vector3<f64>], &Axes),
     result: &Deviation,
     (correction, axis): (&[Vector3<f64>], &Axes),
     undone: impl Fn(Vec<Vector3<f64>>) -> Vec<Vector3<f64>>,
 ) -> (Vec<Vector3<f64>>, Axes) {
-    let missing = target.iter().zip(&result.actual).map(|(target, actual)| target - actual);
+    let missing = target.iter().zip(result.brought()).map(|(target, actual)| target - actual);
     let mut bent = undone(missing.collect());
     for (more, known) in bent.iter_mut().zip(correction) {
         *more = known + *more;
     }
-    if !path.is_multi_axis() {
+    if result.axis.is_empty() {
         return (bent, axis.clone());
     }
     // The missing turn as a rotation vector. Its length is the sine of the angle, nearly exact for

@@ -52,7 +52,7 @@ pub const STAGES: [Work<Stages>; 9] = [
         let places = reference.arc_length.iter().copied().zip(reference.target.iter());
         let errors = places.zip(&s.before.actual);
         drop(black_box(
-            errors.map(|(at, tip)| contour::contour_error(&s.plan.path, at, tip)).collect::<Vec<_>>(),
+            errors.map(|(at, tip)| contour::closest(&s.plan.path, at, tip).point - tip).collect::<Vec<_>>(),
         ));
     }),
     ("deviation: whole", |s| {

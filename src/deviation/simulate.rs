@@ -27,7 +27,7 @@ pub struct ErrorsBySource {
 /// Simulates joint commands under the sources that act in the reference; `q` has one row for each
 /// sample of the reference.
 pub fn simulate(plan: &Plan, reference: &Reference, q: &[Joints], progress: &mut Progress) -> Deviation {
-    let mut total = DeviationBuilder::new(&plan.path, reference, reference.acting);
+    let mut total = DeviationBuilder::new(plan, reference, reference.acting);
     send(plan, reference, q, progress, |k, pose, deflected| total.push(k, pose, deflected));
     total.finish()
 }
@@ -40,8 +40,8 @@ pub fn simulate_by_source(
     q: &[Joints],
     progress: &mut Progress,
 ) -> ErrorsBySource {
-    let mut total = DeviationBuilder::new(&plan.path, reference, reference.acting);
-    let mut shaping = DeviationBuilder::new(&plan.path, reference, Sources::only(Source::Shaping));
+    let mut total = DeviationBuilder::new(plan, reference, reference.acting);
+    let mut shaping = DeviationBuilder::new(plan, reference, Sources::only(Source::Shaping));
     let mut deflection = Vec::with_capacity(reference.force.len());
     send(plan, reference, q, progress, |k, pose, deflected| {
         shaping.push(k, pose, &Default::default());

@@ -176,6 +176,12 @@ impl Command {
         tilted(&self.start) || self.moves.iter().flat_map(CommandedMove::points).any(tilted)
     }
 
+    /// Whether the tool axis of the desired path differs from +Z of the workpiece frame anywhere.
+    pub fn is_desired_tilted(&self) -> bool {
+        let tilted = |axis: &Vector3<f64>| (axis - Vector3::z()).norm() > 1e-9;
+        self.path.moves().iter().any(|step| tilted(&step.axis_from) || tilted(&step.axis_to))
+    }
+
     /// The TCP in the workpiece frame (see [`Path::orientation`]).
     pub fn pose(&self, point: &Point) -> Pose {
         Pose { rotation: self.path.orientation(point.s, &point.axis, point.spin), position: point.position }

@@ -2,6 +2,7 @@
 
 use crate::export::command::Command;
 use crate::export::orientation::roll_pitch_yaw;
+use crate::job::CompensateAt;
 use crate::math::Pose;
 use crate::model;
 use crate::report::{Report, millimetres};
@@ -19,9 +20,15 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
         (true, false) => "compensated for deflection",
         _ => "compensated for shaping",
     };
+    let brought = match setup.compensate_at {
+        _ if report.compensation.passes == 0 => "",
+        CompensateAt::Tip => "",
+        CompensateAt::Middle => " in the middle of the cut",
+        CompensateAt::Axis => " with the tool axis",
+    };
     let mut lines = vec![
         model::stamp(&report.fingerprint()),
-        format!("Path {sources}, robot model {}", ascii(report.plan.robot.name())),
+        format!("Path {sources}{brought}, robot model {}", ascii(report.plan.robot.name())),
         format!(
             "Tolerance asked {} mm, largest contour error reached {} mm, {} mm without compensation, simulated",
             millimetres(setup.goal.tolerance),

@@ -246,6 +246,18 @@ choice! {
     }
 }
 choice! {
+    /// What of the tool is brought onto its desired place.
+    CompensateAt {
+        /// The tip.
+        #[default]
+        Tip = "tip",
+        /// The point of the tool's axis half the axial depth above the tip.
+        Middle = "middle",
+        /// The tip and the direction of the tool's axis.
+        Axis = "axis",
+    }
+}
+choice! {
     /// Kind of input shaper.
     ShaperKind {
         /// Zero vibration.
@@ -348,11 +360,15 @@ pub struct Compensation {
     pub max_passes: u32,
     /// Sources to compensate.
     pub sources: Vec<Source>,
+    /// What of the tool is brought onto its desired place; default the tip.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<CompensateAt>,
 }
 
 impl Default for Compensation {
     fn default() -> Self {
-        Self { tolerance_mm: 0.01, max_passes: 5, sources: vec![Source::Deflection, Source::Shaping] }
+        let sources = vec![Source::Deflection, Source::Shaping];
+        Self { tolerance_mm: 0.01, max_passes: 5, sources, at: None }
     }
 }
 
@@ -386,4 +402,4 @@ keys!(Frame { xyz_mm, rpy_deg });
 keys!(Branch { shoulder, elbow, wrist });
 keys!(Motion { feed_mm_s, rapid_mm_s, acceleration_mm_s2, sample_time_s, corner_angle_deg, corner_dwell });
 keys!(new ShaperSpec { kind, frequency_rad_s, frequency_hz, damping } required kind, damping);
-keys!(Compensation { tolerance_mm, max_passes, sources });
+keys!(Compensation { tolerance_mm, max_passes, sources, at });

@@ -21,8 +21,8 @@ pub use choice::{
 };
 pub use cutting::{Cutting, Engaged, HelixHand, Line, Material, Tool, ToolBending};
 pub use input::{
-    Branch, Compensation, DhRow, Elbow, Frame, Job, Joint3, Motion, Opw, Robot, SagZero, Shaper, ShaperKind,
-    ShaperSpec, Shoulder, Wrist,
+    Branch, CompensateAt, Compensation, DhRow, Elbow, Frame, Job, Joint3, Motion, Opw, Robot, SagZero,
+    Shaper, ShaperKind, ShaperSpec, Shoulder, Wrist,
 };
 pub use path::{FeedUnit, Path, PathKind, Unit};
 pub use source::{Source, Sources};

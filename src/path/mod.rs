@@ -57,6 +57,18 @@ pub struct Closest {
     pub point: Vector3<f64>,
 }
 
+impl Closest {
+    /// Its arc length on the path itself, in [0, length] [m].
+    pub fn s_on(&self, path: &Path) -> f64 {
+        let length = path.length();
+        match self.s {
+            s if s < 0.0 => s + length,
+            s if s > length => s - length,
+            s => s,
+        }
+    }
+}
+
 /// Ends closer than this are the same point [m].
 const SEAM: f64 = 1e-9;
 

@@ -19,12 +19,12 @@ pub use budget::{Budget, Parts};
 pub use cut::{CutFigures, WallFigures};
 pub use roll::{RollGain, RollOutcome};
 pub use severity::Severity;
-pub use summary::{Statistics, Summary};
+pub use summary::{Statistics, Summary, WorstPlace};
 pub use verdict::VerdictState;
 pub use warning::Warning;
 
 use crate::compensation::{Compensation, Question, compensate};
-use crate::deviation::{Deviation, Reference, Source, Sources};
+use crate::deviation::{Deviation, Largest, Reference, Source, Sources, missed};
 use crate::motion::shaper::Shaped;
 use crate::plan::Plan;
 use crate::progress::Progress;
@@ -70,6 +70,8 @@ pub struct Report {
     pub(crate) alone: [OnceLock<Compensation>; 2],
     /// See [`Report::fingerprint`]; computed on first use.
     pub(crate) fingerprint: OnceLock<String>,
+    /// See [`Report::missed`]; computed on first use.
+    pub(crate) missed: OnceLock<Largest>,
 }
 
 impl Report {
@@ -116,6 +118,24 @@ impl Report {
     /// Largest contour error with the compensated path commanded, every source acting [m].
     pub fn after_max(&self) -> f64 {
         self.after.statistics.max
+    }
+
+    /// What of the desired path the actual tip never reaches with the compensated path commanded,
+    /// every source acting: the largest distance from a point of the path to the nearest place that
+    /// the tip passes [m].
+    pub fn missed(&self) -> Largest {
+        *self.missed.get_or_init(|| {
+            let trajectory = &self.plan.trajectory;
+            let due = self.plan.shaper().apply(&trajectory.timing.arc_length, trajectory.sample_time);
+            missed::missed(&self.plan.path, &due, &self.after.actual)
+        })
+    }
+
+    /// The largest error at the top of the cut with the compensated path commanded, every source
+    /// acting [m]: that of the tip and what the tilt of the tool adds over the axial depth, across
+    /// the path, where the tool cuts.
+    pub fn wall(&self) -> Largest {
+        self.after.wall
     }
 
     /// The path to command: the desired positions with their correction, base frame [m].

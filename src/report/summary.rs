@@ -1,8 +1,8 @@
 //! The headline figures of a report, as one small object.
 
 use crate::cutting::material::Material;
-use crate::deviation::Deviation;
 use crate::deviation::contour::MeanMax;
+use crate::deviation::{Deviation, Largest};
 use crate::model::MODEL;
 use crate::path::{MovePace, Path, SourceProgram};
 use crate::report::expected::{ExpectedError, HowSure};
@@ -34,6 +34,22 @@ impl From<MeanMax> for Statistics {
     /// Statistics of contour errors, from m to mm.
     fn from(MeanMax { mean, max }: MeanMax) -> Self {
         Self { mean: mean / MM, max: max / MM }
+    }
+}
+
+/// The largest error of its kind, in mm, and where on the path.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct WorstPlace {
+    /// Largest.
+    pub max: f64,
+    /// Arc length of its place on the desired path [mm].
+    pub at_arc_length_mm: f64,
+}
+
+impl From<Largest> for WorstPlace {
+    /// From m to mm.
+    fn from(Largest { max, at }: Largest) -> Self {
+        Self { max: max / MM, at_arc_length_mm: at / MM }
     }
 }
 
@@ -79,10 +95,16 @@ pub struct Summary {
     pub budget: Budget,
     /// Contour error after compensation, every source acting [mm].
     pub after_mm: Statistics,
+    /// Largest distance from a point of the desired path to the nearest place that the tip passes
+    /// after compensation, every source acting [mm]: what of the path is never reached.
+    pub missed_mm: WorstPlace,
+    /// Largest error at the top of the cut after compensation, every source acting [mm]: that of the
+    /// tip and what the tilt of the tool adds over the axial depth.
+    pub wall_mm: WorstPlace,
     /// Angle between actual and desired tool axis before compensation, every source acting [deg].
     pub before_axis_deg: Statistics,
     /// Angle between actual and desired tool axis after compensation, every source acting [deg]; it
-    /// is corrected only along a path whose tool axis turns.
+    /// is corrected only along a path whose tool axis turns, or if the job compensates the axis.
     pub after_axis_deg: Statistics,
     /// Number of the pass whose path is commanded.
     pub passes: usize,
@@ -90,9 +112,10 @@ pub struct Summary {
     pub converged: bool,
     /// The tolerance [mm].
     pub tolerance_mm: f64,
-    /// Largest contour error before the first pass and after each [mm].
+    /// Largest contour error before the first pass and after each [mm]: of the tip, or what the job
+    /// compensates instead.
     pub history_max_mm: Vec<f64>,
-    /// Mean contour error before the first pass and after each [mm].
+    /// Mean of that error before the first pass and after each [mm].
     pub history_mean_mm: Vec<f64>,
     /// The verdict in words.
     pub verdict: String,
@@ -234,6 +257,8 @@ impl Report {
             },
             budget,
             after_mm: statistics(&self.after),
+            missed_mm: self.missed().into(),
+            wall_mm: self.wall().into(),
             before_axis_deg: Statistics::of_angles(&self.before.axis_error),
             after_axis_deg: Statistics::of_angles(&self.after.axis_error),
             passes: self.compensation.passes,

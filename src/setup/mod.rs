@@ -12,7 +12,7 @@ pub use robot::robot;
 
 use crate::cutting::{Bending, Cut, LinearForce, Loading};
 use crate::error::Error;
-use crate::job::{Choice, Frame, Job, Source, Sources, fields};
+use crate::job::{Choice, CompensateAt, Frame, Job, Source, Sources, fields};
 use crate::math::Pose;
 use crate::model::MODEL;
 use crate::motion::joints::StartBranch;
@@ -87,12 +87,14 @@ pub struct Setup {
     pub sources: Sources,
     /// How far the true values may be from these.
     pub spreads: Spreads,
+    /// What of the tool is brought onto its desired place.
+    pub compensate_at: CompensateAt,
 }
 
 /// Stopping criterion of the compensation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Goal {
-    /// Largest contour error to reach [m].
+    /// Largest error to reach [m]: the contour error of what is brought onto the path.
     pub tolerance: f64,
     /// Largest number of passes.
     pub max_passes: usize,
@@ -165,6 +167,7 @@ impl Setup {
             goal,
             sources,
             spreads,
+            compensate_at: job.compensation.at.unwrap_or_default(),
         })
     }
 

@@ -58,6 +58,7 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
         warnings: singular,
         alone: Default::default(),
         fingerprint: Default::default(),
+        missed: Default::default(),
     };
     report.warnings = warning::warnings(&report);
     report.warn(given::earlier_model(job));

@@ -2,7 +2,7 @@
 //! be otherwise.
 
 use crate::cutting::LinearForce;
-use crate::deviation::contour::contour_error;
+use crate::deviation::contour;
 use crate::job::Sources;
 use crate::motion::TimingLaw;
 use crate::plan::Plan;
@@ -144,14 +144,15 @@ impl Outcomes<'_> {
         let above = self.nodes.partition_point(|(factor, _)| *factor < draw.frequency);
         if above == 0 || above == self.nodes.len() {
             let place = node(above.min(self.nodes.len() - 1));
-            return contour_error(path, (place.arc_length, &place.target), &place.tip(self.plan, draw));
+            let tip = place.tip(self.plan, draw);
+            return contour::closest(path, (place.arc_length, &place.target), &tip).point - tip;
         }
         let (from, to) = (node(above - 1), node(above));
         let (low, high) = (self.nodes[above - 1].0, self.nodes[above].0);
         let part = (draw.frequency - low) / (high - low);
         let s = from.arc_length + (to.arc_length - from.arc_length) * part;
         let tip = from.tip(self.plan, draw).lerp(&to.tip(self.plan, draw), part);
-        contour_error(path, (s, &path.point(s)), &tip)
+        contour::closest(path, (s, &path.point(s)), &tip).point - tip
     }
 
     /// Largest contour error with a drawn plant [m], at some of the places.

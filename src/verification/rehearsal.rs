@@ -54,13 +54,14 @@ pub fn rehearse(report: &Report, thinning: Option<f64>, style: PostStyle) -> Res
     let goal = report.setup().goal;
     let passes = if report.compensation.passes > 0 { goal.max_passes } else { 0 };
     for _ in 0..passes {
-        let (Rehearsal { commanded_path, reached: least, .. }, outcome) = &best;
-        if *least <= goal.tolerance {
+        let (Rehearsal { commanded_path, .. }, outcome) = &best;
+        let least = outcome.deviation.judged.max;
+        if least <= goal.tolerance {
             break;
         }
         // A pass that bends the path too far to be reached or written is no improvement either.
         let Ok(next) = attempt(corrected(report, commanded_path, outcome)) else { break };
-        if next.0.reached >= least * IMPROVEMENT {
+        if next.1.deviation.judged.max >= least * IMPROVEMENT {
             break;
         }
         best = next;
@@ -77,8 +78,7 @@ fn corrected(report: &Report, commanded_path: &CommandedPath, outcome: &Replay) 
     };
     let known = (commanded_path.correction.as_slice(), &commanded_path.axis);
     let Replay { target, axis, deviation, .. } = outcome;
-    let path = &report.plan.path;
-    let (correction, axis) = compensation::corrected(path, (target, axis), deviation, known, undone);
+    let (correction, axis) = compensation::corrected((target, axis), deviation, known, undone);
     CommandedPath { correction, axis }
 }
 

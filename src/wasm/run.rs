@@ -44,12 +44,13 @@ export interface WallFigures {
   side: number; mean_force_n: number; instant_force_n: number; instant_force_max_n: number;
   by_mean_force_mm: number; by_mean_force_max_mm: number; at_instant_mm: number; at_instant_max_mm: number;
 }
+export interface WorstPlace { max: number; at_arc_length_mm: number }
 export interface Summary {
   fingerprint: string; model: number; samples: number; duration_s: number; path_length_mm: number;
   mean_force_n: [number, number, number];
   material: string; material_note: string; cut: CutFigures; walls: WallFigures[];
   before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics };
-  after_mm: Statistics; budget: Budget; before_axis_deg: Statistics; after_axis_deg: Statistics;
+  after_mm: Statistics; missed_mm: WorstPlace; wall_mm: WorstPlace; budget: Budget; before_axis_deg: Statistics; after_axis_deg: Statistics;
   program?: Understood; spin?: SpinGain;
   passes: number; converged: boolean; tolerance_mm: number;
   history_max_mm: number[]; history_mean_mm: number[]; verdict: string;

@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::export::arc::Step;
 use crate::export::command::{Command, CommandedMove};
 use crate::export::header::number;
+use crate::job::CompensateAt;
 use crate::report::Report;
 use crate::units::{INCH, MM, RPM};
 use nalgebra::Vector3;
@@ -25,8 +26,8 @@ pub(super) struct Gcode {
 impl Gcode {
     /// # Errors
     /// See [`MoveWords::new`].
-    pub(super) fn new(command: &Command) -> Result<Self, Error> {
-        Ok(Self { words: MoveWords::new(command)? })
+    pub(super) fn new(report: &Report, command: &Command) -> Result<Self, Error> {
+        Ok(Self { words: MoveWords::new(report, command)? })
     }
 }
 
@@ -89,8 +90,18 @@ impl MoveWords {
     /// The words before the first move.
     ///
     /// # Errors
-    /// [`Error::Invalid`] if the tool axis differs from +Z anywhere: three axes cannot express it.
-    pub(super) fn new(command: &Command) -> Result<Self, Error> {
+    /// [`Error::Invalid`] if the tool axis differs from +Z anywhere, which three axes cannot express:
+    /// of the field `compensation.at` if only the correction tilts it.
+    pub(super) fn new(report: &Report, command: &Command) -> Result<Self, Error> {
+        let tilts = report.setup().compensate_at == CompensateAt::Axis;
+        if tilts && command.is_tilted() && !command.is_desired_tilted() {
+            return Err(Error::invalid(
+                "compensation.at",
+                "\"axis\"",
+                "\"tip\" or \"middle\" for G-code, whose three axes cannot tilt the tool; \
+                 apt, path-csv, krl, rapid, val3 and fanuc give the tool axis",
+            ));
+        }
         if command.is_tilted() {
             return Err(Error::invalid(
                 "format",

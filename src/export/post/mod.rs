@@ -32,7 +32,7 @@ pub fn program(report: &Report, command: &Command, id: &str) -> Result<String, E
     Ok(match id {
         "gcode" => match rewritten::original(report, command) {
             Some(original) => rewritten::program(report, command, original)?,
-            None => write(report, command, &mut gcode::Gcode::new(command)?),
+            None => write(report, command, &mut gcode::Gcode::new(report, command)?),
         },
         "apt" => write(report, command, &mut apt::Apt::new(command)),
         "krl" => write(report, command, &mut krl::Krl),

@@ -32,7 +32,7 @@ pub(super) fn original<'r>(report: &'r Report, command: &Command) -> Option<&'r 
 /// # Errors
 /// See [`MoveWords::new`].
 pub(super) fn program(report: &Report, command: &Command, original: &SourceProgram) -> Result<String, Error> {
-    let mut writer = Writer { text: String::new(), words: MoveWords::new(command)? };
+    let mut writer = Writer { text: String::new(), words: MoveWords::new(report, command)? };
     let mut moves = command.moves.iter().peekable();
     let (mut opened, mut started) = (false, false);
     for (index, line) in original.text.trim_start_matches('\u{feff}').lines().enumerate() {
