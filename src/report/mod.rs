@@ -7,10 +7,13 @@ pub mod scene;
 mod budget;
 mod cut;
 mod drives;
+mod limit;
 mod onset;
+mod payload;
 mod reference;
 mod roll;
 mod severity;
+pub(crate) mod singularity;
 mod summary;
 
 pub use budget::{Budget, Parts};

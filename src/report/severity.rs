@@ -1,4 +1,4 @@
-//! How much a warning matters, by its code.
+//! How much a warning matters, as a rule by its code.
 
 use serde::Serialize;
 
@@ -16,8 +16,10 @@ pub enum Severity {
     Note,
 }
 
-/// Codes of warnings about what the arm cannot run.
-const CANNOT_RUN: [&str; 3] = ["joint-limit", "command-acceleration", "joint-speed"];
+/// Codes of warnings about what the arm cannot run. A singularity is among them only where the path
+/// comes so near that no controller passes it; see `report/singularity.rs`.
+const CANNOT_RUN: [&str; 5] =
+    ["joint-limit", "command-acceleration", "joint-speed", "joint-jump", "force-payload"];
 /// Codes of warnings that are only good to know.
 const NOTES: [&str; 16] = [
     "approach-left-out",

@@ -1,0 +1,81 @@
+//! Singularities: where the arm comes near one, and where a joint turns far within a sample.
+
+use crate::math;
+use crate::plan::Plan;
+use crate::report::warning::{angle_of_sine, range};
+use crate::report::{Severity, Warning};
+use crate::robot::Joints;
+use crate::robot::inverse::Margin;
+use crate::units::{DEG, MM};
+
+/// Distance of the wrist centre from the shoulder singularity below which a warning is given [m].
+pub(crate) const SHOULDER_MARGIN: f64 = 10.0 * MM;
+/// Angle from the elbow or wrist singularity below which a warning is given [rad].
+pub(crate) const ANGLE_MARGIN: f64 = 5.0 * DEG;
+/// Turn of a joint from one sample to the next above which a warning is given [rad].
+pub(crate) const JUMP: f64 = 5.0 * DEG;
+/// Distance of the wrist centre from the shoulder singularity below which no controller passes it
+/// [m].
+const SHOULDER_LEAST: f64 = MM;
+/// Angle from the elbow or wrist singularity below which no controller passes it [rad].
+const ANGLE_LEAST: f64 = 0.1 * DEG;
+
+/// Where the joint commands `q` pass singularities or jump.
+pub(crate) fn singularities(plan: &Plan, q: &[Joints], margins: &[Margin]) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let dt = plan.trajectory.sample_time;
+    let mut remark =
+        |code, margin: fn(&Margin) -> f64, (near, least): (f64, f64), message: fn(f64) -> String| {
+            if let Some(range) = range(margins.len(), |k| margin(&margins[k]) < near) {
+                let nearest = margins.iter().map(margin).fold(f64::INFINITY, f64::min);
+                let severity = if nearest < least { Severity::CannotRun } else { Severity::Matters };
+                let warning = Warning { severity, ..Warning::new(code, message(nearest)) };
+                warnings.push(warning.within(range, dt));
+            }
+        };
+    let angles = (math::sin(ANGLE_MARGIN), math::sin(ANGLE_LEAST));
+    remark(
+        "singularity-shoulder",
+        |margin| margin.shoulder,
+        (SHOULDER_MARGIN, SHOULDER_LEAST),
+        |least| {
+            format!(
+                "the wrist centre comes within {:.1} mm of axis 1, where joint 1 can turn without moving it (shoulder singularity)",
+                least / MM
+            )
+        },
+    );
+    remark(
+        "singularity-elbow",
+        |margin| margin.elbow,
+        angles,
+        |least| {
+            format!(
+                "the arm is stretched or folded to within {:.1} deg (elbow singularity)",
+                angle_of_sine(least) / DEG
+            )
+        },
+    );
+    remark(
+        "singularity-wrist",
+        |margin| margin.wrist,
+        angles,
+        |least| {
+            format!(
+                "axes 4 and 6 come within {:.1} deg of each other (wrist singularity): \
+                 small changes of the tool axis there turn joints 4 and 6 far",
+                angle_of_sine(least) / DEG
+            )
+        },
+    );
+    let jumps = |k: usize| k > 0 && (q[k] - q[k - 1]).amax() > JUMP;
+    if let Some(range) = range(q.len(), jumps) {
+        let message = format!(
+            "a joint turns more than {:.0} deg from one sample to the next: the arm passes a singularity, the tool axis \
+             passes close to the direction of spin.reference, or the samples are far apart",
+            JUMP / DEG
+        );
+        warnings.push(Warning::new("joint-jump", message).within(range, dt));
+    }
+    warnings
+}
