@@ -1,7 +1,7 @@
 //! Joint ranges: where the commands leave them or come near.
 
 use crate::compensation::Compensation;
-use crate::report::warning::range;
+use crate::report::span::spans;
 use crate::report::{Report, Warning};
 use crate::robot::Joints;
 use crate::units::DEG;
@@ -36,9 +36,8 @@ pub(super) fn warnings(report: &Report) -> Vec<Warning> {
             continue;
         };
         let message = format!("joint {} {what} (range {:.1} to {:.1} deg)", i + 1, low / DEG, high / DEG);
-        if let Some(range) = range(count, |k| worst(k) > threshold) {
-            warnings.push(Warning::new(code, message).within(range, dt));
-        }
+        let spans = spans(count, |k| worst(k) > threshold);
+        warnings.extend(Warning::new(code, message).within(&spans, dt));
     }
     warnings
 }

@@ -14,12 +14,14 @@ mod reference;
 mod roll;
 mod severity;
 pub(crate) mod singularity;
+mod span;
 mod summary;
 
 pub use budget::{Budget, Parts};
 pub use cut::{CutFigures, WallFigures};
 pub use roll::{RollGain, RollOutcome};
 pub use severity::Severity;
+pub use span::MOST_SPANS;
 pub use summary::{Statistics, Summary};
 pub use warning::Warning;
 

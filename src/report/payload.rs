@@ -1,6 +1,6 @@
 //! Whether the arm may carry the force of the cut.
 
-use crate::report::warning::range;
+use crate::report::span::spans;
 use crate::report::{Report, Warning};
 
 /// Standard acceleration of gravity [m/s²] (3rd CGPM, 1901).
@@ -17,8 +17,8 @@ pub(super) fn warning(report: &Report) -> Option<Warning> {
     let payload = report.setup().payload?;
     let rated = payload * GRAVITY;
     let force = |k: usize| report.force[k].norm();
-    let range = range(report.samples(), |k| force(k) > rated)?;
-    let worst = (range.0..=range.1).max_by(|&a, &b| force(a).total_cmp(&force(b)))?;
+    let spans = spans(report.samples(), |k| force(k) > rated);
+    let worst = (0..report.samples()).max_by(|&a, &b| force(a).total_cmp(&force(b)))?;
     let dt = report.plan.trajectory.sample_time;
     let message = format!(
         "the cut pushes with {:.0} N on average at {:.3} s, more than the {rated:.0} N that the arm is rated to carry \
@@ -26,5 +26,5 @@ pub(super) fn warning(report: &Report) -> Option<Warning> {
         force(worst),
         worst as f64 * dt
     );
-    Some(Warning::new("force-payload", message).within(range, dt))
+    Warning::new("force-payload", message).within(&spans, dt)
 }

@@ -2,7 +2,8 @@
 
 use crate::math;
 use crate::plan::Plan;
-use crate::report::warning::{angle_of_sine, range};
+use crate::report::span::spans;
+use crate::report::warning::angle_of_sine;
 use crate::report::{Severity, Warning};
 use crate::robot::Joints;
 use crate::robot::inverse::Margin;
@@ -26,12 +27,11 @@ pub(crate) fn singularities(plan: &Plan, q: &[Joints], margins: &[Margin]) -> Ve
     let dt = plan.trajectory.sample_time;
     let mut remark =
         |code, margin: fn(&Margin) -> f64, (near, least): (f64, f64), message: fn(f64) -> String| {
-            if let Some(range) = range(margins.len(), |k| margin(&margins[k]) < near) {
-                let nearest = margins.iter().map(margin).fold(f64::INFINITY, f64::min);
-                let severity = if nearest < least { Severity::CannotRun } else { Severity::Matters };
-                let warning = Warning { severity, ..Warning::new(code, message(nearest)) };
-                warnings.push(warning.within(range, dt));
-            }
+            let spans = spans(margins.len(), |k| margin(&margins[k]) < near);
+            let nearest = margins.iter().map(margin).fold(f64::INFINITY, f64::min);
+            let severity = if nearest < least { Severity::CannotRun } else { Severity::Matters };
+            let warning = Warning { severity, ..Warning::new(code, message(nearest)) };
+            warnings.extend(warning.within(&spans, dt));
         };
     let angles = (math::sin(ANGLE_MARGIN), math::sin(ANGLE_LEAST));
     remark(
@@ -69,13 +69,11 @@ pub(crate) fn singularities(plan: &Plan, q: &[Joints], margins: &[Margin]) -> Ve
         },
     );
     let jumps = |k: usize| k > 0 && (q[k] - q[k - 1]).amax() > JUMP;
-    if let Some(range) = range(q.len(), jumps) {
-        let message = format!(
-            "a joint turns more than {:.0} deg from one sample to the next: the arm passes a singularity, the tool axis \
-             passes close to the direction of spin.reference, or the samples are far apart",
-            JUMP / DEG
-        );
-        warnings.push(Warning::new("joint-jump", message).within(range, dt));
-    }
+    let message = format!(
+        "a joint turns more than {:.0} deg from one sample to the next: the arm passes a singularity, the tool axis \
+         passes close to the direction of spin.reference, or the samples are far apart",
+        JUMP / DEG
+    );
+    warnings.extend(Warning::new("joint-jump", message).within(&spans(q.len(), jumps), dt));
     warnings
 }

@@ -6,6 +6,7 @@ use crate::deviation::{Deviation, Sources};
 use crate::math;
 use crate::path::{Move, MovePace, Tool};
 use crate::plan::Plan;
+use crate::report::span::{MOST_SPANS, Span, joined, spans};
 use crate::report::{Report, Severity, drives, limit, millimetres, onset, payload, reference};
 use crate::robot::equilibrium::equilibrium;
 use crate::setup::Setup;
@@ -34,6 +35,13 @@ pub struct Warning {
     /// Time of the last sample [s].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to_s: Option<f64>,
+    /// The separate stretches of samples at which it holds, first and last of each; empty if it
+    /// concerns the whole job. At most [`MOST_SPANS`](super::MOST_SPANS), the nearest joined.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub spans_samples: Vec<(usize, usize)>,
+    /// Times of these stretches [s].
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub spans_s: Vec<(f64, f64)>,
 }
 
 impl Warning {
@@ -47,13 +55,24 @@ impl Warning {
             to_sample: None,
             from_s: None,
             to_s: None,
+            spans_samples: Vec::new(),
+            spans_s: Vec::new(),
         }
     }
 
-    pub(super) fn within(mut self, (from, to): (usize, usize), sample_time: f64) -> Self {
-        (self.from_sample, self.to_sample) = (Some(from), Some(to));
-        (self.from_s, self.to_s) = (Some(from as f64 * sample_time), Some(to as f64 * sample_time));
-        self
+    /// The remark with the stretches of samples that it applies to; `None` if there are none.
+    pub(super) fn within(mut self, spans: &[Span], sample_time: f64) -> Option<Self> {
+        let ((from, _), (_, to)) = (spans.first()?, spans.last()?);
+        (self.from_sample, self.to_sample) = (Some(*from), Some(*to));
+        let time = |sample: usize| sample as f64 * sample_time;
+        (self.from_s, self.to_s) = (Some(time(*from)), Some(time(*to)));
+        if spans.len() > MOST_SPANS {
+            let count = spans.len();
+            self.message += &format!("; {count} stretches, the nearest joined into {MOST_SPANS}");
+        }
+        self.spans_samples = joined(spans, MOST_SPANS);
+        self.spans_s = self.spans_samples.iter().map(|&(from, to)| (time(from), time(to))).collect();
+        Some(self)
     }
 }
 
@@ -62,13 +81,6 @@ const RAMP: f64 = 30.0 * DEG;
 
 /// Tools whose diameters differ by less than this count as the same [m]: CAM systems round inches.
 const SAME_TOOL: f64 = 0.01 * MM;
-
-/// First and last sample at which something holds.
-pub(super) fn range(count: usize, holds: impl Fn(usize) -> bool) -> Option<(usize, usize)> {
-    let first = (0..count).find(|&k| holds(k))?;
-    let last = (first..count).rev().find(|&k| holds(k))?;
-    Some((first, last))
-}
 
 /// What a report has to warn of, in no order; its own list so far holds that of
 /// [`singularities`](super::singularity::singularities).
@@ -222,13 +234,13 @@ fn plunge(plan: &Plan) -> Option<Warning> {
         along.abs()
     };
     let steep = math::sin(RAMP);
-    let range = range(trajectory.len(), |k| sine(k) > steep)?;
+    let spans = spans(trajectory.len(), |k| sine(k) > steep);
     let steepest = angle_of_sine((0..trajectory.len()).map(sine).fold(0.0, f64::max)) / DEG;
     let message = format!(
         "the tool climbs or dives at up to {steepest:.0} deg; the force model takes the cut across the tool \
          axis only and knows no plunging"
     );
-    Some(Warning::new("plunge", message).within(range, trajectory.sample_time))
+    Warning::new("plunge", message).within(&spans, trajectory.sample_time)
 }
 
 /// An arc that needs more acceleration across the path than the motion's limit along it.
@@ -243,7 +255,17 @@ fn centripetal(setup: &Setup, plan: &Plan) -> Option<Warning> {
         across(step) / MM,
         setup.limits.acceleration / MM
     );
-    (across(step) > setup.limits.acceleration).then(|| Warning::new("centripetal", message))
+    if across(step) <= setup.limits.acceleration {
+        return None;
+    }
+    let trajectory = &plan.trajectory;
+    let spans = spans(trajectory.len(), |k| {
+        let step = &plan.path.moves()[trajectory.timing.index[k] as usize];
+        step.pace != MovePace::Rapid && across(step) > setup.limits.acceleration
+    });
+    let warning = Warning::new("centripetal", message);
+    // An arc between two samples has none of its own.
+    warning.clone().within(&spans, trajectory.sample_time).or(Some(warning))
 }
 
 /// A shaper for a mode that vibrates faster than the samples can tell (above their Nyquist
@@ -283,13 +305,12 @@ fn corners(setup: &Setup, plan: &Plan, shaping_only: &Deviation, warnings: &mut 
         trajectory.stops.iter().any(|stop| (stop.s - trajectory.timing.arc_length[k]).abs() <= reach)
     };
     let errors: &[Vector3<f64>] = &shaping_only.contour_error;
-    if let Some(range) = range(errors.len(), at_corner) {
-        let worst = (0..errors.len()).filter(|&k| at_corner(k)).map(|k| errors[k].norm()).fold(0.0, f64::max);
-        let message = format!(
-            "the path does not wait in its {} corners until the shaped command has settled: shaping rounds them by up to {:.3} mm",
-            trajectory.stops.len(),
-            worst / MM
-        );
-        warnings.push(Warning::new("corners-rounded", message).within(range, trajectory.sample_time));
-    }
+    let spans = spans(errors.len(), at_corner);
+    let worst = (0..errors.len()).filter(|&k| at_corner(k)).map(|k| errors[k].norm()).fold(0.0, f64::max);
+    let message = format!(
+        "the path does not wait in its {} corners until the shaped command has settled: shaping rounds them by up to {:.3} mm",
+        trajectory.stops.len(),
+        worst / MM
+    );
+    warnings.extend(Warning::new("corners-rounded", message).within(&spans, trajectory.sample_time));
 }

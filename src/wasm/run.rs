@@ -17,6 +17,7 @@ export interface Statistics { mean: number; max: number; }
 export interface Warning {
   code: string; severity: "cannot-run" | "matters" | "note"; message: string;
   from_sample?: number; to_sample?: number; from_s?: number; to_s?: number;
+  spans_samples?: [number, number][]; spans_s?: [number, number][];
 }
 export interface Parts { joints: number[]; tool: number; shaping: number; total: number; }
 export interface Budget { sample: number; time_s: number; worst_mm: Parts; mean_mm: Parts; sentence: string; }
