@@ -23,12 +23,12 @@ const ORDER: [&str; 22] = [
     "deviation",
     "compensation",
     "report",
+    "placement",
     "simulation",
     "identify",
     "chart",
     "export",
     "verification",
-    "placement",
 ];
 
 fn files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {

@@ -7,7 +7,7 @@ use crate::robot::Joints;
 use crate::units::DEG;
 
 /// Margin to a joint limit below which a warning is given [rad].
-const LIMIT_MARGIN: f64 = 2.0 * DEG;
+pub(crate) const LIMIT_MARGIN: f64 = 2.0 * DEG;
 
 /// All warnings about the joint ranges.
 pub(super) fn warnings(report: &Report) -> Vec<Warning> {

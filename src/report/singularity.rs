@@ -21,6 +21,12 @@ const SHOULDER_LEAST: f64 = MM;
 /// Angle from the elbow or wrist singularity below which no controller passes it [rad].
 const ANGLE_LEAST: f64 = 0.1 * DEG;
 
+/// Whether a margin is one that a warning is given for.
+pub(crate) fn is_near(margin: &Margin) -> bool {
+    let angle = math::sin(ANGLE_MARGIN);
+    margin.shoulder < SHOULDER_MARGIN || margin.elbow < angle || margin.wrist < angle
+}
+
 /// Where the joint commands `q` pass singularities or jump.
 pub(crate) fn singularities(plan: &Plan, q: &[Joints], margins: &[Margin]) -> Vec<Warning> {
     let mut warnings = Vec::new();

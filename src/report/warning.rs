@@ -7,7 +7,7 @@ use crate::math;
 use crate::path::{Move, MovePace, Tool};
 use crate::plan::Plan;
 use crate::report::span::{MOST_SPANS, Span, joined, spans};
-use crate::report::{Report, Severity, drives, limit, millimetres, onset, payload, reference};
+use crate::report::{Remedy, Report, Severity, drives, limit, millimetres, onset, payload, reference};
 use crate::robot::equilibrium::equilibrium;
 use crate::setup::Setup;
 use crate::units::{DEG, HZ, KILOWATT, MM};
@@ -42,6 +42,9 @@ pub struct Warning {
     /// Times of these stretches [s].
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub spans_s: Vec<(f64, f64)>,
+    /// The change of the job that cures it, where one is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub remedy: Option<Remedy>,
 }
 
 impl Warning {
@@ -57,6 +60,7 @@ impl Warning {
             to_s: None,
             spans_samples: Vec::new(),
             spans_s: Vec::new(),
+            remedy: None,
         }
     }
 

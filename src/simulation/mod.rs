@@ -1,6 +1,7 @@
 //! The pipeline, end to end: from a job to its report.
 
 mod given;
+mod remedy;
 mod roll;
 
 pub use crate::progress::{Progress, Stage};
@@ -57,6 +58,7 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     };
     report.warnings = warning::warnings(&report);
     report.warn(given::earlier_model(job));
+    remedy::offer(job, &mut report);
     Ok(report)
 }
 
