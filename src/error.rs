@@ -232,13 +232,15 @@ impl fmt::Display for Error {
                 write!(
                     f,
                     "TCP at ({:.1}, {:.1}, {:.1}) mm in the base frame: the wrist would be {:.1} mm from the shoulder, \
-                     the arm reaches {:.1} to {:.1} mm",
+                     the arm reaches {:.1} to {:.1} mm; move the workpiece {} (workpiece_frame), turn the tool or take \
+                     another arm",
                     x * 1e3,
                     y * 1e3,
                     z * 1e3,
                     distance * 1e3,
                     reach_min * 1e3,
-                    reach_max * 1e3
+                    reach_max * 1e3,
+                    if *distance > (reach_min + reach_max) / 2.0 { "nearer" } else { "further away" }
                 )
             }
             Error::BranchEnds { sample, arc_length, line, position: [x, y, z], joint, turn } => {

@@ -51,12 +51,12 @@ pub mod deviation;
 pub mod compensation;
 pub mod uncertainty;
 pub mod report;
+pub mod placement;
 pub mod simulation;
 pub mod identify;
 pub mod chart;
 pub mod export;
 pub mod verification;
-pub mod placement;
 #[cfg(target_arch = "wasm32")]
 pub mod wasm;
 

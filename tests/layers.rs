@@ -25,12 +25,12 @@ const ORDER: [&str; 24] = [
     "compensation",
     "uncertainty",
     "report",
+    "placement",
     "simulation",
     "identify",
     "chart",
     "export",
     "verification",
-    "placement",
 ];
 
 fn files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {

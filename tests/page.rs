@@ -36,6 +36,8 @@ mod policy;
 mod programs;
 #[path = "page/pushing.rs"]
 mod pushing;
+#[path = "page/remedies.rs"]
+mod remedies;
 #[path = "page/robots.rs"]
 mod robots;
 #[path = "page/scene.rs"]

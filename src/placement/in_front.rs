@@ -26,7 +26,14 @@ const ROOM: f64 = 45.0 * DEG;
 /// # Errors
 /// Any error of the job's setup; [`Error::Invalid`] if the path fits none of the places.
 pub fn in_front(job: &Job) -> Result<[f64; 3], Error> {
-    let setup = Setup::of(job, &mut Progress::none())?;
+    in_front_of(&Setup::of(job, &mut Progress::none())?, job.workpiece_frame.xyz_mm)
+}
+
+/// The same for a setup whose workpiece frame is at `from` [mm].
+///
+/// # Errors
+/// [`Error::Invalid`] if the path fits none of the places.
+pub fn in_front_of(setup: &Setup, from: [f64; 3]) -> Result<[f64; 3], Error> {
     let (path, robot) = (&setup.path, &setup.robot);
     let along = |k: usize| path.length() * k as f64 / (POSES - 1) as f64;
     let pose = |s: f64| (path.point(s), path.orientation(s, &path.axis(s), path.roll(s)));
@@ -61,7 +68,7 @@ pub fn in_front(job: &Job) -> Result<[f64; 3], Error> {
         ));
     };
     let moved = setup.base.direction(&shift) / MM;
-    let [x, y, z] = job.workpiece_frame.xyz_mm;
+    let [x, y, z] = from;
     Ok([(x + moved.x).round(), (y + moved.y).round(), (z + moved.z).round()])
 }
 

@@ -12,7 +12,7 @@ use crate::math::Pose;
 use crate::motion::Trajectory;
 use crate::plan::Plan;
 use crate::progress::Progress;
-use crate::report::warning::{ANGLE_MARGIN, JUMP, SHOULDER_MARGIN};
+use crate::report::singularity::{ANGLE_MARGIN, JUMP, SHOULDER_MARGIN};
 use crate::robot::inverse::Margin;
 use crate::setup::Setup;
 use crate::units::MM;

@@ -4,5 +4,5 @@
 mod in_front;
 mod map;
 
-pub use in_front::in_front;
+pub use in_front::{in_front, in_front_of};
 pub use map::{Place, PlacementMap, PlacementStatus, STATIONS};

@@ -4,7 +4,7 @@
 //! not accelerate an arm like that: it trips, or goes elsewhere.
 
 use crate::motion::shaper::Shaped;
-use crate::report::warning::range;
+use crate::report::span::{Span, spans};
 use crate::report::{Report, Warning};
 use crate::robot::{Elbow, Joints, forward};
 use crate::units::{DEG, MM};
@@ -53,7 +53,8 @@ fn acceleration(report: &Report, command: &Shaped<Joints>) -> Option<Warning> {
     let size = |i: usize| (tips[i + reach] - tips[i] * 2.0 + tips[i - reach]).norm() / (span * span);
     let inner = reach..tips.len().saturating_sub(reach);
     let beyond = || inner.clone().filter(|&i| size(i) > limit);
-    let (first, last) = range(tips.len(), |i| inner.contains(&i) && size(i) > limit)?;
+    let all = spans(tips.len(), |i| inner.contains(&i) && size(i) > limit);
+    let all: Vec<Span> = all.into_iter().map(|(first, last)| (first * step, last * step)).collect();
     let worst = beyond().max_by(|&a, &b| size(a).total_cmp(&size(b)))?;
     let message = format!(
         "the command would accelerate the tool by {:.0} mm/s² at {:.3} s, more than {ALLOWED:.0} times the motion's {:.0} \
@@ -62,7 +63,7 @@ fn acceleration(report: &Report, command: &Shaped<Joints>) -> Option<Warning> {
         (worst * step) as f64 * dt,
         report.setup().limits.acceleration / MM
     );
-    Some(Warning::new("command-acceleration", message).within((first * step, last * step), dt))
+    Warning::new("command-acceleration", message).within(&all, dt)
 }
 
 /// A joint that would have to turn faster than it can; `largest` are the drives' speeds [rad/s].
@@ -74,14 +75,18 @@ fn joint_speed(report: &Report, command: &Shaped<Joints>, largest: &Joints) -> O
         if robot.elbow() == Elbow::Pendant { robot.to_serial(&q) } else { q }
     };
     let mut before = drives(0);
-    let (mut range, mut worst) = (None, (1.0, 0, 0));
+    let (mut all, mut worst) = (Vec::<Span>::new(), (1.0, 0, 0));
     for k in 1..report.samples() {
         let now = drives(k);
         let share = (now - before).abs().component_div(largest) / dt;
         before = now;
         let joint = share.imax();
         if share[joint] > 1.0 {
-            range = Some((range.map_or(k - 1, |(first, _)| first), k));
+            // From one sample to the next: both belong to it.
+            match all.last_mut() {
+                Some((_, last)) if *last + 1 == k => *last = k,
+                _ => all.push((k - 1, k)),
+            }
             if share[joint] > worst.0 {
                 worst = (share[joint], joint, k);
             }
@@ -95,5 +100,5 @@ fn joint_speed(report: &Report, command: &Shaped<Joints>, largest: &Joints) -> O
         k as f64 * dt,
         largest[joint] / DEG
     );
-    range.map(|range| Warning::new("joint-speed", message).within(range, dt))
+    Warning::new("joint-speed", message).within(&all, dt)
 }

@@ -1,7 +1,7 @@
 //! Where a cut sets in or fades faster than a shaped command can follow, and cuts that are shorter
 //! than their run-in.
 
-use crate::report::warning::range;
+use crate::report::span::spans;
 use crate::report::{Report, Warning, millimetres};
 use crate::units::MM;
 
@@ -77,8 +77,8 @@ fn remark(
     let size = |k: usize| report.after.contour_error[k].norm();
     let tolerance = report.setup().goal.tolerance;
     let beyond = |k: usize| size(k) > tolerance && at(k);
-    let range = range(report.samples(), beyond)?;
-    let worst = (range.0..=range.1).filter(|&k| beyond(k)).max_by(|&a, &b| size(a).total_cmp(&size(b)))?;
+    let spans = spans(report.samples(), beyond);
+    let worst = (0..report.samples()).filter(|&k| beyond(k)).max_by(|&a, &b| size(a).total_cmp(&size(b)))?;
     let message = text(millimetres(size(worst)), worst as f64 * dt);
-    Some(Warning::new(code, message).within(range, dt))
+    Warning::new(code, message).within(&spans, dt)
 }

@@ -1,4 +1,4 @@
-//! How much a warning matters, by its code.
+//! How much a warning matters, as a rule by its code.
 
 use serde::Serialize;
 
@@ -16,8 +16,9 @@ pub enum Severity {
     Note,
 }
 
-/// Codes of warnings about what the arm cannot run.
-const CANNOT_RUN: [&str; 3] = ["joint-limit", "command-acceleration", "joint-speed"];
+/// Codes of warnings about what the arm cannot run. A singularity and a jump of a joint are among
+/// them only where no controller passes them; see `report/singularity.rs`.
+const CANNOT_RUN: [&str; 4] = ["joint-limit", "command-acceleration", "joint-speed", "force-payload"];
 /// Codes of warnings that are only good to know.
 const NOTES: [&str; 16] = [
     "approach-left-out",

@@ -1,16 +1,14 @@
 //! Warnings: conditions that are odd but workable, each with the part of the motion it applies to.
 
-use crate::compensation::Compensation;
 use crate::cutting::ChipLoad;
 use crate::cutting::material::Model;
 use crate::deviation::{Deviation, Sources};
 use crate::math;
 use crate::path::{Move, MovePace, Tool};
 use crate::plan::Plan;
-use crate::report::{Report, Severity, drives, millimetres, onset, reference};
-use crate::robot::Joints;
+use crate::report::span::{MOST_SPANS, Span, joined, spans};
+use crate::report::{Remedy, Report, Severity, drives, limit, millimetres, onset, payload, reference};
 use crate::robot::equilibrium::equilibrium;
-use crate::robot::inverse::Margin;
 use crate::setup::Setup;
 use crate::units::{DEG, HZ, KILOWATT, MM};
 use nalgebra::Vector3;
@@ -37,6 +35,16 @@ pub struct Warning {
     /// Time of the last sample [s].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to_s: Option<f64>,
+    /// The separate stretches of samples at which it holds, first and last of each; empty if it
+    /// concerns the whole job. At most [`MOST_SPANS`](super::MOST_SPANS), the nearest joined.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub spans_samples: Vec<(usize, usize)>,
+    /// Times of these stretches [s].
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub spans_s: Vec<(f64, f64)>,
+    /// The change of the job that cures it, where one is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub remedy: Option<Remedy>,
 }
 
 impl Warning {
@@ -50,38 +58,36 @@ impl Warning {
             to_sample: None,
             from_s: None,
             to_s: None,
+            spans_samples: Vec::new(),
+            spans_s: Vec::new(),
+            remedy: None,
         }
     }
 
-    pub(super) fn within(mut self, (from, to): (usize, usize), sample_time: f64) -> Self {
-        (self.from_sample, self.to_sample) = (Some(from), Some(to));
-        (self.from_s, self.to_s) = (Some(from as f64 * sample_time), Some(to as f64 * sample_time));
-        self
+    /// The remark with the stretches of samples that it applies to; `None` if there are none.
+    pub(super) fn within(mut self, spans: &[Span], sample_time: f64) -> Option<Self> {
+        let ((from, _), (_, to)) = (spans.first()?, spans.last()?);
+        (self.from_sample, self.to_sample) = (Some(*from), Some(*to));
+        let time = |sample: usize| sample as f64 * sample_time;
+        (self.from_s, self.to_s) = (Some(time(*from)), Some(time(*to)));
+        if spans.len() > MOST_SPANS {
+            let count = spans.len();
+            self.message += &format!("; {count} stretches, the nearest joined into {MOST_SPANS}");
+        }
+        self.spans_samples = joined(spans, MOST_SPANS);
+        self.spans_s = self.spans_samples.iter().map(|&(from, to)| (time(from), time(to))).collect();
+        Some(self)
     }
 }
 
-/// Margin to a joint limit below which a warning is given [rad].
-const LIMIT_MARGIN: f64 = 2.0 * DEG;
-/// Distance of the wrist centre from the shoulder singularity below which a warning is given [m].
-pub(crate) const SHOULDER_MARGIN: f64 = 10.0 * MM;
-/// Angle from the elbow or wrist singularity below which a warning is given [rad].
-pub(crate) const ANGLE_MARGIN: f64 = 5.0 * DEG;
-/// Turn of a joint from one sample to the next above which a warning is given [rad].
-pub(crate) const JUMP: f64 = 5.0 * DEG;
 /// Angle between the feed and the plane across the tool axis above which a warning is given [rad].
 const RAMP: f64 = 30.0 * DEG;
 
 /// Tools whose diameters differ by less than this count as the same [m]: CAM systems round inches.
 const SAME_TOOL: f64 = 0.01 * MM;
 
-/// First and last sample at which something holds.
-pub(super) fn range(count: usize, holds: impl Fn(usize) -> bool) -> Option<(usize, usize)> {
-    let first = (0..count).find(|&k| holds(k))?;
-    let last = (first..count).rev().find(|&k| holds(k))?;
-    Some((first, last))
-}
-
-/// What a report has to warn of, in no order; its own list so far holds that of [`singularities`].
+/// What a report has to warn of, in no order; its own list so far holds that of
+/// [`singularities`](super::singularity::singularities).
 pub(crate) fn warnings(report: &Report) -> Vec<Warning> {
     let Report { plan, compensation, warnings: singular, .. } = report;
     let setup = report.setup();
@@ -100,9 +106,10 @@ pub(crate) fn warnings(report: &Report) -> Vec<Warning> {
     }
     warnings.extend(reference::remark(&plan.path));
     springs(report, &mut warnings);
-    limits(report, &mut warnings);
+    warnings.extend(limit::warnings(report));
     warnings.extend_from_slice(singular);
     cut(setup, plan, &mut warnings);
+    warnings.extend(payload::warning(report));
     warnings.extend(sampling(setup));
     corners(setup, plan, &report.shaping_only, &mut warnings);
     program(setup, &mut warnings);
@@ -165,97 +172,8 @@ fn program(setup: &Setup, warnings: &mut Vec<Warning>) {
     }
 }
 
-fn limits(report: &Report, warnings: &mut Vec<Warning>) {
-    let Report { plan, q: desired, compensation: Compensation { q: compensated, .. }, .. } = report;
-    let Some(limits) = plan.robot.limits() else {
-        warnings
-            .push(Warning::new("joint-limits-unknown", "no joint ranges were given: they are not checked"));
-        return;
-    };
-    let dt = plan.trajectory.sample_time;
-    for (i, (low, high)) in limits.iter().enumerate() {
-        // Excess over the range, by the desired or by the compensated command.
-        let beyond = |q: &Joints| (low - q[i]).max(q[i] - high);
-        let worst = |k: usize| beyond(&desired[k]).max(beyond(&compensated[k]));
-        let count = desired.len();
-        let extreme = (0..count).map(worst).fold(f64::NEG_INFINITY, f64::max);
-        let (code, threshold, what) = if extreme > 0.0 {
-            ("joint-limit", 0.0, format!("leaves its range by up to {:.1} deg", extreme / DEG))
-        } else if extreme > -LIMIT_MARGIN {
-            (
-                "joint-limit-near",
-                -LIMIT_MARGIN,
-                format!("comes within {:.1} deg of its limit", -extreme / DEG),
-            )
-        } else {
-            continue;
-        };
-        let message = format!("joint {} {what} (range {:.1} to {:.1} deg)", i + 1, low / DEG, high / DEG);
-        if let Some(range) = range(count, |k| worst(k) > threshold) {
-            warnings.push(Warning::new(code, message).within(range, dt));
-        }
-    }
-}
-
-/// Where the joint commands `q` pass singularities or jump.
-pub(crate) fn singularities(plan: &Plan, q: &[Joints], margins: &[Margin]) -> Vec<Warning> {
-    let mut warnings = Vec::new();
-    let dt = plan.trajectory.sample_time;
-    let mut remark = |code, margin: fn(&Margin) -> f64, threshold: f64, message: fn(f64) -> String| {
-        if let Some(range) = range(margins.len(), |k| margin(&margins[k]) < threshold) {
-            let least = margins.iter().map(margin).fold(f64::INFINITY, f64::min);
-            warnings.push(Warning::new(code, message(least)).within(range, dt));
-        }
-    };
-    let near = math::sin(ANGLE_MARGIN);
-    remark(
-        "singularity-shoulder",
-        |margin| margin.shoulder,
-        SHOULDER_MARGIN,
-        |least| {
-            format!(
-                "the wrist centre comes within {:.1} mm of axis 1, where joint 1 can turn without moving it (shoulder singularity)",
-                least / MM
-            )
-        },
-    );
-    remark(
-        "singularity-elbow",
-        |margin| margin.elbow,
-        near,
-        |least| {
-            format!(
-                "the arm is stretched or folded to within {:.1} deg (elbow singularity)",
-                angle_of_sine(least) / DEG
-            )
-        },
-    );
-    remark(
-        "singularity-wrist",
-        |margin| margin.wrist,
-        near,
-        |least| {
-            format!(
-                "axes 4 and 6 come within {:.1} deg of each other (wrist singularity): \
-                 small changes of the tool axis there turn joints 4 and 6 far",
-                angle_of_sine(least) / DEG
-            )
-        },
-    );
-    let jumps = |k: usize| k > 0 && (q[k] - q[k - 1]).amax() > JUMP;
-    if let Some(range) = range(q.len(), jumps) {
-        let message = format!(
-            "a joint turns more than {:.0} deg from one sample to the next: the arm passes a singularity, the tool axis \
-             passes close to the direction of spin.reference, or the samples are far apart",
-            JUMP / DEG
-        );
-        warnings.push(Warning::new("joint-jump", message).within(range, dt));
-    }
-    warnings
-}
-
 /// The angle in [0, pi/2] with this sine [rad].
-fn angle_of_sine(sine: f64) -> f64 {
+pub(super) fn angle_of_sine(sine: f64) -> f64 {
     math::atan2(sine, (1.0 - sine * sine).max(0.0).sqrt())
 }
 
@@ -320,13 +238,13 @@ fn plunge(plan: &Plan) -> Option<Warning> {
         along.abs()
     };
     let steep = math::sin(RAMP);
-    let range = range(trajectory.len(), |k| sine(k) > steep)?;
+    let spans = spans(trajectory.len(), |k| sine(k) > steep);
     let steepest = angle_of_sine((0..trajectory.len()).map(sine).fold(0.0, f64::max)) / DEG;
     let message = format!(
         "the tool climbs or dives at up to {steepest:.0} deg; the force model takes the cut across the tool \
          axis only and knows no plunging"
     );
-    Some(Warning::new("plunge", message).within(range, trajectory.sample_time))
+    Warning::new("plunge", message).within(&spans, trajectory.sample_time)
 }
 
 /// An arc that needs more acceleration across the path than the motion's limit along it.
@@ -341,7 +259,17 @@ fn centripetal(setup: &Setup, plan: &Plan) -> Option<Warning> {
         across(step) / MM,
         setup.limits.acceleration / MM
     );
-    (across(step) > setup.limits.acceleration).then(|| Warning::new("centripetal", message))
+    if across(step) <= setup.limits.acceleration {
+        return None;
+    }
+    let trajectory = &plan.trajectory;
+    let spans = spans(trajectory.len(), |k| {
+        let step = &plan.path.moves()[trajectory.timing.index[k] as usize];
+        step.pace != MovePace::Rapid && across(step) > setup.limits.acceleration
+    });
+    let warning = Warning::new("centripetal", message);
+    // An arc between two samples has none of its own.
+    warning.clone().within(&spans, trajectory.sample_time).or(Some(warning))
 }
 
 /// A shaper for a mode that vibrates faster than the samples can tell (above their Nyquist
@@ -381,13 +309,12 @@ fn corners(setup: &Setup, plan: &Plan, shaping_only: &Deviation, warnings: &mut 
         trajectory.stops.iter().any(|stop| (stop.s - trajectory.timing.arc_length[k]).abs() <= reach)
     };
     let errors: &[Vector3<f64>] = &shaping_only.contour_error;
-    if let Some(range) = range(errors.len(), at_corner) {
-        let worst = (0..errors.len()).filter(|&k| at_corner(k)).map(|k| errors[k].norm()).fold(0.0, f64::max);
-        let message = format!(
-            "the path does not wait in its {} corners until the shaped command has settled: shaping rounds them by up to {:.3} mm",
-            trajectory.stops.len(),
-            worst / MM
-        );
-        warnings.push(Warning::new("corners-rounded", message).within(range, trajectory.sample_time));
-    }
+    let spans = spans(errors.len(), at_corner);
+    let worst = (0..errors.len()).filter(|&k| at_corner(k)).map(|k| errors[k].norm()).fold(0.0, f64::max);
+    let message = format!(
+        "the path does not wait in its {} corners until the shaped command has settled: shaping rounds them by up to {:.3} mm",
+        trajectory.stops.len(),
+        worst / MM
+    );
+    warnings.extend(Warning::new("corners-rounded", message).within(&spans, trajectory.sample_time));
 }

@@ -26,6 +26,8 @@ pub struct Preset {
     pub maker: &'static str,
     /// The manufacturer's name for it.
     pub model: &'static str,
+    /// Mass at the flange that the maker rates it for [kg].
+    pub payload_kg: f64,
     /// Lengths, joint signs and zero offsets.
     pub opw: Opw,
     /// Where joint 3 is measured from.
@@ -215,6 +217,7 @@ fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
         id,
         maker,
         model,
+        payload_kg: payload,
         opw: Opw { lengths_mm, joint_sign, joint_offset_deg },
         elbow,
         world_mm: (!world.is_empty()).then(|| number(world)),

@@ -42,6 +42,8 @@ pub struct Setup {
     pub world: World,
     /// Largest speeds of the joints' drives [rad/s], if known.
     pub joint_speeds: Option<Joints>,
+    /// Mass that the arm is rated to carry [kg], if known.
+    pub payload: Option<f64>,
     /// The desired path in the base frame.
     pub path: Path,
     /// The robot's base in the cell, whose z axis points up.
@@ -113,7 +115,7 @@ impl Setup {
             return Err(Error::invalid("model", model, format!("1 to {MODEL}, the model of this Armill")));
         }
         fields::check_ranges(job)?;
-        let robot::BareArm { robot, world, joint_speeds, stiffness_note, stiffness_assumed, spread } =
+        let robot::BareArm { robot, world, joint_speeds, payload, stiffness_note, stiffness_assumed, spread } =
             robot::arm(&job.robot)?;
         let robot = robot.with_tool(frame(&job.tool_frame));
         let base = frame(&job.base_frame);
@@ -141,6 +143,7 @@ impl Setup {
             robot,
             world,
             joint_speeds,
+            payload,
             stiffness_note,
             stiffness_assumed,
             path,

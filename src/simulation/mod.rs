@@ -1,6 +1,7 @@
 //! The pipeline, end to end: from a job to its report.
 
 mod given;
+mod remedy;
 mod roll;
 
 pub use crate::progress::{Progress, Stage};
@@ -10,7 +11,7 @@ use crate::deviation::{Deviation, ErrorsBySource, Reference, Source, Sources, si
 use crate::error::Error;
 use crate::job::Job;
 use crate::plan::Plan;
-use crate::report::{Report, warning};
+use crate::report::{Report, singularity, warning};
 use crate::robot::Joints;
 use crate::setup::{Goal, Setup};
 use crate::uncertainty::band;
@@ -29,7 +30,7 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     plan.path = roll::chosen(&plan, &mut steps.part(progress, "spin about the tool axis", 0.0, 0.0));
     let joints = plan.joints(&mut steps.part(progress, "joint commands", 0.0, 1.0))?;
     plan.robot = plan.robot.touched_off_at(&joints.q[0]);
-    let singular = warning::singularities(&plan, &joints.q, &joints.margin);
+    let singular = singularity::singularities(&plan, &joints.q, &joints.margin);
     let (q, branch) = (joints.q, joints.start);
     // Memory is scarce for a long run in a browser, so drop what is no longer needed.
     drop(joints.margin);
@@ -62,6 +63,7 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     };
     report.warnings = warning::warnings(&report);
     report.warn(given::earlier_model(job));
+    remedy::offer(job, &mut report);
     Ok(report)
 }
 

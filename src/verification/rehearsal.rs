@@ -5,9 +5,12 @@
 //! reaches each place a little earlier or later, and a shaper or a force that follows the feed
 //! turns that into an error. Each pass simulates the program as it would be written and adds the
 //! missing correction, as [`compensate`](crate::compensation::compensate) does, at the instants of
-//! the report's run that its samples correspond to.
+//! the report's run that its samples correspond to. Only the sources that the job compensates act
+//! in it, so that a file corrects these and no other; the figure stated is that of the file with
+//! every source acting.
 
 use crate::compensation;
+use crate::deviation::Sources;
 use crate::error::Error;
 use crate::export::command::Command;
 use crate::export::commanded_path::CommandedPath;
@@ -32,48 +35,57 @@ pub struct Rehearsal {
     pub commanded_path: CommandedPath,
     /// The moves as written.
     pub command: Command,
-    /// Largest contour error when they run with their own timing [m].
+    /// Largest contour error when they run with their own timing, every source acting [m].
     pub reached: f64,
 }
 
+/// An attempt at a program: its path, its moves, and its outcome under the sources to compensate.
+type Attempt = (CommandedPath, Command, Replay);
+
 /// Rehearses a report's path as a program. The report's own commanded path is kept if it meets the
-/// job's tolerance as a program, or if nothing was compensated. Otherwise the result is the best of
-/// as many passes as the job allows.
+/// job's tolerance as a program, under the sources to compensate, or if nothing was compensated.
+/// Otherwise the result is the best of as many passes as the job allows.
 ///
 /// # Errors
-/// See [`Command::new`] and [`replay::run`].
+/// See [`Command::new`] and [`replay::run_under`].
 pub fn rehearse(report: &Report, thinning: Option<f64>, style: PostStyle) -> Result<Rehearsal, Error> {
+    let sought = report.plan.sought();
     let attempt = |commanded_path: CommandedPath| {
-        let mut command = Command::new(report, &commanded_path, thinning, style)?;
-        let outcome = replay::run(report, &commanded_path, &command.program())?;
-        let reached = outcome.largest();
-        command.reached = Some(reached);
-        Ok::<_, Error>((Rehearsal { commanded_path, command, reached }, outcome))
+        let command = Command::new(report, &commanded_path, thinning, style)?;
+        let outcome = replay::run_under(report, &commanded_path, &command.program(), sought)?;
+        Ok::<Attempt, Error>((commanded_path, command, outcome))
     };
     let mut best = attempt(CommandedPath::of(report))?;
     let goal = report.setup().goal;
     let passes = if report.compensation.passes > 0 { goal.max_passes } else { 0 };
     for _ in 0..passes {
-        let (Rehearsal { commanded_path, .. }, outcome) = &best;
-        let least = outcome.deviation.judged.max;
+        let (commanded_path, _, outcome) = &best;
+        let least = outcome.judged();
         if least <= goal.tolerance {
             break;
         }
         // A pass that bends the path too far to be reached or written is no improvement either.
         let Ok(next) = attempt(corrected(report, commanded_path, outcome)) else { break };
-        if next.1.deviation.judged.max >= least * IMPROVEMENT {
+        if next.2.judged() >= least * IMPROVEMENT {
             break;
         }
         best = next;
     }
-    Ok(best.0)
+    let (commanded_path, mut command, outcome) = best;
+    let reached = match sought {
+        Sources::ALL => outcome.largest(),
+        _ => replay::run(report, &commanded_path, &command.program())?.largest(),
+    };
+    command.reached = Some(reached);
+    Ok(Rehearsal { commanded_path, command, reached })
 }
 
 /// The commanded path with the correction that was missing when its program ran.
 fn corrected(report: &Report, commanded_path: &CommandedPath, outcome: &Replay) -> CommandedPath {
     let Trajectory { sample_time, moving, .. } = *outcome.trajectory;
     let undone = |missing: Vec<Vector3<f64>>| {
-        let change = report.plan.shaper().undo(&missing, sample_time, moving);
+        let shaping = report.plan.sought().shaping;
+        let change = if shaping { report.plan.shaper().undo(&missing, sample_time, moving) } else { missing };
         resampled(&smoothed(change, SMOOTHING / sample_time), &outcome.instants, report)
     };
     let known = (commanded_path.correction.as_slice(), &commanded_path.axis);

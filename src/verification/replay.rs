@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::export::commanded_path::CommandedPath;
 use crate::export::{Export, ExportOptions};
 use crate::motion::joints::{Targets, joint_trajectory_from};
-use crate::motion::{TimingLaw, Trajectory, trajectory};
+use crate::motion::{Shaper, TimingLaw, Trajectory, trajectory};
 use crate::path::unit::{FeedUnit, LengthUnit};
 use crate::path::{self, Axes, Path, Program, Segment};
 use crate::plan::Plan;
@@ -31,7 +31,7 @@ pub struct Replay {
     pub target: Vec<Vector3<f64>>,
     /// Tool axes of the desired path at these points.
     pub axis: Axes,
-    /// Deviation of its commands from the original desired path, every source acting.
+    /// Deviation of its commands from the original desired path, under the sources that act.
     pub deviation: Deviation,
     /// For each sample, the corresponding instant of the report's run, in samples; never
     /// decreasing.
@@ -42,6 +42,11 @@ impl Replay {
     /// Largest contour error [m].
     pub fn largest(&self) -> f64 {
         self.deviation.statistics.max
+    }
+
+    /// Largest error by which the compensation judges [m].
+    pub fn judged(&self) -> f64 {
+        self.deviation.judged.max
     }
 
     /// Mean and largest contour error [mm].
@@ -84,12 +89,25 @@ fn read(id: &str, text: &str) -> Result<Program, Error> {
     }
 }
 
-/// Simulates a program that sends the tool along `commanded_path`.
+/// Simulates a program that sends the tool along `commanded_path`, every source acting.
+///
+/// # Errors
+/// See [`run_under`].
+pub fn run(report: &Report, commanded_path: &CommandedPath, program: &Program) -> Result<Replay, Error> {
+    run_under(report, commanded_path, program, Sources::ALL)
+}
+
+/// As [`run`], under the sources that act.
 ///
 /// # Errors
 /// [`Error::Missing`] for a program without a move; [`Error::Unreachable`] where it is out of
 /// reach.
-pub fn run(report: &Report, commanded_path: &CommandedPath, program: &Program) -> Result<Replay, Error> {
+pub fn run_under(
+    report: &Report,
+    commanded_path: &CommandedPath,
+    program: &Program,
+    acting: Sources,
+) -> Result<Replay, Error> {
     let empty = || Error::missing("program", "a move");
     let commanded = Path::of_program(program).ok_or_else(empty)?.placed(&report.setup().workpiece);
     // A program of points does not define the roll: the report's own is used, at the same fraction
@@ -102,19 +120,27 @@ pub fn run(report: &Report, commanded_path: &CommandedPath, program: &Program) -
     let instants = instants(&commanded_path.positions(report), &own).ok_or_else(empty)?;
     let (trajectory, share) = standing_for(report, &own, &instants);
     let plan = Plan { trajectory: trajectory.into(), ..report.plan.clone() };
-    let timing = plan.timing(Sources::ALL).into_owned();
-    let share = plan.shaper().apply(&share, own.sample_time);
-    let mut force = along::forces(&plan.path, &timing, &plan.setup.mean_force, &plan.setup.loading);
+    let timing = plan.timing(acting).into_owned();
+    let force = if acting.deflection { force(&plan, &timing, &share, acting) } else { Vec::new() };
+    let reference = Reference::under(&plan.path, timing, acting, force);
+    let deviation = simulate(&plan, &reference, &q, &mut Progress::none());
+    let Reference { target, axis, .. } = reference;
+    let target = target.into_owned();
+    Ok(Replay { target, axis, deviation, instants, trajectory: plan.trajectory })
+}
+
+/// Force on the tool [N] along a timing law, of which `share` acts across the tool axis.
+fn force(plan: &Plan, timing: &TimingLaw, share: &[f64], acting: Sources) -> Vec<Vector3<f64>> {
+    let none = Shaper::none();
+    let shaper = if acting.shaping { plan.shaper() } else { &none };
+    let share = shaper.apply(share, plan.trajectory.sample_time);
+    let mut force = along::forces(&plan.path, timing, &plan.setup.mean_force, &plan.setup.loading);
     for (k, (force, share)) in force.iter_mut().zip(share).enumerate() {
         let axis = timing.axis(&plan.path, k);
         let along = axis * axis.dot(force);
         *force = along + (*force - along) * share;
     }
-    let reference = Reference::under(&plan.path, timing, Sources::ALL, force);
-    let deviation = simulate(&plan, &reference, &q, &mut Progress::none());
-    let Reference { target, axis, .. } = reference;
-    let target = target.into_owned();
-    Ok(Replay { target, axis, deviation, instants, trajectory: plan.trajectory })
+    force
 }
 
 /// For each sample of the program's own motion, the corresponding instant of the report's run, in

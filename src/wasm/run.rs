@@ -14,9 +14,13 @@ use wasm_bindgen::prelude::wasm_bindgen;
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &'static str = r#"
 export interface Statistics { mean: number; max: number; }
+/** `patch` is a JSON merge patch (RFC 7386) of the job. */
+export interface Remedy { label: string; patch: { [key: string]: unknown }; }
 export interface Warning {
   code: string; severity: "cannot-run" | "matters" | "note"; message: string;
   from_sample?: number; to_sample?: number; from_s?: number; to_s?: number;
+  spans_samples?: [number, number][]; spans_s?: [number, number][];
+  remedy?: Remedy;
 }
 export interface Parts { joints: number[]; tool: number; shaping: number; total: number; }
 export interface Budget { sample: number; time_s: number; worst_mm: Parts; mean_mm: Parts; sentence: string; }

@@ -20,6 +20,18 @@ const decides = (field) => /\.(kind|preset)$/.test(field.path);
 /** A job's plain object as the text that is computed and saved. */
 export const textOf = (data) => JSON.stringify(data, null, 2);
 
+/** Plain data changed by a JSON merge patch (RFC 7386): null removes a key. */
+export function merged(data, patch) {
+  if (typeof patch !== "object" || patch === null || Array.isArray(patch)) return patch;
+  const own = typeof data === "object" && data !== null && !Array.isArray(data) ? data : {};
+  const all = { ...own };
+  for (const [key, change] of Object.entries(patch)) {
+    if (change === null) delete all[key];
+    else all[key] = merged(own[key], change);
+  }
+  return all;
+}
+
 export class Job {
   #fields;
   #presets;

@@ -9,7 +9,7 @@ import { judgeAsProgram } from "./as-program.js";
 import { byId, debounced, make, sentence } from "./dom.js";
 import { download } from "./download.js";
 import { Form } from "./form.js";
-import { Job } from "./job.js";
+import { Job, merged } from "./job.js";
 import { makeIdentify } from "./identify/panel.js";
 import { makePlacement } from "./placement/panel.js";
 import { formatLength, formatNumber } from "./number.js";
@@ -215,7 +215,7 @@ async function placeInFront() {
 /** Figures and tables of the shown result, in the units of the settings. */
 function showFigures() {
   if (!shown) return;
-  showSummary(shown.summary);
+  showSummary(shown.summary, (patch) => session.load(merged(JSON.parse(job.json), patch)));
   showProgram(shown.summary.program, shown.summary.duration_s);
   showCompared(shown);
 }

@@ -2,7 +2,7 @@
 
 import { showBudget } from "./budget.js";
 import { showCut } from "./cut.js";
-import { byId, make, sentence } from "./dom.js";
+import { byId, make } from "./dom.js";
 import { formatNumber, plainNumber } from "./number.js";
 import { errorText, forceText, forceUnit, lengthText, lengthUnit } from "./units.js";
 
@@ -19,7 +19,8 @@ export function showUnits() {
     unit.textContent = unit.dataset.unit === "force" ? forceUnit() : lengthUnit();
 }
 
-export function showSummary(summary) {
+/** Writes a summary; `apply(patch)` changes the job by the merge patch of a warning's remedy. */
+export function showSummary(summary, apply) {
   const { before_mm: before, after_mm: after } = summary;
   showUnits();
   byId("verdict").textContent = summary.verdict;
@@ -44,7 +45,7 @@ export function showSummary(summary) {
   byId("spin-gain").hidden = !summary.spin;
   byId("spin-gain").lastElementChild.textContent = summary.spin?.sentence ?? "";
   byId("fingerprint").textContent = summary.fingerprint;
-  showWarnings(summary.warnings);
+  showWarnings(summary.warnings, apply);
 }
 
 /** The tolerance as it was typed; in another unit, to three digits. */
@@ -70,32 +71,49 @@ function showErrors(before, after) {
   }
 }
 
-function showWarnings(warnings) {
+function showWarnings(warnings, apply) {
   const count = warnings.length;
   const box = byId("warnings");
   byId("warnings-count").textContent = count === 0 ? "No warnings" : `${count} ${count === 1 ? "warning" : "warnings"}`;
   byId("warnings-first").textContent = count === 0 ? "" : `: ${impossible(warnings[0])}${warnings[0].message}`;
   box.classList.toggle("none", count === 0);
   if (count === 0) box.open = false;
-  byId("warnings-list").replaceChildren(...warnings.map(warningItem));
+  byId("warnings-list").replaceChildren(...warnings.map((warning) => warningItem(warning, apply)));
 }
 
 /** What the arm cannot run is said before what it would achieve. */
 const impossible = ({ severity }) => (severity === "cannot-run" ? "cannot run: " : "");
 
-function warningItem({ code, severity, message, from_s, to_s }) {
-  const when =
-    from_s == null
-      ? ""
-      : from_s === to_s
-        ? `at ${formatNumber(from_s)} s`
-        : `${formatNumber(from_s)} to ${formatNumber(to_s)} s`;
-  const mark = impossible({ severity }) && make("strong", {}, "Cannot run: ");
-  const text = mark ? message : sentence(message);
-  const item = make("li", {}, mark, text, when && ": ", make("span", { className: "unit" }, when));
+const SEVERITY = { "cannot-run": "Cannot run", matters: "Matters", note: "Note" };
+
+function warningItem({ code, severity, message, spans_s, remedy }, apply) {
+  const when = spans_s ? stretches(spans_s) : "";
+  const mark = make("strong", {}, `${SEVERITY[severity]}: `);
+  const item = make("li", {}, mark, message, when && ": ", make("span", { className: "unit" }, when));
   item.dataset.code = code;
   item.dataset.severity = severity;
+  if (remedy) item.append(" ", remedyButton(remedy, apply));
   return item;
+}
+
+const MOST_STRETCHES = 3; // in words; of more, the first and the last instant
+
+/** When a warning applies, from its stretches of time [s]. */
+function stretches(spans) {
+  const one = ([from, to]) =>
+    from === to ? `at ${formatNumber(from)} s` : `${formatNumber(from)} to ${formatNumber(to)} s`;
+  if (spans.length <= MOST_STRETCHES) return spans.map(one).join(", ");
+  return `${one([spans[0][0], spans.at(-1)[1]])}, in ${spans.length} stretches`;
+}
+
+/** What cures a warning. The list is written anew after it, so the focus goes to its heading. */
+function remedyButton({ label, patch }, apply) {
+  const button = make("button", { type: "button", className: "remedy" }, label);
+  button.addEventListener("click", () => {
+    byId("warnings").querySelector("summary").focus();
+    apply(patch);
+  });
+  return button;
 }
 
 /** The table "Thesis, recomputed". */
