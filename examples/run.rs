@@ -37,7 +37,7 @@ fn main() -> ExitCode {
         return usage(&format!("{file}: {error}"));
     }
     let mut summary = serde_json::json!(report.summary());
-    summary["as_program"] = match Programs::default().accuracy(&report, "gcode") {
+    summary["as_program"] = match Programs::default().usual_accuracy(&report) {
         Ok(promise) => serde_json::json!(promise),
         Err(error) => serde_json::json!({ "error": error.to_string() }),
     };

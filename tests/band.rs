@@ -8,8 +8,8 @@ use armill::plan::Plan;
 use armill::report::Report;
 use armill::setup::Setup;
 use armill::spread::{InputSpread, Stiffness};
-use armill::uncertainty::Draw;
 use armill::uncertainty::draw::deviates;
+use armill::uncertainty::{BreakEven, Draw};
 use armill::{Progress, run, run_json};
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -151,7 +151,8 @@ fn shares_add_up_and_the_measurement_narrows() {
     let after = default_with(json!({"stiffness_percent": 20, "cutting_percent": 10}));
     assert!((after.band.after.p95 / measure.p95 - 1.0).abs() < 0.01);
     // Half the deflection: corrected by as much as it errs uncorrected.
-    assert!((report.band.break_even.deflection.unwrap() - 0.5).abs() < 0.03);
+    let BreakEven::Above(share) = report.band.break_even else { panic!("{:?}", report.band.break_even) };
+    assert!((share - 0.5).abs() < 0.03);
 }
 
 /// A range wide enough to turn the force round is no range of a force: the widest allowed keeps its

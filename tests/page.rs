@@ -88,13 +88,16 @@ async fn unfold(page: &Page, name: &str) -> Result {
 async fn shows(page: &Page, report: &Report) -> Result {
     current(page).await?;
     let summary = report.summary();
-    let pairs: [(&str, Statistics); 5] = [
+    let pairs: [(&str, Statistics); 4] = [
         ("before", summary.before_mm.both),
-        ("after", summary.after_mm),
         ("deflection", summary.before_mm.deflection),
         ("shaping", summary.before_mm.shaping),
         ("compensated", summary.after_mm),
     ];
+    for (id, value) in [("expected-p50", summary.expected_mm.p50), ("expected-p95", summary.expected_mm.p95)]
+    {
+        assert_eq!(number(page, id).await?.to_bits(), value.to_bits(), "#{id}");
+    }
     for (id, statistics) in pairs {
         assert_eq!(
             number(page, &format!("{id}-mean")).await?.to_bits(),

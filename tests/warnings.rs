@@ -96,7 +96,10 @@ fn a_joint_may_turn_far_between_samples_that_are_far_apart() {
         run(&[
             ("robot", json!({"preset":"kuka-kr-210-2"})),
             ("workpiece_frame", json!({"xyz_mm":[0,0,900]})),
-            ("path", json!({"kind":"arc","center_mm":[0,0,0],"radius_mm":1500,"start_deg":-60,"sweep_deg":120})),
+            (
+                "path",
+                json!({"kind":"arc","center_mm":[0,0,0],"radius_mm":1500,"start_deg":-60,"sweep_deg":120}),
+            ),
             ("motion", json!({"feed_mm_s":750,"acceleration_mm_s2":2000,"sample_time_s":sample_time_s})),
             ("cutting.axial_depth_mm", json!(0)),
             ("shaper", json!("none")),

@@ -50,7 +50,7 @@ fn the_default_job_and_its_summary() {
     assert_eq!(get(&summary, "converged"), JsValue::FALSE);
     assert_eq!(number(&summary, "mean_force_n.length"), 3.0);
     assert_eq!(number(&summary, "model"), f64::from(wasm::model()));
-    assert!(text(&summary, "verdict").starts_with("Max contour error 1.25 mm before"));
+    assert!(text(&summary, "verdict").starts_with("The arm cannot run this: joint 1 leaves its range"));
     assert_eq!(text(&summary, "warnings.0.code"), "joint-limit");
     assert!(number(&summary, "warnings.0.from_sample") > 0.0);
 }

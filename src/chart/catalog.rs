@@ -105,9 +105,7 @@ fn content(report: &Report, name: &str, units: Units) -> Result<Content, Error> 
     let figures = Figures { report, units };
     let (forces, shaping) = (&report.deflection_only, &report.shaping_only);
     let content = match name {
-        "before-after" | "after-both" => {
-            figures.before_and_after(&report.before.contour_error, &report.after.contour_error)
-        }
+        "before-after" | "after-both" => figures.expected(),
         "after-deflection" => {
             let after = &report.alone(Source::Deflection).result.contour_error;
             figures.before_and_after(&forces.contour_error, after)

@@ -17,6 +17,7 @@ type Name = (&'static str, &'static str, &'static str);
 
 const BEFORE: Name = ("before", "Before", "before");
 const AFTER: Name = ("after", "After", "after");
+const P95: Name = ("after-p95", "After, 95 %", "p95");
 pub(super) const DEFLECTION: Name = ("deflection", "Forces alone", "deflection");
 pub(super) const SHAPING: Name = ("shaping", "Shaping alone", "shaping");
 pub(super) const BOTH: Name = ("both", "Both together", "both");
@@ -53,11 +54,17 @@ impl Figures<'_> {
     }
 
     pub(super) fn errors(&self, sources: &[(Name, &[Vector3<f64>])]) -> Content {
+        let norms = |errors: &[Vector3<f64>]| errors.iter().map(Vector3::norm).collect();
+        self.error_lengths(sources.iter().map(|&(name, errors)| (name, norms(errors))).collect())
+    }
+
+    /// Lengths of contour errors [m].
+    fn error_lengths(&self, sources: Vec<(Name, Vec<f64>)>) -> Content {
         let (size, unit) = (self.units.length.in_m(), self.units.length.name());
         let mut texts = Vec::new();
         let mut curves = Vec::new();
-        for &((key, label, class), errors) in sources {
-            let values: Vec<f64> = errors.iter().map(|v| v.norm() / size).collect();
+        for ((key, label, class), lengths) in sources {
+            let values: Vec<f64> = lengths.iter().map(|length| length / size).collect();
             let (mean, max) = (self.read(mean(&values) * size), self.read(max(&values) * size));
             texts.push(format!("{label}: mean {mean} {unit}, max {max} {unit}"));
             curves.push(Curve { key, label, class, values });
@@ -71,6 +78,19 @@ impl Figures<'_> {
 
     pub(super) fn before_and_after(&self, before: &[Vector3<f64>], after: &[Vector3<f64>]) -> Content {
         self.errors(&[(BEFORE, before), (AFTER, after)])
+    }
+
+    /// Before and after compensation with every source acting, and what 95 of 100 drawn plants stay
+    /// below.
+    pub(super) fn expected(&self) -> Content {
+        let Report { before, after, band, .. } = self.report;
+        let norms = |errors: &[Vector3<f64>]| errors.iter().map(Vector3::norm).collect();
+        let p95 = (0..self.report.samples()).map(|sample| band.p95_at(sample)).collect();
+        self.error_lengths(vec![
+            (BEFORE, norms(&before.contour_error)),
+            (AFTER, norms(&after.contour_error)),
+            (P95, p95),
+        ])
     }
 
     /// The angle between the actual and the desired tool axis.

@@ -5,15 +5,13 @@ use crate::export::orientation::roll_pitch_yaw;
 use crate::job::CompensateAt;
 use crate::math::Pose;
 use crate::model;
-use crate::report::{Report, millimetres};
+use crate::report::{Report, VerdictState, length_text, millimetres};
 use crate::units::{DEG, MM};
 
 /// The lines of the header, plain ASCII without brackets, for any language's comments. No date: the
 /// same run gives the same text.
 pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
     let setup = report.setup();
-    let reached = report.after_max();
-    let before = report.before.statistics.max;
     let sources = match (setup.sources.deflection, setup.sources.shaping) {
         _ if report.compensation.passes == 0 => "not compensated",
         (true, true) => "compensated for deflection and shaping",
@@ -29,11 +27,12 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
     let mut lines = vec![
         model::stamp(&report.fingerprint()),
         format!("Path {sources}{brought}, robot model {}", ascii(report.plan.robot.name())),
+        format!("Verdict, simulated: {}", plain(&report.verdict())),
         format!(
-            "Tolerance asked {} mm, largest contour error reached {} mm, {} mm without compensation, simulated",
+            "Tolerance asked {} mm, largest contour error reached {} mm if every number is exact, {} mm without compensation",
             millimetres(setup.goal.tolerance),
-            millimetres(reached),
-            millimetres(before)
+            millimetres(report.after_max()),
+            millimetres(report.before.statistics.max)
         ),
     ];
     if let Some(command) = command {
@@ -78,10 +77,17 @@ fn points(report: &Report, command: &Command) -> Vec<String> {
 /// The largest contour error `reached` [m] by the file itself, compared with the tolerance.
 fn rehearsed(report: &Report, reached: f64) -> Vec<String> {
     let tolerance = report.setup().goal.tolerance;
-    let met = if reached <= tolerance { "met" } else { "not met" };
+    let met = match report.verdict_state_at(reached) {
+        VerdictState::CannotRun => "the arm cannot run it",
+        VerdictState::Met => "tolerance met",
+        VerdictState::MetIfNominal => "tolerance met only if every number is exact",
+        VerdictState::NotMet => "tolerance not met",
+    };
     let mut lines = vec![format!(
-        "Run from this file, timed by its own moves, feeds and stops: largest contour error {} mm, tolerance {met}, simulated",
-        millimetres(reached)
+        "Run from this file, timed by its own moves, feeds and stops: largest contour error {} mm if every number is exact, \
+         up to {} mm in 95 of 100 cases, {met}",
+        millimetres(reached),
+        length_text(report.p95_at(reached), MM, 2)
     )];
     if reached > tolerance && report.after_max() <= tolerance {
         lines.push(
@@ -117,6 +123,17 @@ fn ascii(name: &str) -> String {
         _ => ' ',
     };
     name.chars().map(plain).collect()
+}
+
+/// A sentence without what would end a comment in some language, or is not ASCII.
+fn plain(sentence: &str) -> String {
+    let plain = |c: char| match c {
+        '²' => Some('2'),
+        ';' => Some(','),
+        '(' | ')' | '{' | '}' => None,
+        _ => Some(if c.is_ascii() { c } else { ' ' }),
+    };
+    sentence.chars().filter_map(plain).collect()
 }
 
 /// A number with at most `decimals` decimal places, and at least one: some controls read a number

@@ -57,10 +57,9 @@ fn acceleration(report: &Report, command: &Shaped<Joints>) -> Option<Warning> {
     let all: Vec<Span> = all.into_iter().map(|(first, last)| (first * step, last * step)).collect();
     let worst = beyond().max_by(|&a, &b| size(a).total_cmp(&size(b)))?;
     let message = format!(
-        "the command would accelerate the tool by {:.0} mm/s² at {:.3} s, more than {ALLOWED:.0} times the motion's {:.0} \
-         mm/s²: no arm follows that; a shaper, rounded corners, leads in and out or a lighter cut make it smoother",
+        "the command would accelerate the tool by {:.0} mm/s², more than {ALLOWED:.0} times the motion's {:.0} mm/s²: no arm \
+         follows that; a shaper, rounded corners, leads in and out or a lighter cut make it smoother",
         size(worst) / MM,
-        (worst * step) as f64 * dt,
         report.setup().limits.acceleration / MM
     );
     Warning::new("command-acceleration", message).within(&all, dt)
@@ -75,7 +74,7 @@ fn joint_speed(report: &Report, command: &Shaped<Joints>, largest: &Joints) -> O
         if robot.elbow() == Elbow::Pendant { robot.to_serial(&q) } else { q }
     };
     let mut before = drives(0);
-    let (mut all, mut worst) = (Vec::<Span>::new(), (1.0, 0, 0));
+    let (mut all, mut worst) = (Vec::<Span>::new(), (1.0, 0));
     for k in 1..report.samples() {
         let now = drives(k);
         let share = (now - before).abs().component_div(largest) / dt;
@@ -88,16 +87,15 @@ fn joint_speed(report: &Report, command: &Shaped<Joints>, largest: &Joints) -> O
                 _ => all.push((k - 1, k)),
             }
             if share[joint] > worst.0 {
-                worst = (share[joint], joint, k);
+                worst = (share[joint], joint);
             }
         }
     }
-    let (share, joint, k) = worst;
+    let (share, joint) = worst;
     let message = format!(
-        "joint {} would have to turn at {:.0} deg/s at {:.3} s, its largest speed is {:.0} deg/s",
+        "joint {} would have to turn at {:.0} deg/s, its largest speed is {:.0} deg/s",
         joint + 1,
         share * largest[joint] / DEG,
-        k as f64 * dt,
         largest[joint] / DEG
     );
     Warning::new("joint-speed", message).within(&all, dt)

@@ -1,8 +1,8 @@
 //! What to expect on the part, as the summary states it.
 
-use crate::report::{Report, VerdictState};
+use crate::report::Report;
 use crate::spread::Stiffness;
-use crate::uncertainty::{Quantiles, Share};
+use crate::uncertainty::{BreakEven, Quantiles, Share};
 use crate::units::MM;
 use serde::Serialize;
 
@@ -46,9 +46,11 @@ pub struct HowSure {
     /// The same band at the top of the cut [mm].
     pub wall_mm: ExpectedError,
     /// Compensating pays while the true deflection is more than this share of the assumed one [%];
-    /// absent if it always does.
+    /// absent if there is no such share, see `break_even`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub break_even_percent: Option<f64>,
+    /// When compensating pays, in words.
+    pub break_even: String,
     /// Share of the draws in which compensating makes the largest error larger [%].
     pub worse_percent: f64,
     /// What the band leaves out.
@@ -84,16 +86,13 @@ const LEFT_OUT: &str = "Friction and lost motion in the gears, the arm's calibra
 impl Report {
     /// What to expect on the part, in words.
     fn expectation(&self) -> String {
-        let text = |length: f64| crate::report::length_text(length, MM, 2);
-        let Quantiles { p50, p95, .. } = self.band.after;
-        let expect = match self.verdict_state() {
-            VerdictState::CannotRun => "The arm cannot run this. If it could, expect",
-            _ => "Expect",
+        let expect = match self.impossible() {
+            Some(_) => "The arm cannot run this. If it could, expect",
+            None => "Expect",
         };
         format!(
-            "{expect} {} mm on the part and up to {} mm in 95 of 100 cases (stiffness {}, cutting forces {}).",
-            text(p50),
-            text(p95),
+            "{expect} {} (stiffness {}, cutting forces {}).",
+            self.expected_text(),
             self.stiffness_known(),
             self.setup().spreads.cutting.words()
         )
@@ -114,6 +113,24 @@ impl Report {
         }
     }
 
+    /// The share of the assumed deflection above which compensating pays [%], and when it pays in
+    /// words.
+    fn break_even(&self) -> (Option<f64>, String) {
+        let words = match self.band.break_even {
+            _ if self.compensation.passes == 0 => "Nothing is compensated.",
+            BreakEven::Above(share) => {
+                let percent = 100.0 * share;
+                let words = format!(
+                    "Compensating pays while the true deflection is more than {percent:.0} % of the assumed one."
+                );
+                return (Some(percent), words);
+            }
+            BreakEven::Always => "Compensating pays however small the true deflection is.",
+            BreakEven::Never => "Compensating does not pay: the largest error is not smaller with it.",
+        };
+        (None, words.to_owned())
+    }
+
     /// How sure the figures are.
     pub fn how_sure(&self) -> HowSure {
         let (band, spreads) = (&self.band, &self.setup().spreads);
@@ -132,6 +149,7 @@ impl Report {
                 sentence,
             }
         });
+        let (break_even_percent, break_even) = self.break_even();
         let shares = band
             .shares
             .iter()
@@ -146,8 +164,9 @@ impl Report {
             measure_first,
             without_compensation_mm: band.before.into(),
             wall_mm: band.wall.into(),
-            break_even_percent: band.break_even.deflection.map(|share| 100.0 * share),
-            worse_percent: 100.0 * band.break_even.worse,
+            break_even_percent,
+            break_even,
+            worse_percent: 100.0 * band.worse,
             left_out: LEFT_OUT,
         }
     }

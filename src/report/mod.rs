@@ -149,27 +149,6 @@ impl Report {
     pub fn commanded(&self) -> Vec<Vector3<f64>> {
         self.plan.trajectory.position.iter().zip(&self.compensation.correction).map(|(p, c)| p + c).collect()
     }
-
-    /// The verdict in words.
-    pub fn verdict(&self) -> String {
-        let (before, after) = (self.before.statistics.max, self.after.statistics.max);
-        let tolerance = self.setup().goal.tolerance;
-        let met = |max: f64| if max <= tolerance { "is met" } else { "is not met" };
-        let before_text = millimetres(before);
-        let tolerance_text = millimetres(tolerance);
-        match self.compensation.passes {
-            0 => format!(
-                "Max contour error {before_text} mm, not compensated; the tolerance of {tolerance_text} mm {}.",
-                met(before)
-            ),
-            passes => format!(
-                "Max contour error {before_text} mm before, {} mm after {passes} {}; the tolerance of {tolerance_text} mm {}.",
-                millimetres(after),
-                if passes == 1 { "pass" } else { "passes" },
-                met(after)
-            ),
-        }
-    }
 }
 
 /// A length [m] as text in mm: three significant digits, but no finer than a tenth of a micrometre,

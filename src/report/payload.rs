@@ -21,10 +21,9 @@ pub(super) fn warning(report: &Report) -> Option<Warning> {
     let worst = (0..report.samples()).max_by(|&a, &b| force(a).total_cmp(&force(b)))?;
     let dt = report.plan.trajectory.sample_time;
     let message = format!(
-        "the cut pushes with {:.0} N on average at {:.3} s, more than the {rated:.0} N that the arm is rated to carry \
+        "the cut pushes with {:.0} N on average, more than the {rated:.0} N that the arm is rated to carry \
          ({payload} kg): a lighter cut (less depth or width, a smaller feed per tooth) or a larger arm would do",
-        force(worst),
-        worst as f64 * dt
+        force(worst)
     );
     Warning::new("force-payload", message).within(&spans, dt)
 }

@@ -78,6 +78,18 @@ impl Warning {
         self.spans_s = self.spans_samples.iter().map(|&(from, to)| (time(from), time(to))).collect();
         Some(self)
     }
+
+    /// The message without what explains it, for a headline.
+    pub fn brief(&self) -> &str {
+        let end = [": ", " ("].iter().filter_map(|mark| self.message.find(mark)).min();
+        &self.message[..end.unwrap_or(self.message.len())]
+    }
+
+    /// The time that it applies to, in words; none if it concerns the whole job.
+    pub fn place(&self) -> Option<String> {
+        let (from, to) = (self.from_s?, self.to_s?);
+        Some(if from == to { format!("at {from:.3} s") } else { format!("{from:.3} to {to:.3} s") })
+    }
 }
 
 /// Angle between the feed and the plane across the tool axis above which a warning is given [rad].

@@ -44,6 +44,8 @@ pub struct ErrorBand {
     pub measure_first: Option<Measure>,
     /// How wrong the model may be.
     pub break_even: BreakEven,
+    /// Share of the draws in which compensating makes the largest error larger.
+    pub worse: f64,
 }
 
 /// An input's share of the variance of the tip where the band is widest, to first order (JCGM
@@ -67,14 +69,16 @@ pub struct Measure {
     pub p95: f64,
 }
 
-/// Where compensating stops to pay.
+/// While the true deflection is how much of the assumed one does compensating pay, that is, leave a
+/// smaller largest error.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BreakEven {
-    /// Compensating pays while the true deflection is more than this share of the assumed one; none
-    /// if it always does.
-    pub deflection: Option<f64>,
-    /// Share of the draws in which compensating makes the largest error larger.
-    pub worse: f64,
+pub enum BreakEven {
+    /// However small it is.
+    Always,
+    /// While it is more than this share.
+    Above(f64),
+    /// Not even where it is as assumed.
+    Never,
 }
 
 impl ErrorBand {
@@ -212,10 +216,7 @@ pub fn band(
     let largest_before: Vec<f64> = draws.iter().map(|draw| uncompensated.largest(draw)).collect();
     let worse = largest.iter().zip(&largest_before).filter(|(after, before)| after > before).count();
     let at_decisive = |draw: &Draw| compensated.largest_at(&decisive, draw);
-    let break_even = BreakEven {
-        deflection: break_even(at_decisive, |draw| uncompensated.largest(draw)),
-        worse: worse as f64 / draws.len() as f64,
-    };
+    let break_even = break_even(at_decisive, |draw| uncompensated.largest(draw));
     let after = Quantiles::of(largest);
     ErrorBand {
         measure_first: measure_first(spreads, &deviates, after.p95, at_decisive),
@@ -226,6 +227,7 @@ pub fn band(
         p95,
         after,
         break_even,
+        worse: worse as f64 / draws.len() as f64,
     }
 }
 
@@ -246,15 +248,18 @@ fn most(values: &[f64], counts: impl Fn(&usize) -> bool) -> Vec<usize> {
 }
 
 /// The factor on the arm's compliance below which the kept commands err more than the desired ones,
-/// by bisection; none if they never do.
-fn break_even(kept: impl Fn(&Draw) -> f64, desired: impl Fn(&Draw) -> f64) -> Option<f64> {
+/// by bisection.
+fn break_even(kept: impl Fn(&Draw) -> f64, desired: impl Fn(&Draw) -> f64) -> BreakEven {
     let loses = |factor: f64| {
         let draw = Draw { compliance: [factor; 6], ..Draw::NOMINAL };
         kept(&draw) > desired(&draw)
     };
     let (mut low, mut high) = (0.0, 1.0);
-    if !loses(low) || loses(high) {
-        return None;
+    if loses(high) {
+        return BreakEven::Never;
+    }
+    if !loses(low) {
+        return BreakEven::Always;
     }
     for _ in 0..20 {
         let middle = 0.5 * (low + high);
@@ -264,7 +269,7 @@ fn break_even(kept: impl Fn(&Draw) -> f64, desired: impl Fn(&Draw) -> f64) -> Op
             high = middle;
         }
     }
-    Some(0.5 * (low + high))
+    BreakEven::Above(0.5 * (low + high))
 }
 
 /// What each input contributes where the band is widest: the derivative of the tip across the path,

@@ -1,9 +1,10 @@
 //! The programs of a report. One rehearsal of each serves its accuracy, its header and its file.
 
 use crate::error::Error;
+use crate::export::post;
 use crate::export::style::PostStyle;
 use crate::export::{self, Export, ExportOptions, Format};
-use crate::report::{Report, millimetres};
+use crate::report::{Report, VerdictState, length_text, millimetres};
 use crate::units::MM;
 use crate::verification::rehearsal::{Rehearsal, rehearse};
 use serde::Serialize;
@@ -20,10 +21,14 @@ pub struct Programs {
 /// itself; only joint commands keep the run's timing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ProgramAccuracy {
-    /// Largest contour error when the program runs [mm].
+    /// Largest contour error when the program runs, if every number is exact [mm].
     pub max_mm: f64,
-    /// Whether that is within the job's tolerance.
+    /// Whether the job's tolerance is met at 95 %.
     pub met: bool,
+    /// The verdict on the program; see [`Report::verdict_state_at`].
+    pub verdict_state: VerdictState,
+    /// 95 % quantile of the largest contour error [mm].
+    pub p95_mm: f64,
     /// The accuracy in words.
     pub sentence: String,
 }
@@ -64,17 +69,33 @@ impl Programs {
         let format = export::format(id)?;
         let style = PostStyle::of(format, report)
             .ok_or_else(|| Error::invalid("format", format!("\"{id}\""), "a program, not a table"))?;
-        let reached = self.rehearsal(report, style)?.reached;
+        let Rehearsal { command, reached, .. } = self.rehearsal(report, style)?;
+        post::expressible(report, command, id)?;
+        let (state, p95) = (report.verdict_state_at(*reached), report.p95_at(*reached));
+        let figures =
+            format!("up to {} mm at 95 %, nominally {} mm", length_text(p95, MM, 2), millimetres(*reached));
         let tolerance = report.setup().goal.tolerance;
-        let met = reached <= tolerance;
-        let sentence = format!(
-            "As {}, with its own timing: at most {} mm, {} the tolerance of {} mm.",
-            in_words(format),
-            millimetres(reached),
-            if met { "within" } else { "beyond" },
-            millimetres(tolerance)
-        );
-        Ok(ProgramAccuracy { max_mm: reached / MM, met, sentence })
+        let tolerance_text = millimetres(tolerance);
+        let judged = match state {
+            VerdictState::CannotRun => format!("the arm cannot run it; if it could, {figures}."),
+            _ if p95 > tolerance => format!("{figures}; beyond the tolerance of {tolerance_text} mm."),
+            _ => {
+                let but = report.decisive(state, *reached);
+                format!("{figures}; within the tolerance of {tolerance_text} mm{but}.")
+            }
+        };
+        let sentence = format!("As {}: {judged}", in_words(format));
+        let met = state == VerdictState::Met;
+        Ok(ProgramAccuracy { max_mm: reached / MM, met, verdict_state: state, p95_mm: p95 / MM, sentence })
+    }
+
+    /// The same for the format that most controllers read: G-code, or APT where three axes cannot
+    /// express the path.
+    ///
+    /// # Errors
+    /// See [`Programs::accuracy`].
+    pub fn usual_accuracy(&self, report: &Report) -> Result<ProgramAccuracy, Error> {
+        self.accuracy(report, "gcode").or_else(|_| self.accuracy(report, "apt"))
     }
 
     fn rehearsal(&self, report: &Report, style: PostStyle) -> Result<&Rehearsal, Error> {

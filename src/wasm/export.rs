@@ -10,7 +10,10 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &'static str = r#"
-export interface Promised { max_mm: number; met: boolean; sentence: string; }
+export interface Promised {
+  max_mm: number; met: boolean; p95_mm: number; sentence: string;
+  verdict_state: "cannot-run" | "met" | "met-if-nominal" | "not-met";
+}
 "#;
 
 #[wasm_bindgen]
@@ -30,11 +33,15 @@ impl Run {
         export::csv::rows(&self.report, from..to.max(from))
     }
 
-    /// Accuracy of the path as a program of a format (`gcode` by default), timed by its own moves.
+    /// Accuracy of the path as a program of a format, timed by its own moves. By default that is
+    /// `gcode`, or `apt` where three axes cannot express the path.
     #[wasm_bindgen(unchecked_return_type = "Promised")]
     pub fn promise(&self, format: Option<String>) -> Result<JsValue, JsValue> {
         self.reserve();
-        let accuracy = self.programs.accuracy(&self.report, format.as_deref().unwrap_or("gcode"));
+        let accuracy = match format {
+            Some(format) => self.programs.accuracy(&self.report, &format),
+            None => self.programs.usual_accuracy(&self.report),
+        };
         object(&accuracy.map_err(|error| thrown(&error))?)
     }
 

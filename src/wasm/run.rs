@@ -54,7 +54,8 @@ export interface Summary {
   mean_force_n: [number, number, number];
   material: string; material_note: string; cut: CutFigures; walls: WallFigures[];
   before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics };
-  after_mm: Statistics; missed_mm: WorstPlace; wall_mm: WorstPlace; budget: Budget; before_axis_deg: Statistics; after_axis_deg: Statistics;
+  after_mm: Statistics; missed_mm: WorstPlace; wall_mm: WorstPlace; budget: Budget;
+  before_axis_deg: Statistics; after_axis_deg: Statistics;
   program?: Understood; spin?: SpinGain;
   passes: number; converged: boolean; tolerance_mm: number;
   history_max_mm: number[]; history_mean_mm: number[]; verdict: string;
@@ -66,7 +67,7 @@ export interface Summary {
     measure_first?: { input: string; percent: number; p95_mm: number; sentence: string };
     without_compensation_mm: { p50: number; p95: number; p95_interval: [number, number] };
     wall_mm: { p50: number; p95: number; p95_interval: [number, number] };
-    break_even_percent?: number; worse_percent: number; left_out: string;
+    break_even_percent?: number; break_even: string; worse_percent: number; left_out: string;
   };
   robot: string; inverse: "closed form" | "numerically"; stiffness: string; branch: string;
   warnings: Warning[];

@@ -13,13 +13,14 @@ export function markdown({ summary, job, standard, link }) {
     ["deflection alone", before.deflection],
     ["shaping alone", before.shaping],
     ["both, before compensation", before.both],
-    [`after compensation, ${passes} ${passes === 1 ? "pass" : "passes"}`, after],
+    [`after compensation, ${passes} ${passes === 1 ? "pass" : "passes"}, if every number is exact`, after],
   ];
   const changed = job.differences(standard).filter(({ own }) => own !== undefined);
   return [
     `**${escaped(summary.verdict)}**`,
     "",
     escaped(summary.how_sure.sentence),
+    ...(summary.how_sure.measure_first ? ["", escaped(summary.how_sure.measure_first.sentence)] : []),
     "",
     "| Contour error, mm | mean | max |",
     "|---|---:|---:|",

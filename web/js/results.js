@@ -4,7 +4,7 @@ import { showBudget } from "./budget.js";
 import { showCut } from "./cut.js";
 import { byId, make } from "./dom.js";
 import { formatNumber, plainNumber } from "./number.js";
-import { errorText, forceText, forceUnit, lengthText, lengthUnit } from "./units.js";
+import { errorText, forceText, forceUnit, largeText, lengthText, lengthUnit } from "./units.js";
 
 /** Puts a number on the page: rounded to read, in full in `data-value`. */
 function put(id, value, format = formatNumber) {
@@ -24,11 +24,11 @@ export function showSummary(summary, apply) {
   const { before_mm: before, after_mm: after } = summary;
   showUnits();
   byId("verdict").textContent = summary.verdict;
-  byId("expected").textContent = summary.how_sure.sentence;
   put("before-mean", before.both.mean, lengthText);
-  put("before-max", before.both.max, lengthText);
-  put("after-mean", after.mean, lengthText);
-  put("after-max", after.max, lengthText);
+  put("before-max", before.both.max, largeText);
+  put("expected-p50", summary.expected_mm.p50, largeText);
+  put("expected-p95", summary.expected_mm.p95, largeText);
+  showHowSure(summary.how_sure);
   put("passes", summary.passes);
   put("force", Math.hypot(...summary.mean_force_n), forceText);
   put("duration", summary.duration_s);
@@ -52,14 +52,23 @@ export function showSummary(summary, apply) {
 const toleranceText = ({ tolerance_mm }) =>
   lengthUnit() === "mm" ? plainNumber(tolerance_mm) : lengthText(tolerance_mm);
 
+/** What is known and what is not. */
+function showHowSure({ sentence, measure_first, break_even, left_out }) {
+  byId("expected").textContent = sentence;
+  byId("measure-first").textContent = measure_first?.sentence ?? "";
+  byId("break-even").textContent = break_even;
+  byId("left-out").textContent = left_out;
+}
+
+const TOLERANCE = { "cannot-run": "✗ cannot run", met: "✓ within", "met-if-nominal": "✗ if exact", "not-met": "✗ over" };
+
 function showTolerance(summary) {
-  const { converged, tolerance_mm, after_mm } = summary;
-  const met = after_mm.max <= tolerance_mm;
+  const { converged, verdict_state: state } = summary;
   const line = byId("tolerance-met");
-  const short = lengthUnit() !== "mm"; // more digits in the same room
-  const [within, above] = short ? ["≤", ">"] : ["within", "over"];
-  line.textContent = `${met ? `✓ ${within}` : `✗ ${above}`} ${toleranceText(summary)} ${lengthUnit()}`;
-  line.classList.toggle("bad", !met);
+  const tolerance = state === "cannot-run" ? "" : ` ${toleranceText(summary)} ${lengthUnit()}`;
+  line.textContent = TOLERANCE[state] + tolerance;
+  line.classList.toggle("bad", state !== "met");
+  line.dataset.state = state;
   line.dataset.converged = String(converged);
 }
 

@@ -20,6 +20,11 @@ export const inLength = (mm) => mm / length().size;
 export const lengthText = (mm, digits) =>
   digits ? formatNumber(inLength(mm), digits) : formatLength(inLength(mm), length().decimals);
 
+const LEAST_MM = 0.01; // what no one can promise of a part milled by a robot is not set large
+
+/** Millimetres as a large figure. */
+export const largeText = (mm) => (mm > 0 && mm < LEAST_MM ? `<${lengthText(LEAST_MM, 1)}` : lengthText(mm));
+
 /** Millimetres to a fixed place, so that a column of them lines up. */
 export const errorText = (mm) => formatError(inLength(mm), length().decimals);
 

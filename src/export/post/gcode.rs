@@ -73,6 +73,31 @@ pub(super) fn wait(time: f64) -> String {
     )
 }
 
+/// Whether three axes can express a command.
+///
+/// # Errors
+/// [`Error::Invalid`] if the tool axis differs from +Z anywhere: of the field `compensation.at` if
+/// only the correction tilts it.
+pub(super) fn expressible(report: &Report, command: &Command) -> Result<(), Error> {
+    let tilts = report.setup().compensate_at == CompensateAt::Axis;
+    if tilts && command.is_tilted() && !command.is_desired_tilted() {
+        return Err(Error::invalid(
+            "compensation.at",
+            "\"axis\"",
+            "\"tip\" or \"middle\" for G-code, whose three axes cannot tilt the tool; \
+             apt, path-csv, krl, rapid, val3 and fanuc give the tool axis",
+        ));
+    }
+    if command.is_tilted() {
+        return Err(Error::invalid(
+            "format",
+            "\"gcode\"",
+            "the tool axis is not +Z all along, which this G-code cannot say: use apt",
+        ));
+    }
+    Ok(())
+}
+
 /// Writes the words of one move after another; a word that is still in force is left out.
 pub(super) struct MoveWords {
     inch: bool,
@@ -90,25 +115,9 @@ impl MoveWords {
     /// The words before the first move.
     ///
     /// # Errors
-    /// [`Error::Invalid`] if the tool axis differs from +Z anywhere, which three axes cannot express:
-    /// of the field `compensation.at` if only the correction tilts it.
+    /// See [`expressible`].
     pub(super) fn new(report: &Report, command: &Command) -> Result<Self, Error> {
-        let tilts = report.setup().compensate_at == CompensateAt::Axis;
-        if tilts && command.is_tilted() && !command.is_desired_tilted() {
-            return Err(Error::invalid(
-                "compensation.at",
-                "\"axis\"",
-                "\"tip\" or \"middle\" for G-code, whose three axes cannot tilt the tool; \
-                 apt, path-csv, krl, rapid, val3 and fanuc give the tool axis",
-            ));
-        }
-        if command.is_tilted() {
-            return Err(Error::invalid(
-                "format",
-                "\"gcode\"",
-                "the tool axis is not +Z all along, which this G-code cannot say: use apt",
-            ));
-        }
+        expressible(report, command)?;
         let (inch, at) = (command.style.inch, command.start.position);
         Ok(Self { inch, at, motion: "", plane: PLANES[2], feed: String::new() })
     }

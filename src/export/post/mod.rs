@@ -43,6 +43,14 @@ pub fn program(report: &Report, command: &Command, id: &str) -> Result<String, E
     })
 }
 
+/// Whether the format `id` can express a command.
+///
+/// # Errors
+/// [`Error::Invalid`] for G-code if the tool axis differs from +Z anywhere.
+pub fn expressible(report: &Report, command: &Command, id: &str) -> Result<(), Error> {
+    if id == "gcode" { gcode::expressible(report, command) } else { Ok(()) }
+}
+
 /// The language of a controller. Each text is one or more lines of the program, without the final
 /// line break.
 trait Dialect {
