@@ -159,7 +159,7 @@ fn what_cannot_run_is_named_with_place_and_remedy() {
     let verdict = report.verdict();
     for part in [
         "The arm cannot run this: joint 1 leaves its range by up to ".to_owned(),
-        format!("{from:.3} to {to:.3} s. Remedy: place the path in front of the robot"),
+        format!("{from:.2} to {to:.2} s. Remedy: place the path in front of the robot"),
     ] {
         assert!(verdict.contains(&part), "{verdict}: {part}");
     }

@@ -17,7 +17,7 @@ type Name = (&'static str, &'static str, &'static str);
 
 const BEFORE: Name = ("before", "Before", "before");
 const AFTER: Name = ("after", "After", "after");
-const P95: Name = ("after-p95", "After, 95 %", "p95");
+const P95: Name = ("after-p95", "95 %", "p95");
 pub(super) const DEFLECTION: Name = ("deflection", "Forces alone", "deflection");
 pub(super) const SHAPING: Name = ("shaping", "Shaping alone", "shaping");
 pub(super) const BOTH: Name = ("both", "Both together", "both");

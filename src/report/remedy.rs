@@ -15,6 +15,11 @@ pub struct Remedy {
 }
 
 impl Remedy {
+    /// The label without its figures, for a headline.
+    pub fn brief(&self) -> &str {
+        self.label.split(',').next().unwrap_or(&self.label)
+    }
+
     /// The job with this change.
     ///
     /// # Errors

@@ -135,7 +135,7 @@ impl Report {
 
 /// The verdict on what the arm cannot run: what, where, and the remedy if one is known.
 fn impossible_text(warning: &Warning) -> String {
-    let remedy = warning.remedy.as_ref().map(|remedy| format!(" Remedy: {}.", decapitalised(&remedy.label)));
+    let remedy = warning.remedy.as_ref().map(|remedy| format!(" Remedy: {}.", decapitalised(remedy.brief())));
     let place = warning.place().map(|place| format!(", {place}")).unwrap_or_default();
     format!("The arm cannot run this: {}{place}.{}", warning.brief(), remedy.unwrap_or_default())
 }

@@ -88,7 +88,7 @@ impl Warning {
     /// The time that it applies to, in words; none if it concerns the whole job.
     pub fn place(&self) -> Option<String> {
         let (from, to) = (self.from_s?, self.to_s?);
-        Some(if from == to { format!("at {from:.3} s") } else { format!("{from:.3} to {to:.3} s") })
+        Some(if from == to { format!("at {from:.2} s") } else { format!("{from:.2} to {to:.2} s") })
     }
 }
 

@@ -77,7 +77,7 @@ impl Programs {
         let tolerance = report.setup().goal.tolerance;
         let tolerance_text = millimetres(tolerance);
         let judged = match state {
-            VerdictState::CannotRun => format!("the arm cannot run it; if it could, {figures}."),
+            VerdictState::CannotRun => format!("cannot run; if it could, {figures}."),
             _ if p95 > tolerance => format!("{figures}; beyond the tolerance of {tolerance_text} mm."),
             _ => {
                 let but = report.decisive(state, *reached);

@@ -15,10 +15,12 @@ fn series_are_hidden_and_isolated() -> Result {
         let pressed = async || {
             chart.js("return [...chart.querySelectorAll('.legend button')].map(b => b.ariaPressed)").await
         };
-        assert_eq!(pressed().await?, json!(["true", "true"]));
-        page.click("#chart-before-after .legend [data-key=before]").await?;
-        chart.wait_for("!chart.querySelector('svg.plot [data-key=before]')").await?;
-        assert_eq!(pressed().await?, json!(["false", "true"]));
+        assert_eq!(pressed().await?, json!(["true", "true", "true"]));
+        for key in ["before", "after-p95"] {
+            page.click(&format!("#chart-before-after .legend [data-key={key}]")).await?;
+            chart.wait_for(&format!("!chart.querySelector('svg.plot [data-key={key}]')")).await?;
+        }
+        assert_eq!(pressed().await?, json!(["false", "true", "false"]));
         // The axis follows the remaining curves: 0.042 mm instead of 1.25 mm.
         chart
             .wait_for(
@@ -36,9 +38,9 @@ fn series_are_hidden_and_isolated() -> Result {
             format!("{}{}{}", char::from(Key::Shift), char::from(Key::Enter), char::from(Key::Null));
         page.press(&shift_enter).await?;
         chart.wait_for("chart.querySelector('svg.plot [data-key=before]') && !chart.querySelector('svg.plot [data-key=after]')").await?;
-        assert_eq!(pressed().await?, json!(["true", "false"]));
+        assert_eq!(pressed().await?, json!(["true", "false", "false"]));
         page.press(&shift_enter).await?;
-        chart.wait_for("chart.querySelectorAll('svg.plot [data-key]').length === 2").await
+        chart.wait_for("chart.querySelectorAll('svg.plot [data-key]').length === 3").await
     })
 }
 
@@ -65,9 +67,10 @@ fn charts_are_taken_away_as_drawing_picture_and_values() -> Result {
             page.click(&format!("#chart-before-after .menu button:nth-child({place})")).await
         };
         save(3).await?;
-        let keys = ["time_s", "contour_error_mm", "after_contour_error_mm"];
+        let keys = ["time_s", "contour_error_mm", "after_contour_error_mm", "after_p95_mm"];
         let columns = keys.map(|key| column(&report, key));
-        holds(&page.downloaded("armill-before-after.csv").await?, "time_s,before_mm,after_mm", &columns)?;
+        let head = "time_s,before_mm,after_mm,after_p95_mm";
+        holds(&page.downloaded("armill-before-after.csv").await?, head, &columns)?;
         save(1).await?;
         let svg = page.downloaded("armill-before-after.svg").await?;
         for part in [

@@ -24,7 +24,7 @@ fn the_cursor_reads_samples_and_is_one_for_all_charts() -> Result {
             let values = chart.values().await?;
             let time = column(&report, "time_s");
             let sample = time.iter().position(|t| t.to_bits() == values[0].to_bits()).unwrap();
-            let keys = ["contour_error_mm", "after_contour_error_mm"];
+            let keys = ["contour_error_mm", "after_contour_error_mm", "after_p95_mm"];
             assert_eq!(values[1..], keys.map(|key| column(&report, key)[sample]), "the sample's own values");
             // Another chart over time marks and reads the same instant.
             let other = Chart { page, css: "#chart-combined".into() };

@@ -186,7 +186,7 @@ fn what_a_program_is_worth_stands_under_the_verdict() -> Result {
         ("material", json!({"preset":"al-7075-t6"})),
         ("cutting.axial_depth_mm", json!(1)),
         ("shaper", json!("none")),
-        ("compensation.tolerance_mm", json!(0.2)),
+        ("compensation.tolerance_mm", json!(0.05)),
         ("uncertainty", json!({"stiffness_percent":5,"cutting_percent":10})),
     ];
     let [thesis, carried] =

@@ -142,7 +142,7 @@ export class Figure {
   /** The room to draw in [px]. */
   #size() {
     const width = (this.#room ||= Math.round((this.#plot.hidden ? this.#table : this.#plot).clientWidth));
-    const height = this.plane ? Math.min(560, Math.max(230, width * 0.6)) : Math.min(300, Math.max(220, width * 0.38));
+    const height = this.plane ? Math.min(560, Math.max(230, width * 0.6)) : Math.min(300, Math.max(200, width * 0.38));
     return { width, height: Math.round(height) };
   }
 

@@ -23,9 +23,9 @@ pub(crate) const BENCH: &str = "armill-bench";
 pub(crate) const MODULE: &str = "armill_bg.wasm";
 
 /// Size limits of the core in bytes, as it is and compressed by gzip: every visit fetches it. When
-/// it became the only core it had 1,167,494 and 474,512; these are 15 % more. Raise them only with
-/// a reason in CHANGELOG.md.
-pub(super) const LIMITS: [usize; 2] = [1_342_000, 545_000];
+/// bands, verdicts and remedies were added it had 1,350,516 and 548,049; these are 15 % more. Raise
+/// them only with a reason in CHANGELOG.md.
+pub(super) const LIMITS: [usize; 2] = [1_553_000, 630_000];
 
 /// Makes the core in `package` from the sources in `root`: `folder` gets the module, its JavaScript
 /// side and their types.
