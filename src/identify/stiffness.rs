@@ -62,6 +62,9 @@ impl Verdict {
     }
 }
 
+/// 97.5 % quantile of the standard normal distribution.
+const NORMAL_975: f64 = 1.959_963_984_540_054;
+
 /// The result for one joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
@@ -106,6 +109,10 @@ pub struct Residual {
 pub struct Fit {
     /// The six joints.
     pub joints: [Joint; 6],
+    /// Covariance of the six compliances [(rad/(N m))^2], as wide as their 95 % intervals with 1.96
+    /// standard deviations; zero for joints held at zero or never loaded. None where joints cannot
+    /// be separated.
+    pub covariance: Option<[[f64; 6]; 6]>,
     /// The rows in the order of the text.
     pub rows: Vec<Residual>,
     /// Measured components minus free compliances.
@@ -221,6 +228,7 @@ pub fn fit(robot: &Robot, rows: &[Measurement]) -> Result<Fit, Error> {
     let poses = Poses::of(&g);
     Ok(Fit {
         joints: [0, 1, 2, 3, 4, 5].map(|i| poses.joint(i, &solution, &h, reach)),
+        covariance: poses.covariance(&solution, reach),
         rows,
         freedom,
         rms: (left / count as f64).sqrt(),
@@ -339,6 +347,22 @@ impl Poses {
             load_factor,
             verdict,
         }
+    }
+
+    /// Covariance of the free compliances, `reach` being 1.96 standard deviations of a component; none
+    /// where joints cannot be separated.
+    fn covariance(&self, solution: &nnls::NnlsSolution, reach: f64) -> Option<[[f64; 6]; 6]> {
+        if self.confounded.contains(&true) {
+            return None;
+        }
+        let free: [bool; 6] = std::array::from_fn(|i| solution.free[i] && !self.unloaded[i]);
+        let inverse = self.inverse(&free)?;
+        let deviation = reach / NORMAL_975;
+        let scaled = |i: usize| if free[i] { deviation / self.length[i] } else { 0.0 };
+        // Each pair from the same element, so that rows and columns agree to the last bit.
+        Some(std::array::from_fn(|i| {
+            std::array::from_fn(|j| inverse[(i.min(j), i.max(j))] * (scaled(i) * scaled(j)))
+        }))
     }
 
     /// The compliance that least squares without bounds would give.

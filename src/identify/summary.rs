@@ -6,6 +6,7 @@ use crate::identify::measurement::Measurements;
 use crate::identify::response::{Measured, Mode, Other};
 use crate::identify::stiffness::{Fit, Joint, Residual, Verdict};
 use crate::robot::Robot;
+use crate::spread::Stiffness;
 use crate::units::{HZ, MM};
 use serde::Serialize;
 
@@ -25,6 +26,9 @@ pub struct StiffnessSummary {
     pub degrees_of_freedom: usize,
     /// Joint compliances [rad/(N m)].
     pub joint_compliance_rad_per_nm: [f64; 6],
+    /// Their covariance [(rad/(N m))^2], for a job's `uncertainty.compliance_covariance`; none where
+    /// the compliances are not known well enough to have one.
+    pub compliance_covariance: Option<[[f64; 6]; 6]>,
     /// Share of the squared displacements that the joints' springs explain.
     pub explained: f64,
     /// Root mean square of the components' residuals [mm].
@@ -168,6 +172,9 @@ pub fn stiffness(robot: &Robot, measurements: &Measurements, fit: &Fit) -> Stiff
         rows: fit.rows.len(),
         degrees_of_freedom: fit.freedom,
         joint_compliance_rad_per_nm: fit.compliance(),
+        compliance_covariance: fit
+            .covariance
+            .filter(|covariance| Stiffness::together(&fit.compliance(), covariance).is_some()),
         explained: fit.explained,
         residual_rms_mm: fit.rms / MM,
         standard_deviation_mm: fit.deviation / MM,

@@ -19,7 +19,7 @@ export interface JointSummary {
 }
 export interface StiffnessSummary {
   robot: string; source: string; rows: number; degrees_of_freedom: number;
-  joint_compliance_rad_per_nm: number[];
+  joint_compliance_rad_per_nm: number[]; compliance_covariance: number[][] | null;
   explained: number; residual_rms_mm: number; standard_deviation_mm: number; mean_relative_residual: number;
   mean_relative_left_out: number; condition: number | null; joints: JointSummary[];
   residuals: { line: number; measured_mm: number; fitted_mm: number; residual_mm: number; left_out_mm: number }[];

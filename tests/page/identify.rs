@@ -70,6 +70,8 @@ fn the_measured_example_becomes_the_job_and_undo_takes_it_back() -> Result {
             assert!((compliance[i].as_f64().unwrap() / ours - 1.0).abs() < 1e-5, "{compliance}");
         }
         assert_eq!(taken["robot"]["name"], "FANUC R-2000iC, compliance identified from 43 rows");
+        let covariance = native.covariance.ok_or("no covariance")?;
+        assert_eq!(taken["uncertainty"]["compliance_covariance"], serde_json::json!(covariance));
         let report: Report = armill::run_json(&taken.to_string(), &mut armill::Progress::none())?;
         let fingerprint = report.fingerprint();
         page.wait_for(
@@ -77,7 +79,15 @@ fn the_measured_example_becomes_the_job_and_undo_takes_it_back() -> Result {
             30.0,
         )
         .await?;
+        assert_eq!(crate::text(page, "expected").await?, report.how_sure().sentence);
 
+        // With another arm it is not that arm's covariance.
+        page.js("const arm = document.getElementById('robot-preset'); arm.value = 'kuka-kr-210-2'; \
+             arm.dispatchEvent(new Event('change', { bubbles: true }))")
+            .await?;
+        current(page).await?;
+        assert_eq!(job(page).await?["uncertainty"].get("compliance_covariance"), None);
+        page.click("#undo").await?;
         page.click("#undo").await?;
         current(page).await?;
         page.wait_for(&format!("document.getElementById('fingerprint').textContent === {before}"), 30.0).await

@@ -96,6 +96,7 @@ export class Job {
   }
 
   set(field, value) {
+    if (field.path.startsWith("robot.") && field.path !== "robot.name") this.#forgetCovariance();
     if (decides(field)) return this.#reshape(field, value);
     this.#write(field.path, value);
     // What the choice asks for starts as the form shows it.
@@ -107,7 +108,8 @@ export class Job {
 
   /** Takes the field back to its default. */
   reset(field) {
-    if (this.#overrules(field)) delete this.#read(parentOf(field.path))[keyOf(field.path)];
+    const optional = this.#overrules(field) || field.when?.path === "uncertainty";
+    if (optional) delete this.#read(parentOf(field.path))?.[keyOf(field.path)];
     else this.set(field, structuredClone(field.default));
   }
 
@@ -159,6 +161,11 @@ export class Job {
     return other;
   }
 
+  /** A covariance belongs to the compliances that it was identified with. */
+  #forgetCovariance() {
+    delete this.#data.uncertainty?.compliance_covariance;
+  }
+
   #find(path) {
     return this.#fields.find((field) => field.path === path);
   }
@@ -176,12 +183,19 @@ export class Job {
 
   #stateOf(path) {
     const part = this.#read(path);
+    if (path === "uncertainty") return this.#stiffnessKnown(part);
     if (part?.frequency_hz !== undefined) return "hz";
     if (part?.opw !== undefined) return "opw";
     if (part?.kc11_n_mm2 !== undefined || part?.mc !== undefined) return KIENZLE;
     if (part?.preset === undefined) return OWN;
     const preset = this.#presetOf(path);
     return preset.kc11_n_mm2 !== undefined ? `${KIENZLE}-preset` : preset.orthogonal ? "orthogonal-preset" : "preset";
+  }
+
+  /** In which of three ways the job says how well stiffness is known. */
+  #stiffnessKnown(part) {
+    if (part?.compliance_covariance !== undefined) return "covariance";
+    return part?.stiffness_factor !== undefined ? "factor" : "percent";
   }
 
   /** Whether the quantity is given by this field's twin. */

@@ -74,9 +74,14 @@ export function makeStiffness({ ask, job, use }) {
     const name = found.robot.replace(/, compliance identified.*$/, "");
     next.robot.name = `${name}, compliance ${found.source}`;
     next.robot.joint_compliance_rad_per_nm = found.joint_compliance_rad_per_nm.map((c) => Number(c.toPrecision(6)));
+    const { compliance_covariance: covariance } = found;
+    const { stiffness_percent, stiffness_factor, compliance_covariance, ...rest } = next.uncertainty ?? {};
+    next.uncertainty = covariance
+      ? { ...rest, compliance_covariance: covariance }
+      : { ...rest, stiffness_percent, stiffness_factor };
     use(next);
     notify(
-      `The job has the compliances ${found.source}` +
+      `The job has the compliances ${found.source}${covariance ? ", and how sure they are" : ""}` +
         `${example ? ", with the robot, its tool and a workpiece in its reach" : ""}. Undo takes them back.`,
     );
   }
