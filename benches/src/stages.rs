@@ -10,6 +10,7 @@ use armill::motion::joints::JointTrajectory;
 use armill::motion::{TimingLaw, Trajectory};
 use armill::plan::Plan;
 use armill::setup::Setup;
+use armill::uncertainty::{NominalErrors, band};
 use armill::{Error, Job, Progress, Report};
 
 use crate::Work;
@@ -33,7 +34,7 @@ pub struct Stages {
 
 /// The stages in order of execution. Deviation contains shaper, force and contour error, as in the
 /// job; the passes contain all of them.
-pub const STAGES: [Work<Stages>; 9] = [
+pub const STAGES: [Work<Stages>; 10] = [
     ("reading the job", |s| drop(black_box(read(&s.text)))),
     ("path: sampling", |s| drop(black_box(Trajectory::new(&s.plan.path, &s.plan.setup.limits)))),
     ("motion: joint commands", |s| drop(black_box(s.plan.joints(&mut Progress::none())))),
@@ -62,6 +63,15 @@ pub const STAGES: [Work<Stages>; 9] = [
         let (reference, goal) = (&s.reference(), s.plan.setup.goal);
         let question = Question { reference, q: &s.joints.q, before: &s.before, goal };
         drop(black_box(compensate(&s.plan, &question, &mut Progress::none())));
+    }),
+    ("uncertainty: band", |s| {
+        let Report { plan, q, before, compensation, after, deflection_only, .. } = &s.report;
+        let errors = NominalErrors {
+            before: &before.contour_error,
+            after: &after.contour_error,
+            deflection: &deflection_only.contour_error,
+        };
+        drop(black_box(band(plan, (q, &compensation.q), &errors)));
     }),
     // A report keeps its fingerprint, so that is computed apart.
     ("report: summary", |s| drop(black_box((s.report.hash(), s.report.summary())))),

@@ -3,6 +3,7 @@
 
 pub mod contour;
 pub mod missed;
+pub mod near;
 pub mod reference;
 pub mod simulate;
 pub mod wall;

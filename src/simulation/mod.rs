@@ -14,7 +14,7 @@ use crate::plan::Plan;
 use crate::report::{Report, singularity, warning};
 use crate::robot::Joints;
 use crate::setup::{Goal, Setup};
-use crate::uncertainty::band;
+use crate::uncertainty::{NominalErrors, band};
 use std::sync::Arc;
 
 /// Computes a job.
@@ -41,8 +41,12 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     let (compensation, after, deflection_only) = correct(&plan, reference, &q, &before, &steps, progress);
     let roll = roll::gain(&plan, &q, &before.total);
     let ErrorsBySource { total: before, shaping: shaping_only, deflection } = before;
-    let errors = (before.contour_error.as_slice(), after.contour_error.as_slice());
-    let band = band(&plan, (&q, &compensation.q), errors);
+    let errors = NominalErrors {
+        before: &before.contour_error,
+        after: &after.contour_error,
+        deflection: &deflection_only.contour_error,
+    };
+    let band = band(&plan, (&q, &compensation.q), &errors);
     let mut report = Report {
         plan,
         q,

@@ -4,7 +4,7 @@
 use crate::job::{Job, SpinMode};
 use crate::math::Pose;
 use crate::motion::{Trajectory, roll};
-use crate::path::Roll;
+use crate::path::{Path, Roll};
 use crate::placement;
 use crate::plan::Plan;
 use crate::progress::Progress;
@@ -31,8 +31,11 @@ const SHAPED: [&str; 2] = ["corners-rounded", "shaper-sampling"];
 /// Step of the turns tried [deg], and their number to either side.
 const STEP_DEG: f64 = 10.0;
 const STEPS: usize = 18;
-/// Largest number of turns that are checked at every sample.
+/// Largest number of turns that are checked closely.
 const MOST_CHECKED: usize = 4;
+/// Most places along the path of a close check. Between them, joints turn by far less than
+/// [`CORRECTION`].
+const CLOSE: usize = 2000;
 /// Room to the joint limits that the correction of the compensated command may take [rad].
 const CORRECTION: f64 = 0.5 * DEG;
 
@@ -61,6 +64,15 @@ struct Clearance {
     singular: bool,
     /// Largest turn of a joint from one sample to the next [rad].
     jump: f64,
+}
+
+/// A plan at every sample, or at [`CLOSE`] places if there are more.
+fn closely(plan: &Plan, path: Path) -> Plan {
+    if plan.trajectory.len() > CLOSE {
+        return plan.at_stations(path, CLOSE);
+    }
+    let trajectory = Arc::new(Trajectory::new(&path, &plan.setup.limits));
+    Plan { path, trajectory, ..plan.clone() }
 }
 
 /// The clearance of a plan's motion; `None` if the arm cannot follow it.
@@ -94,8 +106,9 @@ fn turned(job: &Job, plan: &Plan) -> Option<TurnedTool> {
         let path = plan.path.clone().with_roll(Roll::fixed(angle_deg * DEG));
         clearance(&Plan { path, ..plan.clone() }).filter(|clearance| !clearance.singular)
     };
-    let every_sample = |angle_deg: f64, least: f64| {
-        held(plan, angle_deg).is_some_and(|clearance| clearance.room >= least && clearance.jump <= JUMP)
+    let close = closely(plan, plan.path.clone());
+    let is_clear = |angle_deg: f64, least: f64| {
+        held(&close, angle_deg).is_some_and(|clearance| clearance.room >= least && clearance.jump <= JUMP)
     };
     let roomy = LIMIT_MARGIN + CORRECTION;
     let steps = (1..=STEPS).flat_map(|i| [i as f64, -(i as f64)]).take(2 * STEPS - 1);
@@ -105,7 +118,7 @@ fn turned(job: &Job, plan: &Plan) -> Option<TurnedTool> {
         match held(&stations, angle_deg) {
             Some(clearance) if clearance.room >= roomy && checked < MOST_CHECKED => {
                 checked += 1;
-                if every_sample(angle_deg, roomy) {
+                if is_clear(angle_deg, roomy) {
                     return Some(TurnedTool { remedy: turn(job, turn_deg, angle_deg), roomy: true });
                 }
             }
@@ -114,7 +127,7 @@ fn turned(job: &Job, plan: &Plan) -> Option<TurnedTool> {
         }
     }
     let mut tight = tight.into_iter().take(MOST_CHECKED);
-    let (turn_deg, angle_deg) = tight.find(|(_, angle_deg)| every_sample(*angle_deg, CORRECTION))?;
+    let (turn_deg, angle_deg) = tight.find(|(_, angle_deg)| is_clear(*angle_deg, CORRECTION))?;
     Some(TurnedTool { remedy: turn(job, turn_deg, angle_deg), roomy: false })
 }
 
@@ -149,8 +162,7 @@ fn placed(job: &Job, plan: &Plan) -> Option<Remedy> {
     let shift = (Vector3::from(to) - Vector3::from(from)) * MM;
     let position = setup.base.inverse().direction(&shift);
     let path = plan.path.placed(&Pose { position, ..Pose::identity() });
-    let trajectory = Arc::new(Trajectory::new(&path, &setup.limits));
-    let clearance = clearance(&Plan { path, trajectory, ..plan.clone() })?;
+    let clearance = clearance(&closely(plan, path))?;
     let [x, y, z] = to;
     (clearance.room >= CORRECTION && clearance.jump <= JUMP).then(|| Remedy {
         label: format!("Place the path in front of the robot, the workpiece at ({x}, {y}, {z}) mm"),

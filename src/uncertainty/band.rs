@@ -1,26 +1,20 @@
 //! The band of the largest contour error over the drawn plants, what widens it, and what it would
 //! be otherwise.
 
-use crate::cutting::LinearForce;
-use crate::deviation::contour;
 use crate::job::Sources;
-use crate::motion::TimingLaw;
 use crate::plan::Plan;
 use crate::robot::Joints;
-use crate::setup::Setup;
-use crate::spread::{InputSpread, Spreads, Stiffness};
+use crate::spread::{COVERAGE, InputSpread, Spreads, Stiffness};
+use crate::uncertainty::column::DrawnColumn;
 use crate::uncertainty::draw::{self, Deviates, Draw};
-use crate::uncertainty::place::{DrawnPlace, places};
-use crate::uncertainty::{Quantiles, chosen, quantile};
+use crate::uncertainty::outcomes::{Outcomes, Plants, filtered};
+use crate::uncertainty::{Quantiles, chosen};
 use nalgebra::Vector3;
-use std::sync::Arc;
 
 /// Most places at which every draw is evaluated.
 const PLACES: usize = 256;
 /// Places that decide where only the largest error counts.
 const DECISIVE: usize = 48;
-/// Frequencies at which the filtered motion is computed; in between it is interpolated.
-const FREQUENCIES: usize = 9;
 /// 95 % ranges after a measurement [%]: stiffness identified from loaded poses, coefficients from a
 /// dynamometer, the filter's frequency read from the controller.
 const MEASURED: [f64; 3] = [5.0, 10.0, 1.0];
@@ -32,6 +26,8 @@ pub struct ErrorBand {
     pub samples: Vec<usize>,
     /// 95 % quantile of the contour error at each of them [m].
     pub p95: Vec<f64>,
+    /// A first estimate of it at every sample [m].
+    pub estimate: Vec<f64>,
     /// Largest contour error with the commands kept.
     pub after: Quantiles,
     /// The same at the top of the cut.
@@ -82,7 +78,8 @@ pub enum BreakEven {
 }
 
 impl ErrorBand {
-    /// 95 % quantile of the contour error at a sample [m], straight between the places.
+    /// 95 % quantile of the contour error at a sample [m]: at the places as computed; in between, it
+    /// differs from the estimate by a straight line.
     pub fn p95_at(&self, sample: usize) -> f64 {
         let above = self.samples.partition_point(|&k| k < sample);
         let Some(&to) = self.samples.get(above) else { return self.p95.last().copied().unwrap_or(0.0) };
@@ -91,117 +88,38 @@ impl ErrorBand {
         }
         let from = self.samples[above - 1];
         let part = (sample - from) as f64 / (to - from) as f64;
-        self.p95[above - 1] + (self.p95[above] - self.p95[above - 1]) * part
+        let beyond = |place: usize| self.p95[place] - self.estimate[self.samples[place]];
+        let line = beyond(above - 1) + (beyond(above) - beyond(above - 1)) * part;
+        (self.estimate[sample] + line).max(0.0)
     }
 }
 
-/// The plant with one of a few frequencies of its filter: factor on the frequency, plan, and timing of
-/// the tool.
-type Filtered<'a> = (f64, &'a Plan, &'a TimingLaw);
-
-/// The plan with each frequency of the filter at which it is computed, rising; the nominal one is in
-/// the middle.
-fn filtered(plan: &Plan) -> Vec<(f64, Plan)> {
-    let spread = plan.setup.spreads.frequency;
-    if spread.deviation() == 0.0 || plan.shaper().duration() == 0.0 {
-        return vec![(1.0, plan.clone())];
-    }
-    let tuned = |k: usize| {
-        let factor = spread.at(draw::CUT_OFF * (2.0 * k as f64 / (FREQUENCIES - 1) as f64 - 1.0));
-        let setup = Setup { shaper: plan.shaper().tuned(factor), ..(*plan.setup).clone() };
-        (factor, Plan { setup: Arc::new(setup), ..plan.clone() })
-    };
-    (0..FREQUENCIES).map(tuned).collect()
+/// Nominal contour errors [m].
+#[derive(Debug, Clone, Copy)]
+pub struct NominalErrors<'a> {
+    /// With the desired path commanded.
+    pub before: &'a [Vector3<f64>],
+    /// With the kept commands.
+    pub after: &'a [Vector3<f64>],
+    /// With the desired path commanded and only forces acting.
+    pub deflection: &'a [Vector3<f64>],
 }
 
-/// What every set of commands is sent through.
-struct Plants<'a> {
-    filtered: Vec<Filtered<'a>>,
-    parts: [LinearForce; 3],
-}
-
-impl Plants<'_> {
-    fn nominal(&self) -> Filtered<'_> {
-        self.filtered[self.filtered.len() / 2]
-    }
-
-    /// The outcome of joint commands [rad] at samples, at a height above the tip [m].
-    fn send(&self, q: &[Joints], at: &[usize], height: f64) -> Outcomes<'_> {
-        let node = |(factor, plan, timing): &Filtered| {
-            (*factor, places(plan, (timing, &self.parts), (q, at), height))
-        };
-        Outcomes { plan: self.nominal().1, nodes: self.filtered.iter().map(node).collect() }
-    }
-}
-
-/// Where commands take the tip at a few places.
-struct Outcomes<'a> {
-    plan: &'a Plan,
-    /// Factors on the filter's frequency, rising, and the places with each.
-    nodes: Vec<(f64, Vec<DrawnPlace>)>,
-}
-
-impl Outcomes<'_> {
-    /// Contour error at a place with a drawn plant [m].
-    fn error(&self, place: usize, draw: &Draw) -> Vector3<f64> {
-        let (path, node) = (&self.plan.path, |k: usize| &self.nodes[k].1[place]);
-        let above = self.nodes.partition_point(|(factor, _)| *factor < draw.frequency);
-        if above == 0 || above == self.nodes.len() {
-            let place = node(above.min(self.nodes.len() - 1));
-            let tip = place.tip(self.plan, draw);
-            return contour::closest(path, (place.arc_length, &place.target), &tip).point - tip;
-        }
-        let (from, to) = (node(above - 1), node(above));
-        let (low, high) = (self.nodes[above - 1].0, self.nodes[above].0);
-        let part = (draw.frequency - low) / (high - low);
-        let s = from.arc_length + (to.arc_length - from.arc_length) * part;
-        let tip = from.tip(self.plan, draw).lerp(&to.tip(self.plan, draw), part);
-        contour::closest(path, (s, &path.point(s)), &tip).point - tip
-    }
-
-    /// Largest contour error with a drawn plant [m], at some of the places.
-    fn largest_at(&self, places: &[usize], draw: &Draw) -> f64 {
-        places.iter().map(|&place| self.error(place, draw).norm()).fold(0.0, f64::max)
-    }
-
-    /// Largest contour error with a drawn plant [m].
-    fn largest(&self, draw: &Draw) -> f64 {
-        (0..self.nodes[0].1.len()).map(|place| self.error(place, draw).norm()).fold(0.0, f64::max)
-    }
-}
-
-/// The band of the commands `kept`, and of those for the `desired` path [rad]; `before` and `after`
-/// are their nominal contour errors [m].
-pub fn band(
-    plan: &Plan,
-    (desired, kept): (&[Joints], &[Joints]),
-    (before, after): (&[Vector3<f64>], &[Vector3<f64>]),
-) -> ErrorBand {
+/// The band of the commands `kept`, and of those for the `desired` path [rad].
+pub fn band(plan: &Plan, (desired, kept): (&[Joints], &[Joints]), errors: &NominalErrors) -> ErrorBand {
     let spreads = &plan.setup.spreads;
-    let norms = |errors: &[Vector3<f64>]| errors.iter().map(Vector3::norm).collect::<Vec<_>>();
-    let signals = [norms(before), norms(after)];
-    let samples = chosen::places(&[&signals[0], &signals[1]], PLACES);
     let deviates = draw::deviates(spreads.seed, spreads.draws);
     let draws: Vec<Draw> = deviates.iter().map(|z| Draw::at(spreads, z)).collect();
+    let before = errors.before;
+    let estimate = estimate(errors, reach(spreads));
+    let first = chosen::places(&estimate, errors, PLACES / 2);
 
     let plans = filtered(plan);
     let timings: Vec<_> = plans.iter().map(|(_, plan)| plan.timing(Sources::ALL)).collect();
     let filtered = plans.iter().zip(&timings).map(|((factor, plan), timing)| (*factor, plan, &**timing));
     let plants = Plants { filtered: filtered.collect(), parts: plan.setup.cut.mean_force_parts() };
-    let compensated = plants.send(kept, &samples, 0.0);
-    let mut largest = vec![0.0_f64; draws.len()];
-    let mut errors = Vec::with_capacity(draws.len());
-    let p95: Vec<f64> = (0..samples.len())
-        .map(|place| {
-            errors.clear();
-            errors.extend(draws.iter().map(|draw| compensated.error(place, draw).norm()));
-            for (largest, error) in largest.iter_mut().zip(&errors) {
-                *largest = largest.max(*error);
-            }
-            errors.sort_unstable_by(f64::total_cmp);
-            quantile::quantile(&errors, 0.95)
-        })
-        .collect();
+    let DrawnColumn { samples, p95, largest, outcomes: compensated } =
+        DrawnColumn::new(&plants, (kept, &draws), (first, &estimate), PLACES);
     let decisive = most(&p95, |_| true);
     let at = |places: Vec<usize>| {
         let mut at: Vec<usize> = places.into_iter().map(|place| samples[place]).collect();
@@ -211,7 +129,7 @@ pub fn band(
     let engaged = &plants.nominal().2.engaged;
     let cutting = at(most(&p95, |place| engaged[samples[*place]] > 0.0));
     let top = plants.send(kept, &cutting, plan.setup.cut.axial_depth);
-    let nominal: Vec<f64> = samples.iter().map(|&k| signals[0][k]).collect();
+    let nominal: Vec<f64> = samples.iter().map(|&k| before[k].norm()).collect();
     let uncompensated = plants.send(desired, &at(most(&nominal, |_| true)), 0.0);
     let largest_before: Vec<f64> = draws.iter().map(|draw| uncompensated.largest(draw)).collect();
     let worse = largest.iter().zip(&largest_before).filter(|(after, before)| after > before).count();
@@ -225,10 +143,24 @@ pub fn band(
         before: Quantiles::of(largest_before),
         samples,
         p95,
+        estimate,
         after,
         break_even,
         worse: worse as f64 / draws.len() as f64,
     }
+}
+
+/// A first estimate of the 95 % quantile at each sample [m]: a softer and a stiffer plant add the
+/// part `reach` of the deflection to what is left, or take it away.
+fn estimate(NominalErrors { after, deflection, .. }: &NominalErrors, reach: f64) -> Vec<f64> {
+    let errors = after.iter().zip(*deflection);
+    errors.map(|(after, bent)| (after + bent * reach).norm().max((after - bent * reach).norm())).collect()
+}
+
+/// The part of the deflection by which a plant at the end of the 95 % ranges differs, to first order.
+fn reach(spreads: &Spreads) -> f64 {
+    let stiffness = spreads.stiffness.covariance().diagonal().max();
+    COVERAGE * (stiffness + spreads.cutting.deviation() * spreads.cutting.deviation()).sqrt()
 }
 
 /// The places with the largest values, the largest first, and as many all along the path: with

@@ -11,7 +11,9 @@ pub mod place;
 pub mod quantile;
 mod band;
 mod chosen;
+mod column;
+mod outcomes;
 
-pub use band::{BreakEven, ErrorBand, Measure, Share, band};
+pub use band::{BreakEven, ErrorBand, Measure, NominalErrors, Share, band};
 pub use draw::Draw;
 pub use quantile::Quantiles;

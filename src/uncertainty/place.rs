@@ -5,6 +5,7 @@
 //! are kept, with the levers held as they are under the nominal force (they turn by less than 1e-3).
 
 use crate::cutting::{LinearForce, along};
+use crate::deviation::near::NearMove;
 use crate::motion::TimingLaw;
 use crate::plan::Plan;
 use crate::robot::{Joints, equilibrium, forward, jacobian};
@@ -18,6 +19,8 @@ pub struct DrawnPlace {
     pub arc_length: f64,
     /// Where the tool should be [m].
     pub target: Vector3<f64>,
+    /// The move there.
+    pub near: NearMove,
     /// Shaped pose without deflection [m].
     base: Vector3<f64>,
     /// Displacement of the tip per unit turn of each joint [m].
@@ -26,10 +29,10 @@ pub struct DrawnPlace {
     torque: [[f64; 3]; 6],
     /// Torque of the weight [N m].
     weight: [f64; 6],
-    /// Bending of the tool by each part of the nominal force [m].
-    bending: [Vector3<f64>; 3],
-    /// Sag by each joint where the workpiece was touched off [m].
-    sag: [Vector3<f64>; 6],
+    /// Bending of the tool by each part of the nominal force [m], if it bends.
+    bending: Option<[Vector3<f64>; 3]>,
+    /// Sag by each joint where the workpiece was touched off [m], if joints sag.
+    sag: Option<[Vector3<f64>; 6]>,
 }
 
 /// The places of joint commands `q` [rad] at the samples `at`, with the point of the tool at the
@@ -64,46 +67,62 @@ pub fn places(
                 (springs.map(|(_, v)| v), [0.0; 6], springs)
             }
         };
-        let bending = force.map(|force| {
-            let bend = plan.setup.bending.map(|bending| bending.deflection(&axis, &force));
-            let (moved, turned) = bend.unwrap_or_default();
-            moved + turned.cross(&axis) * height
+        let bending = plan.setup.bending.map(|bending| {
+            force.map(|force| {
+                let (moved, turned) = bending.deflection(&axis, &force);
+                moved + turned.cross(&axis) * height
+            })
         });
+        let sag = robot.sag().map(|(moved, turned)| moved + turned.cross(&axis) * height);
+        let (index, within) = plan.path.within(index, s);
+        let target = plan.path.point_at((index, within));
         DrawnPlace {
             arc_length: s,
-            target: plan.path.point_at(plan.path.within(index, s)),
+            target,
+            near: NearMove::new(&plan.path.moves()[index].segment, within, (s, target)),
             base: tcp.position + (axis - wanted) * height,
             moves: moves.map(up),
             torque: levers.map(|v| force.map(|force| v.dot(&force))),
             weight,
             bending,
-            sag: robot.sag().map(|(moved, turned)| moved + turned.cross(&axis) * height),
+            sag: robot.statics().map(|_| sag),
         }
     };
     at.iter().zip(forces).map(place).collect()
 }
 
 impl DrawnPlace {
+    /// Turn of each joint [rad] with a drawn force and nominal stiffness.
+    fn turns(&self, plan: &Plan, [tangential, radial, axial]: &[f64; 3]) -> [f64; 6] {
+        let torque = |joint: usize| {
+            let [t, r, a] = self.torque[joint];
+            t * tangential + r * radial + a * axial + self.weight[joint]
+        };
+        match plan.robot.statics() {
+            Some(statics) => std::array::from_fn(|joint| statics.springs[joint].turn(torque(joint))),
+            None => std::array::from_fn(|joint| plan.robot.compliance()[joint] * torque(joint)),
+        }
+    }
+
     /// Displacement of the tip by each joint's turn [m] with a drawn force and nominal stiffness.
     pub fn by_joint(&self, plan: &Plan, force: &[f64; 3]) -> [Vector3<f64>; 6] {
-        let turn = |joint: usize| {
-            let [t, r, a] = self.torque[joint];
-            let torque = t * force[0] + r * force[1] + a * force[2] + self.weight[joint];
-            match plan.robot.statics() {
-                Some(statics) => statics.springs[joint].turn(torque),
-                None => plan.robot.compliance()[joint] * torque,
-            }
-        };
-        std::array::from_fn(|joint| self.moves[joint] * turn(joint) - self.sag[joint])
+        let turns = self.turns(plan, force);
+        let sag = self.sag.unwrap_or_default();
+        std::array::from_fn(|joint| self.moves[joint] * turns[joint] - sag[joint])
     }
 
     /// The actual tip [m] with a drawn plant.
     pub fn tip(&self, plan: &Plan, draw: &Draw) -> Vector3<f64> {
         let mut tip = self.base;
-        for (moved, factor) in self.by_joint(plan, &draw.force).iter().zip(draw.compliance) {
-            tip += moved * factor;
+        for ((moved, turn), factor) in
+            self.moves.iter().zip(self.turns(plan, &draw.force)).zip(draw.compliance)
+        {
+            tip += moved * (turn * factor);
         }
-        for (bent, factor) in self.bending.iter().zip(draw.force) {
+        for (sagged, factor) in self.sag.iter().flatten().zip(draw.compliance) {
+            tip -= sagged * factor;
+        }
+        for (bent, factor) in self.bending.iter().flatten().zip(draw.force) {
             tip += bent * factor;
         }
         tip

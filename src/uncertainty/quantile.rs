@@ -37,9 +37,32 @@ pub fn quantile(sorted: &[f64], share: f64) -> f64 {
     sorted[below] + (sorted[above] - sorted[below]) * (place - below as f64)
 }
 
+/// The same of a sample in any order, which it changes.
+pub fn of_unsorted(sample: &mut [f64], share: f64) -> f64 {
+    let Some(last) = sample.len().checked_sub(1) else { return 0.0 };
+    let place = (share * sample.len() as f64 - 0.5).clamp(0.0, last as f64);
+    let (_, below, above) = sample.select_nth_unstable_by(place.floor() as usize, f64::total_cmp);
+    let above = above.iter().copied().min_by(f64::total_cmp).unwrap_or(*below);
+    *below + (above - *below) * (place - place.floor())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn order_does_not_matter() {
+        let mut random = fastrand::Rng::with_seed(4);
+        for count in [1, 2, 19, 20, 21, 1000] {
+            let mut sample: Vec<f64> = (0..count).map(|_| random.f64()).collect();
+            let mut sorted = sample.clone();
+            sorted.sort_by(f64::total_cmp);
+            for share in [0.0, 0.5, 0.95, 1.0] {
+                assert_eq!(of_unsorted(&mut sample, share).to_bits(), quantile(&sorted, share).to_bits());
+            }
+        }
+        assert_eq!(of_unsorted(&mut [], 0.5), 0.0);
+    }
 
     #[test]
     fn quantiles_of_even_steps_are_the_steps() {

@@ -112,7 +112,7 @@ pub(crate) type Pinned = (&'static str, Vec<(&'static str, Value)>, &'static str
 pub(crate) fn pinned() -> [Pinned; 5] {
     use serde_json::json;
     [
-        ("default", vec![], "bcac12a00764612f0141fc3a968c4ac0"),
+        ("default", vec![], "db7555060b53099a3da40c516d9f21e8"),
         (
             "rounded rectangle, EI in Hz, chip from feed, tilted part, offset tool",
             vec![
@@ -126,7 +126,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("workpiece_frame", json!({"xyz_mm":[10,20,30],"rpy_deg":[10,-20,30]})),
                 ("tool_frame", json!({"xyz_mm":[0,50,120],"rpy_deg":[0,30,0]})),
             ],
-            "e45e90d7a246b215fd409c069a7b59cc",
+            "9f7b63ac13da37bf9a7163f3efab0467",
         ),
         (
             "points, ZVDD, another branch",
@@ -135,7 +135,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("shaper", json!({"kind":"zvdd","frequency_rad_s":60,"damping":0.02})),
                 ("start_branch", json!({"shoulder":"front","elbow":"negative","wrist":"flipped"})),
             ],
-            "7d1deb1a595c7175ca1619d8f3c2a60b",
+            "ed2ad1c037c7806b0cb5616af55f7898",
         ),
         (
             "arc without shaper",
@@ -146,7 +146,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ),
                 ("shaper", json!("none")),
             ],
-            "220af0627d6940b3c3060c9aae9bf99a",
+            "7461f9300077fbf831ec5e09de653347",
         ),
         (
             "ball nose by catalogue constants, conventional milling, a tool that bends",
@@ -163,7 +163,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("cutting.engagement", json!("conventional")),
                 ("cutting.radial_depth_mm", json!(2.5)),
             ],
-            "7fd1233f3465de92ee1acec4efb4c343",
+            "c637a87f7ae4a9bf1ed2a13b5abf111e",
         ),
     ]
 }
