@@ -111,7 +111,7 @@ pub fn band(plan: &Plan, (desired, kept): (&[Joints], &[Joints]), errors: &Nomin
     let deviates = draw::deviates(spreads.seed, spreads.draws);
     let draws: Vec<Draw> = deviates.iter().map(|z| Draw::at(spreads, z)).collect();
     let before = errors.before;
-    let estimate = estimate(errors, reach(spreads));
+    let estimate = estimate(errors, reach(plan));
     let first = chosen::places(&estimate, errors, PLACES / 2);
 
     let plans = filtered(plan);
@@ -158,8 +158,12 @@ fn estimate(NominalErrors { after, deflection, .. }: &NominalErrors, reach: f64)
 }
 
 /// The part of the deflection by which a plant at the end of the 95 % ranges differs, to first order.
-fn reach(spreads: &Spreads) -> f64 {
-    let stiffness = spreads.stiffness.covariance().diagonal().max();
+fn reach(plan: &Plan) -> f64 {
+    let spreads = &plan.setup.spreads;
+    let variance = spreads.stiffness.covariance().diagonal();
+    // A rigid joint adds nothing, however little is known of it.
+    let soft = variance.iter().zip(plan.robot.compliance()).filter(|(_, compliance)| **compliance > 0.0);
+    let stiffness = soft.map(|(variance, _)| *variance).fold(0.0, f64::max);
     COVERAGE * (stiffness + spreads.cutting.deviation() * spreads.cutting.deviation()).sqrt()
 }
 

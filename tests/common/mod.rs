@@ -112,7 +112,7 @@ pub(crate) type Pinned = (&'static str, Vec<(&'static str, Value)>, &'static str
 pub(crate) fn pinned() -> [Pinned; 5] {
     use serde_json::json;
     [
-        ("default", vec![], "db7555060b53099a3da40c516d9f21e8"),
+        ("default", vec![], "beb394495f7cd38dbcf9d5158e56bc6c"),
         (
             "rounded rectangle, EI in Hz, chip from feed, tilted part, offset tool",
             vec![
@@ -126,7 +126,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("workpiece_frame", json!({"xyz_mm":[10,20,30],"rpy_deg":[10,-20,30]})),
                 ("tool_frame", json!({"xyz_mm":[0,50,120],"rpy_deg":[0,30,0]})),
             ],
-            "9f7b63ac13da37bf9a7163f3efab0467",
+            "531451fb61c1963151e34e9663fb675b",
         ),
         (
             "points, ZVDD, another branch",
@@ -135,7 +135,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("shaper", json!({"kind":"zvdd","frequency_rad_s":60,"damping":0.02})),
                 ("start_branch", json!({"shoulder":"front","elbow":"negative","wrist":"flipped"})),
             ],
-            "ed2ad1c037c7806b0cb5616af55f7898",
+            "9e605a6a831b63bc3d4ddc7c5d9ac36c",
         ),
         (
             "arc without shaper",
@@ -146,7 +146,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ),
                 ("shaper", json!("none")),
             ],
-            "7461f9300077fbf831ec5e09de653347",
+            "31c59fe150b30e6f61844077142aa7a4",
         ),
         (
             "ball nose by catalogue constants, conventional milling, a tool that bends",
@@ -163,7 +163,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("cutting.engagement", json!("conventional")),
                 ("cutting.radial_depth_mm", json!(2.5)),
             ],
-            "c637a87f7ae4a9bf1ed2a13b5abf111e",
+            "7ac5ecc509aeabeb2899eb510133fb76",
         ),
     ]
 }
