@@ -46,8 +46,8 @@ pub struct Identified {
 
 #[derive(Debug)]
 enum Found {
-    Stiffness(Box<Fit>, summary::StiffnessSummary),
-    Response(response::Signal, Box<Mode>, summary::ResponseSummary),
+    Stiffness(Box<(Fit, summary::StiffnessSummary)>),
+    Response(Box<(response::Signal, Mode, summary::ResponseSummary)>),
 }
 
 /// Joint compliances of a job's robot from rows of joint angles, force and displacement;
@@ -61,7 +61,7 @@ pub fn identify_stiffness(job: &str, text: &str, convention: &str) -> Result<Ide
         let measurements = measurement::read(text, convention)?;
         let fit = stiffness::fit(&robot, &measurements.rows)?;
         let summary = summary::stiffness(&robot, &measurements, &fit);
-        Ok(Identified { found: Found::Stiffness(Box::new(fit), summary) })
+        Ok(Identified { found: Found::Stiffness(Box::new((fit, summary))) })
     };
     identify().map_err(|error: Error| thrown(&error))
 }
@@ -74,7 +74,7 @@ pub fn identify_response(text: &str, from_s: Option<f64>) -> Result<Identified, 
         let signal = response::Signal::read(text)?;
         let mode = response::mode(&signal, from_s)?;
         let summary = summary::response(&mode);
-        Ok(Identified { found: Found::Response(signal, Box::new(mode), summary) })
+        Ok(Identified { found: Found::Response(Box::new((signal, mode, summary))) })
     };
     identify().map_err(|error: Error| thrown(&error))
 }
@@ -85,8 +85,8 @@ impl Identified {
     #[wasm_bindgen(unchecked_return_type = "Identification")]
     pub fn summary(&self) -> Result<JsValue, JsValue> {
         match &self.found {
-            Found::Stiffness(_, summary) => object(summary),
-            Found::Response(_, _, summary) => object(summary),
+            Found::Stiffness(both) => object(&both.1),
+            Found::Response(all) => object(&all.2),
         }
     }
 
@@ -113,8 +113,8 @@ impl Identified {
 impl Found {
     fn drawn(&self) -> identified::Fitted<'_> {
         match self {
-            Found::Stiffness(fit, _) => identified::Fitted::Stiffness(fit),
-            Found::Response(signal, mode, _) => identified::Fitted::Response(signal, mode),
+            Found::Stiffness(both) => identified::Fitted::Stiffness(&both.0),
+            Found::Response(all) => identified::Fitted::Response(&all.0, &all.1),
         }
     }
 }
