@@ -73,7 +73,7 @@ const STALLED: f64 = 0.8;
 
 /// Corrects the path until the largest error is well within the tolerance (a tenth of it),
 /// the passes are used up, or a pass brings no more improvement. The best pass is kept. A path
-/// already within the tolerance stays as it is.
+/// already within the tolerance at 95 % stays as it is.
 pub fn compensate(plan: &Plan, question: &Question, progress: &mut Progress) -> Compensation {
     let Question { reference, q, before, goal } = *question;
     let mut best = Compensation {
@@ -88,7 +88,8 @@ pub fn compensate(plan: &Plan, question: &Question, progress: &mut Progress) -> 
         stopped: None,
     };
     for pass in 1..=goal.max_passes {
-        if best.history_max[best.passes] <= goal.tolerance * if best.passes == 0 { 1.0 } else { AIM } {
+        let aim = if best.passes == 0 { 1.0 / goal.margin } else { AIM };
+        if best.history_max[best.passes] <= goal.tolerance * aim {
             break;
         }
         let mut progress = progress.part(

@@ -7,6 +7,9 @@ use nalgebra::Matrix6;
 /// Standard normal quantile of 97.5 %: half a 95 % range in standard deviations.
 pub const COVERAGE: f64 = 1.959_963_984_540_054;
 
+/// Standard normal quantile of 95 %.
+const ONE_SIDED: f64 = 1.644_853_626_951_472;
+
 /// The distribution of a factor: true value over assumed value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum InputSpread {
@@ -35,6 +38,11 @@ impl InputSpread {
         }
     }
 
+    /// The factors below and above which 5 % lie.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.at(-ONE_SIDED), self.at(ONE_SIDED)]
+    }
+
     /// Relative standard deviation; of a lognormal, that of the logarithm.
     pub fn deviation(&self) -> f64 {
         let (Self::Normal(deviation) | Self::Lognormal(deviation)) = self;
@@ -44,10 +52,22 @@ impl InputSpread {
     /// The 95 % range in words.
     pub fn words(&self) -> String {
         match self {
-            Self::Normal(deviation) => format!("±{:.0} %", 100.0 * COVERAGE * deviation),
-            Self::Lognormal(deviation) => format!("a factor of {:.1}", math::exp(COVERAGE * deviation)),
+            Self::Normal(deviation) => format!("±{} %", two_digits(100.0 * COVERAGE * deviation)),
+            Self::Lognormal(deviation) => {
+                format!("a factor of {}", three_digits(math::exp(COVERAGE * deviation)))
+            }
         }
     }
+}
+
+/// A number to a tenth, without a zero behind the point.
+fn two_digits(value: f64) -> String {
+    format!("{value:.1}").trim_end_matches(".0").to_owned()
+}
+
+/// A number to a hundredth, without zeros at the end.
+fn three_digits(value: f64) -> String {
+    format!("{value:.2}").trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// How the joint compliances vary.
@@ -64,22 +84,30 @@ impl Stiffness {
     /// Compliances with the means `compliance` [rad/(N m)] and a covariance [(rad/(N m))^2],
     /// lognormal so that none is negative. With S_ij = ln(1 + V_ij / (c_i c_j)), the exponential of
     /// normal deviates with covariance S and mean -S_ii / 2 has exactly the means 1 and the
-    /// covariance V_ij / (c_i c_j). `None` if no set of compliances has this covariance.
+    /// covariance V_ij / (c_i c_j). Where compliances are so closely tied that no deviates have this
+    /// S, it is V_ij / (c_i c_j) itself: the same to first order. `None` if no set of compliances has
+    /// this covariance.
     pub fn together(compliance: &[f64; 6], covariance: &[[f64; 6]; 6]) -> Option<Self> {
-        let mut logarithms = Matrix6::zeros();
+        let mut relative = Matrix6::zeros();
         for i in 0..6 {
             for j in 0..6 {
                 let scale = compliance[i] * compliance[j];
                 let value = covariance[i][j];
                 if scale > 0.0 {
-                    logarithms[(i, j)] = math::ln((1.0 + value / scale).max(0.0));
+                    relative[(i, j)] = value / scale;
                 } else if value != 0.0 {
                     return None;
                 }
             }
         }
-        let half = std::array::from_fn(|i| logarithms[(i, i)] / 2.0);
-        cholesky(&logarithms).map(|factor| Self::Together(Box::new((factor, half))))
+        let whole = cholesky(&relative)?;
+        let logarithms = relative.map(|value| math::ln((1.0 + value).max(0.0)));
+        let (factor, variance) = match cholesky(&logarithms) {
+            Some(factor) => (factor, logarithms.diagonal()),
+            None => (whole, relative.diagonal()),
+        };
+        let half = std::array::from_fn(|i| variance[i] / 2.0);
+        Some(Self::Together(Box::new((factor, half))))
     }
 
     /// Factors on the joint compliances at six standard normal deviates.
@@ -94,6 +122,20 @@ impl Stiffness {
                 })
             }
         }
+    }
+
+    /// The factor on the compliance of the joint that may be softest, at 95 %, among those that give
+    /// way.
+    fn softest(&self, compliance: &[f64; 6]) -> f64 {
+        let factors = match self {
+            Self::Each(spreads) => spreads.map(|spread| 1.0 / spread.at(-ONE_SIDED)),
+            Self::Together(both) => {
+                let covariance = both.0 * both.0.transpose();
+                std::array::from_fn(|i| math::exp(ONE_SIDED * covariance[(i, i)].sqrt()))
+            }
+        };
+        let soft = factors.into_iter().zip(compliance).filter(|(_, compliance)| **compliance > 0.0);
+        soft.map(|(factor, _)| factor).fold(1.0, f64::max)
     }
 
     /// Covariance of the factors, to first order.
@@ -151,6 +193,15 @@ pub struct Spreads {
     pub draws: usize,
     /// Seed of the draws.
     pub seed: u64,
+}
+
+impl Spreads {
+    /// How many times as large as assumed the deflection of an arm with these compliances may be, at
+    /// 95 %: its softest joint's, under the largest force. A bound, because not all of the deflection
+    /// comes from that joint.
+    pub fn margin(&self, compliance: &[f64; 6]) -> f64 {
+        self.stiffness.softest(compliance) * self.cutting.at(ONE_SIDED)
+    }
 }
 
 #[cfg(test)]

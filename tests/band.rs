@@ -134,6 +134,36 @@ fn a_covariance_is_met_by_the_draws() {
     assert!(factors.iter().all(|f| f[5] == 1.0));
 }
 
+/// Compliances that one fit can hardly tell apart: no lognormal deviates have this covariance
+/// exactly, the band takes it to first order.
+#[test]
+fn closely_tied_compliances_are_drawn() {
+    let c = [1e-7, 2e-7, 3e-7, 4e-7, 5e-7, 6e-7];
+    let mut covariance = [[0.0; 6]; 6];
+    for i in 0..6 {
+        covariance[i][i] = 0.09 * c[i] * c[i];
+    }
+    covariance[1][2] = -0.95 * 0.09 * c[1] * c[2];
+    covariance[2][1] = covariance[1][2];
+    let stiffness = Stiffness::together(&c, &covariance).unwrap();
+    let found = stiffness.covariance();
+    assert!((found[(1, 2)] + 0.95 * 0.09).abs() < 1e-12 && (found[(1, 1)] - 0.09).abs() < 1e-12);
+    // One that is no covariance at all is refused.
+    covariance[1][2] = -1.05 * 0.09 * c[1] * c[2];
+    covariance[2][1] = covariance[1][2];
+    assert!(Stiffness::together(&c, &covariance).is_none());
+}
+
+#[test]
+fn a_compliance_that_is_not_known_at_all_is_refused() {
+    let mut covariance = [[0.0; 6]; 6];
+    covariance[2][2] = 1.0;
+    let mut job = Job::default();
+    job.uncertainty.compliance_covariance = Some(covariance);
+    let error = run(&job, &mut Progress::none()).unwrap_err();
+    assert_eq!(error.field(), Some("uncertainty.compliance_covariance[2][2]"));
+}
+
 #[test]
 fn the_same_seed_gives_the_same_bits_and_another_one_does_not() {
     let [a, b, c] = [1, 1, 2].map(|seed| default_with(json!({"seed": seed, "draws": 100})).band);

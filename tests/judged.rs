@@ -278,7 +278,8 @@ fn a_tip_within_the_tolerance_is_no_reason_to_leave_the_wall_slanted() {
     // Only the shoulder gives way, far below the cut: the top of the tool is moved more than the tip.
     let robot = json!({"preset":"staubli-rx90","joint_compliance_rad_per_nm":[0,1e-6,0,0,0,0]});
     let high = json!({"kind":"line","from_mm":[500,-60,650],"to_mm":[500,60,650]});
-    let job = [("robot", robot), ("path", high)];
+    let exact = json!({"stiffness_percent":0,"cutting_percent":0});
+    let job = [("robot", robot), ("path", high), ("uncertainty", exact)];
     let with = |part, more: (&'static str, Value)| at(part, &[&job[..], &[more]].concat());
     let as_desired = with("axis", ("compensation.max_passes", json!(0)));
     let (tip, top) = (as_desired.after_max(), as_desired.wall().max);

@@ -89,6 +89,30 @@ fn every_line_is_whole() {
 
 /// `velocity` of the six joints in the URDFs that `sources.txt` names; two are in rad/s
 /// there.
+/// A semicolon within a text would shift the columns behind it.
+#[test]
+fn every_row_has_the_columns_of_its_head() {
+    for table in [
+        include_str!("../src/robot/library/robots.csv"),
+        include_str!("../src/robot/library/stiffness.csv"),
+        include_str!("../src/robot/library/zeros.csv"),
+    ] {
+        let columns = table.lines().next().unwrap().split(';').count();
+        for line in table.lines() {
+            assert_eq!(line.split(';').count(), columns, "{line}");
+        }
+    }
+    for preset in library::robots() {
+        for spread in preset.stiffness_spread {
+            assert!((0.01..2.0).contains(&spread.deviation()), "{}: {spread:?}", preset.id);
+        }
+        assert!(!preset.stiffness_note.contains("  "), "{}", preset.stiffness_note);
+    }
+    for set in library::published() {
+        assert!(!set.source.is_empty() && !set.confidence.is_empty(), "{}", set.key);
+    }
+}
+
 #[test]
 fn joint_speeds_are_those_of_the_sources() {
     let known = library::robots().filter(|preset| preset.joint_speed_deg_s.is_some()).count();

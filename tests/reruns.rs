@@ -103,6 +103,18 @@ fn jobs() -> Vec<(&'static str, Vec<(&'static str, Value)>)> {
             ),
         ),
         (
+            "filter's frequency alone",
+            job(
+                json!({"kind":"polyline","points_mm":[[0,0,0],[70,0,0],[0,45,0]]}),
+                &[
+                    ("cutting.axial_depth_mm", json!(0)),
+                    ("motion.corner_dwell", json!(0)),
+                    ("compensation.max_passes", json!(0)),
+                    ranges(json!({"frequency_percent":30,"draws":DRAWS})),
+                ],
+            ),
+        ),
+        (
             "filter's frequency",
             job(
                 rounded.clone(),

@@ -40,7 +40,7 @@ fn the_tolerance_is_met_by_what_is_known_or_only_by_exact_numbers() {
     let above = job(2e3 * p95, 20.0, &[]);
     let (state, words) = text(&between);
     assert_eq!(state, VerdictState::MetIfNominal);
-    assert!(words.ends_with("is met only if every number is exact."), "{words}");
+    assert!(words.ends_with("is met if the numbers are exact, but not in 95 of 100 cases."), "{words}");
     let (state, words) = text(&above);
     assert_eq!(state, VerdictState::Met);
     assert!(words.starts_with("Expect ") && words.ends_with(" is met."), "{words}");
@@ -93,7 +93,7 @@ fn the_worst_of_tip_top_and_missed_decides() {
     let (tip, top) = (report.after_max(), report.wall().max);
     assert!(tip < 0.01e-3 && top > 0.01e-3, "{tip} {top}");
     assert_eq!(report.verdict_state(), VerdictState::NotMet);
-    let said = format!("is not met: the top of the cut is off by {:.2} mm.", top * 1e3);
+    let said = format!("is not met: the top of the cut is off by {:.4} mm.", top * 1e3);
     assert!(report.verdict().ends_with(&said), "{} {said}", report.verdict());
     // Corrected at tip and axis, both are.
     let axis = job(0.01, 0.0, &[&deep[..], &[("compensation.at", json!("axis"))]].concat());
@@ -119,7 +119,7 @@ fn every_file_says_what_page_and_script_say() {
     for (report, words_of_state) in [
         (cannot, "the arm cannot run it"),
         (job(1.0, 5.0, &[]), "tolerance met"),
-        (job(0.1, 40.0, &[]), "tolerance met only if every number is exact"),
+        (job(0.1, 40.0, &[]), "tolerance met if the numbers are exact"),
         (job(0.001, 40.0, &[("compensation.max_passes", json!(0))]), "tolerance not met"),
     ] {
         let programs = Programs::default();
@@ -176,4 +176,56 @@ fn a_program_that_cannot_be_written_is_not_judged() {
     let usual = programs.usual_accuracy(&report).unwrap();
     assert!(usual.sentence.starts_with("As an APT"), "{}", usual.sentence);
     assert_eq!(usual, programs.accuracy(&report, "apt").unwrap());
+}
+
+/// A filter that is slower than assumed cuts more off a corner: runs of the whole model at the
+/// frequencies of the draws say how much.
+#[test]
+fn what_is_missed_is_drawn_too() {
+    let corner = |frequency_hz: f64, percent: f64| {
+        let changes = [
+            ("path", json!({"kind":"polyline","points_mm":[[-60,-60,0],[60,0,0],[-60,20,0]]})),
+            (
+                "motion",
+                json!({"feed_mm_s":30,"acceleration_mm_s2":300,"sample_time_s":0.004,"corner_dwell":0}),
+            ),
+            ("shaper", json!({"kind":"zvd","frequency_hz":frequency_hz,"damping":0.03})),
+            ("compensation.max_passes", json!(0)),
+            ("uncertainty", json!({"stiffness_percent":0,"cutting_percent":0,"frequency_percent":percent})),
+        ];
+        job(0.23, 0.0, &changes)
+    };
+    let report = corner(10.0, 20.0);
+    let spread = report.setup().spreads.frequency;
+    // 5 % of the frequencies are lower.
+    let slow = corner(10.0 * spread.at(-1.645), 0.0).missed().max;
+    assert!(slow > 1.2 * report.missed().max, "{slow}");
+    assert!((report.band.missed_p95 / slow - 1.0).abs() < 0.01, "{} {slow}", report.band.missed_p95);
+    assert_ne!(report.verdict_state(), VerdictState::Met, "{}", report.verdict());
+}
+
+/// What a run meets at 95 %, one that is asked for less meets too.
+#[test]
+fn a_looser_tolerance_is_no_reason_to_compensate_less() {
+    let mut met = f64::INFINITY;
+    for tolerance in [0.02, 0.05, 0.08, 0.12, 0.2, 0.3, 0.5] {
+        let report = job(tolerance, 40.0, &[]);
+        met = met.min(report.band.after.p95.max(report.band.wall.p95));
+        assert_eq!(met <= tolerance * 1e-3, report.verdict_state() == VerdictState::Met, "{tolerance}");
+    }
+}
+
+#[test]
+fn what_is_not_compensated_is_the_same_before_and_after() {
+    let report = job(0.1, 40.0, &[("compensation.max_passes", json!(0))]);
+    assert_eq!((report.band.before, report.band.worse), (report.band.after, 0.0));
+    assert_eq!(report.how_sure().break_even, "Nothing is compensated.");
+    assert!(report.how_sure().measure_first.is_none_or(|first| first.input != "frequency"));
+}
+
+#[test]
+fn no_quantile_along_the_path_exceeds_that_of_the_largest() {
+    let report = job(0.1, 40.0, &[]);
+    let most = (0..report.samples()).map(|k| report.band.p95_at(k)).fold(0.0, f64::max);
+    assert!(most <= report.band.after.p95);
 }

@@ -70,6 +70,7 @@ pub const STAGES: [Work<Stages>; 10] = [
             before: &before.contour_error,
             after: &after.contour_error,
             deflection: &deflection_only.contour_error,
+            missed: s.report.missed(),
         };
         drop(black_box(band(plan, (q, &compensation.q), &errors)));
     }),

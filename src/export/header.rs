@@ -5,7 +5,7 @@ use crate::export::orientation::roll_pitch_yaw;
 use crate::job::CompensateAt;
 use crate::math::Pose;
 use crate::model;
-use crate::report::{Report, VerdictState, length_text, millimetres};
+use crate::report::{Report, VerdictState, millimetres};
 use crate::units::{DEG, MM};
 
 /// The lines of the header, plain ASCII without brackets, for any language's comments. No date: the
@@ -80,14 +80,14 @@ fn rehearsed(report: &Report, reached: f64) -> Vec<String> {
     let met = match report.verdict_state_at(reached) {
         VerdictState::CannotRun => "the arm cannot run it",
         VerdictState::Met => "tolerance met",
-        VerdictState::MetIfNominal => "tolerance met only if every number is exact",
+        VerdictState::MetIfNominal => "tolerance met if the numbers are exact, but not in 95 of 100 cases",
         VerdictState::NotMet => "tolerance not met",
     };
     let mut lines = vec![format!(
         "Run from this file, timed by its own moves, feeds and stops: largest contour error {} mm if every number is exact, \
          up to {} mm in 95 of 100 cases, {met}",
         millimetres(reached),
-        length_text(report.p95_at(reached), MM, 2)
+        millimetres(report.p95_at(reached))
     )];
     if reached > tolerance && report.after_max() <= tolerance {
         lines.push(

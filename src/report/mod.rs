@@ -31,7 +31,7 @@ pub use verdict::VerdictState;
 pub use warning::Warning;
 
 use crate::compensation::{Compensation, Question, compensate};
-use crate::deviation::{Deviation, Largest, Reference, Source, Sources, missed};
+use crate::deviation::{Deviation, Largest, Reference, Source, Sources};
 use crate::motion::shaper::Shaped;
 use crate::plan::Plan;
 use crate::progress::Progress;
@@ -77,8 +77,8 @@ pub struct Report {
     pub(crate) alone: [OnceLock<Compensation>; 2],
     /// See [`Report::fingerprint`]; computed on first use.
     pub(crate) fingerprint: OnceLock<String>,
-    /// See [`Report::missed`]; computed on first use.
-    pub(crate) missed: OnceLock<Largest>,
+    /// See [`Report::missed`].
+    pub(crate) missed: Largest,
 }
 
 impl Report {
@@ -131,11 +131,7 @@ impl Report {
     /// every source acting: the largest distance from a point of the path to the nearest place that
     /// the tip passes [m].
     pub fn missed(&self) -> Largest {
-        *self.missed.get_or_init(|| {
-            let trajectory = &self.plan.trajectory;
-            let due = self.plan.shaper().apply(&trajectory.timing.arc_length, trajectory.sample_time);
-            missed::missed(&self.plan.path, &due, &self.after.actual)
-        })
+        self.missed
     }
 
     /// The largest error at the top of the cut with the compensated path commanded, every source

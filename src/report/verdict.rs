@@ -14,7 +14,7 @@ pub enum VerdictState {
     CannotRun,
     /// The tolerance is met with 95 % probability by what is known of robot and material.
     Met,
-    /// The tolerance is met only if every number were exact.
+    /// The tolerance is met if the numbers are exact, but not with 95 % probability.
     MetIfNominal,
     /// The tolerance is not met.
     NotMet,
@@ -27,8 +27,9 @@ struct JudgedError {
     nominal: f64,
     /// 95 % quantile with what is known of robot and material.
     p95: f64,
-    /// What is off by it; empty for the tip, of which the figures are anyway.
-    what: &'static str,
+    /// What is off by it with exact numbers, and what may be; empty for the tip, of which the figures
+    /// are anyway.
+    what: [&'static str; 2],
 }
 
 impl Report {
@@ -36,18 +37,20 @@ impl Report {
     /// [m] with exact numbers: that of the tip, of the top of the cut, and what of the path is
     /// missed.
     ///
-    /// The band is that of the joint commands. It is assumed to widen what is missed as it widens
-    /// the contour error, and a program's own error to add to it.
+    /// The band is that of the joint commands; a program's own error is added to it.
     fn judged(&self, reached: f64) -> [JudgedError; 3] {
         let own = self.after_max();
         let more = (reached - own).max(0.0);
-        let widened = (self.band.after.p95 - own).max(0.0);
         let (wall, missed) = (self.wall().max, self.missed().max);
         let error = |nominal: f64, p95: f64, what| JudgedError { nominal, p95: p95 + more, what };
         [
-            error(reached, self.band.after.p95, ""),
-            error(wall + more, self.band.wall.p95, "the top of the cut is off"),
-            error(missed + more, missed + widened, "the path is missed"),
+            error(reached, self.band.after.p95, ["", ""]),
+            error(
+                wall + more,
+                self.band.wall.p95,
+                ["the top of the cut is off", "the top of the cut may be off"],
+            ),
+            error(missed + more, self.band.missed_p95, ["the path is missed", "the path may be missed"]),
         ]
     }
 
@@ -96,10 +99,10 @@ impl Report {
             millimetres(self.setup().goal.tolerance),
             match state {
                 VerdictState::Met => "is met",
-                VerdictState::MetIfNominal => "is met only if every number is exact",
+                VerdictState::MetIfNominal => "is met if the numbers are exact, but not in 95 of 100 cases",
                 VerdictState::NotMet | VerdictState::CannotRun => "is not met",
             },
-            self.decisive(state, self.after_max())
+            self.decisive(state, self.after_max()).map(|clause| format!(": {clause}")).unwrap_or_default()
         )
     }
 
@@ -115,8 +118,8 @@ impl Report {
     }
 
     /// What else than the tip, whose largest contour error is `reached` [m] with exact numbers,
-    /// decides against the tolerance, if something does: `: ` and a clause.
-    pub(crate) fn decisive(&self, state: VerdictState, reached: f64) -> String {
+    /// decides against the tolerance, if something does.
+    pub(crate) fn decisive(&self, state: VerdictState, reached: f64) -> Option<String> {
         let of = |error: &JudgedError| match state {
             VerdictState::MetIfNominal => error.p95,
             _ => error.nominal,
@@ -126,9 +129,10 @@ impl Report {
         let worst = others.iter().max_by(|a, b| of(a).total_cmp(&of(b)));
         match worst {
             Some(worst) if of(worst) > tolerance && of(&tip) <= tolerance => {
-                format!(": {} by {} mm", worst.what, length_text(of(worst), MM, 2))
+                let what = worst.what[usize::from(state == VerdictState::MetIfNominal)];
+                Some(format!("{what} by {} mm", millimetres(of(worst))))
             }
-            _ => String::new(),
+            _ => None,
         }
     }
 }

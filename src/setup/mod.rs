@@ -98,6 +98,9 @@ pub struct Setup {
 pub struct Goal {
     /// Largest error to reach [m]: the contour error of what is brought onto the path.
     pub tolerance: f64,
+    /// How many times as large as simulated the error may be, at 95 %. A path stays as it is only if
+    /// it is within the tolerance even so.
+    pub margin: f64,
     /// Largest number of passes.
     pub max_passes: usize,
 }
@@ -132,13 +135,14 @@ impl Setup {
         let bending = cutting::bending(&job.tool)?;
         let limits = motion::limits(&job.motion, &shaper);
         check_samples(&path, &limits)?;
-        let goal = Goal {
-            tolerance: job.compensation.tolerance_mm * MM,
-            max_passes: job.compensation.max_passes as usize,
-        };
         let sources = sources(&job.compensation.sources)?;
         let compliance = (*robot.compliance()).into();
         let spreads = uncertainty::spreads(&job.uncertainty, &compliance, spread, &material)?;
+        let goal = Goal {
+            margin: spreads.margin(&compliance),
+            tolerance: job.compensation.tolerance_mm * MM,
+            max_passes: job.compensation.max_passes as usize,
+        };
         Ok(Self {
             robot,
             world,

@@ -65,6 +65,15 @@ fn together(compliance: &[f64; 6], covariance: &[[f64; 6]; 6]) -> Result<Stiffne
             }
         }
     }
+    // Beyond that, a lognormal has its mass near zero: the compliance is not known at all.
+    for (i, compliance) in compliance.iter().enumerate() {
+        let deviation = covariance[i][i].max(0.0).sqrt();
+        if *compliance > 0.0 && deviation > *compliance {
+            let value = format!("a standard deviation of {:.2} times the compliance", deviation / compliance);
+            let expected = "at most 1: measure this joint, or give stiffness_factor";
+            return Err(Error::invalid(format!("{field}[{i}][{i}]"), value, expected));
+        }
+    }
     Stiffness::together(compliance, covariance).ok_or_else(|| {
         let expected =
             "six rows of six numbers in (rad/(N m))², positive semidefinite, zero for rigid joints";

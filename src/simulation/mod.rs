@@ -7,7 +7,9 @@ mod roll;
 pub use crate::progress::{Progress, Stage};
 
 use crate::compensation::{Compensation, Question, compensate};
-use crate::deviation::{Deviation, ErrorsBySource, Reference, Source, Sources, simulate, simulate_by_source};
+use crate::deviation::{
+    Deviation, ErrorsBySource, Largest, Reference, Source, Sources, missed, simulate, simulate_by_source,
+};
 use crate::error::Error;
 use crate::job::Job;
 use crate::plan::Plan;
@@ -45,7 +47,9 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
         before: &before.contour_error,
         after: &after.contour_error,
         deflection: &deflection_only.contour_error,
+        missed: missed_by(&plan, &after),
     };
+    let missed = errors.missed;
     let band = band(&plan, (&q, &compensation.q), &errors);
     let mut report = Report {
         plan,
@@ -63,12 +67,19 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
         warnings: singular,
         alone: Default::default(),
         fingerprint: Default::default(),
-        missed: Default::default(),
+        missed,
     };
     report.warnings = warning::warnings(&report);
     report.warn(given::earlier_model(job));
     remedy::offer(job, &mut report);
     Ok(report)
+}
+
+/// What of the desired path the tip of a run never reaches.
+fn missed_by(plan: &Plan, run: &Deviation) -> Largest {
+    let trajectory = &plan.trajectory;
+    let due = plan.shaper().apply(&trajectory.timing.arc_length, trajectory.sample_time);
+    missed::missed(&plan.path, &due, &run.actual)
 }
 
 /// The compensation, its result under every source, and that of the desired path under forces

@@ -1,6 +1,7 @@
 //! The band of the largest contour error over the drawn plants, what widens it, and what it would
 //! be otherwise.
 
+use crate::deviation::Largest;
 use crate::job::Sources;
 use crate::plan::Plan;
 use crate::robot::Joints;
@@ -8,7 +9,7 @@ use crate::spread::{COVERAGE, InputSpread, Spreads, Stiffness};
 use crate::uncertainty::column::DrawnColumn;
 use crate::uncertainty::draw::{self, Deviates, Draw};
 use crate::uncertainty::outcomes::{Outcomes, Plants, filtered};
-use crate::uncertainty::{Quantiles, chosen};
+use crate::uncertainty::{Quantiles, chosen, quantile};
 use nalgebra::Vector3;
 
 /// Most places at which every draw is evaluated.
@@ -18,6 +19,9 @@ const DECISIVE: usize = 48;
 /// 95 % ranges after a measurement [%]: stiffness identified from loaded poses, coefficients from a
 /// dynamometer, the filter's frequency read from the controller.
 const MEASURED: [f64; 3] = [5.0, 10.0, 1.0];
+
+/// A measurement is worth it if it leaves at most this share of the band.
+const WORTH: f64 = 0.95;
 
 /// What the drawn plants leave.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +38,9 @@ pub struct ErrorBand {
     pub wall: Quantiles,
     /// The same with the desired path commanded.
     pub before: Quantiles,
+    /// 95 % quantile of what of the path the tip never reaches with the commands kept [m]; a bound:
+    /// the nominal tip misses so much, and a drawn one is elsewhere by so much there.
+    pub missed_p95: f64,
     /// What the band consists of where it is widest; the shares add up to 1.
     pub shares: Vec<Share>,
     /// The measurement that narrows the band most, if one does.
@@ -84,13 +91,13 @@ impl ErrorBand {
         let above = self.samples.partition_point(|&k| k < sample);
         let Some(&to) = self.samples.get(above) else { return self.p95.last().copied().unwrap_or(0.0) };
         if to == sample || above == 0 {
-            return self.p95[above];
+            return self.p95[above].min(self.after.p95);
         }
         let from = self.samples[above - 1];
         let part = (sample - from) as f64 / (to - from) as f64;
         let beyond = |place: usize| self.p95[place] - self.estimate[self.samples[place]];
         let line = beyond(above - 1) + (beyond(above) - beyond(above - 1)) * part;
-        (self.estimate[sample] + line).max(0.0)
+        (self.estimate[sample] + line).clamp(0.0, self.after.p95)
     }
 }
 
@@ -103,6 +110,8 @@ pub struct NominalErrors<'a> {
     pub after: &'a [Vector3<f64>],
     /// With the desired path commanded and only forces acting.
     pub deflection: &'a [Vector3<f64>],
+    /// What of the path the tip never reaches with the kept commands.
+    pub missed: Largest,
 }
 
 /// The band of the commands `kept`, and of those for the `desired` path [rad].
@@ -111,8 +120,9 @@ pub fn band(plan: &Plan, (desired, kept): (&[Joints], &[Joints]), errors: &Nomin
     let deviates = draw::deviates(spreads.seed, spreads.draws);
     let draws: Vec<Draw> = deviates.iter().map(|z| Draw::at(spreads, z)).collect();
     let before = errors.before;
+    let is_same = std::ptr::eq(desired, kept);
     let estimate = estimate(errors, reach(plan));
-    let first = chosen::places(&estimate, errors, PLACES / 2);
+    let first = chosen::places(&estimate, errors, spreads.frequency.deviation() > 0.0, PLACES / 2);
 
     let plans = filtered(plan);
     let timings: Vec<_> = plans.iter().map(|(_, plan)| plan.timing(Sources::ALL)).collect();
@@ -135,19 +145,38 @@ pub fn band(plan: &Plan, (desired, kept): (&[Joints], &[Joints]), errors: &Nomin
     let worse = largest.iter().zip(&largest_before).filter(|(after, before)| after > before).count();
     let at_decisive = |draw: &Draw| compensated.largest_at(&decisive, draw);
     let break_even = break_even(at_decisive, |draw| uncompensated.largest(draw));
+    let missed_p95 = missed_p95(&plants, kept, errors.missed, &draws);
     let after = Quantiles::of(largest);
     ErrorBand {
-        measure_first: measure_first(spreads, &deviates, after.p95, at_decisive),
+        measure_first: measure_first(spreads, &deviates, after.p95, at_decisive)
+            .filter(|measure| measure.input != "frequency" || plants.filtered.len() > 1),
         shares: decisive.first().map(|&widest| shares(&compensated, widest)).unwrap_or_default(),
         wall: Quantiles::of(draws.iter().map(|draw| top.largest(draw)).collect()),
-        before: Quantiles::of(largest_before),
+        // The same commands leave the same.
+        before: if is_same { after } else { Quantiles::of(largest_before) },
+        missed_p95,
         samples,
         p95,
         estimate,
         after,
         break_even,
-        worse: worse as f64 / draws.len() as f64,
+        worse: if is_same { 0.0 } else { worse as f64 / draws.len() as f64 },
     }
+}
+
+/// 95 % quantile of what of the path the tip never reaches [m], see [`ErrorBand::missed_p95`]. It is
+/// largest at the lower or the upper end of the frequencies of the filter.
+fn missed_p95(plants: &Plants, kept: &[Joints], nominal: Largest, draws: &[Draw]) -> f64 {
+    let (_, plan, timing) = plants.nominal();
+    let arc_length = &timing.arc_length;
+    let sample = arc_length.partition_point(|s| *s < nominal.at).min(arc_length.len() - 1);
+    let there = plants.send(kept, &[sample], 0.0);
+    let tip = |draw: &Draw| there.tip(0, &Draw { frequency: 1.0, ..*draw });
+    let nominal_tip = tip(&Draw::NOMINAL);
+    let mut moved: Vec<f64> = draws.iter().map(|draw| (tip(draw) - nominal_tip).norm()).collect();
+    let missed = plan.setup.spreads.frequency.ends().into_iter().map(|factor| plants.missed(kept, factor));
+    let largest = if plants.filtered.len() > 1 { missed.fold(nominal.max, f64::max) } else { nominal.max };
+    largest + quantile::of_unsorted(&mut moved, 0.95)
 }
 
 /// A first estimate of the 95 % quantile at each sample [m]: a softer and a stiffer plant add the
@@ -284,6 +313,6 @@ fn measure_first(
             let errors = deviates.iter().map(|z| largest(&Draw::at(&tried, z))).collect();
             Measure { input, percent, p95: Quantiles::of(errors).p95 }
         })
-        .filter(|measure| measure.p95 < p95)
+        .filter(|measure| measure.p95 < WORTH * p95)
         .min_by(|a, b| a.p95.total_cmp(&b.p95))
 }

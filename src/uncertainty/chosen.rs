@@ -9,19 +9,30 @@ use std::collections::BinaryHeap;
 /// the share of the largest estimate below which a maximum decides nothing.
 const MISSED: f64 = 0.01;
 
+/// Places all along the path, where another plant may err without the nominal one.
+const ALONG: usize = 24;
+
 /// Samples to look at, rising: the first, the last, the largest error without compensation, all local
 /// maxima of the estimated quantile [m] and of the nominal rest, then always the sample where
 /// straight lines between those chosen miss the deflection most. At most `count`; of more maxima,
 /// the highest.
-pub(super) fn places(estimate: &[f64], errors: &NominalErrors, count: usize) -> Vec<usize> {
+pub(super) fn places(
+    estimate: &[f64],
+    errors: &NominalErrors,
+    varies_filter: bool,
+    count: usize,
+) -> Vec<usize> {
     let samples = estimate.len();
     if samples <= count {
         return (0..samples).collect();
     }
     let rest: Vec<f64> = errors.after.iter().map(Vector3::norm).collect();
-    let deflection: Vec<f64> = errors.deflection.iter().map(Vector3::norm).collect();
-    let least = MISSED * largest(estimate).0;
-    let mut maxima: Vec<(f64, usize)> = [estimate, &rest]
+    // With another frequency of the filter, shaping errs more where it errs already.
+    let varied = if varies_filter { errors.before } else { errors.deflection };
+    let deflection: Vec<f64> = varied.iter().map(Vector3::norm).collect();
+    let scale = if varies_filter { largest(&deflection).0 } else { 0.0 };
+    let least = MISSED * largest(estimate).0.max(scale);
+    let mut maxima: Vec<(f64, usize)> = [estimate, &rest, &deflection[..]]
         .into_iter()
         .flat_map(|signal| {
             let is_maximum = |k: &usize| {
@@ -34,6 +45,7 @@ pub(super) fn places(estimate: &[f64], errors: &NominalErrors, count: usize) -> 
     maxima.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let before: Vec<f64> = errors.before.iter().map(Vector3::norm).collect();
     let mut chosen = vec![0, largest(&before).1, samples - 1];
+    chosen.extend((1..ALONG).map(|k| k * (samples - 1) / ALONG));
     chosen.extend(maxima.iter().map(|(_, k)| *k).take(count * 3 / 4));
     chosen.sort_unstable();
     chosen.dedup();

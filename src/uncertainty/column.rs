@@ -8,7 +8,7 @@ use crate::uncertainty::{Draw, quantile};
 /// What may be missed of the quantile, as a share of its maximum.
 const MISSED: f64 = 0.01;
 /// Most rounds in which gaps between places are halved.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 6;
 
 /// The quantile at places along the path.
 pub(super) struct DrawnColumn<'a> {

@@ -1,9 +1,10 @@
 //! Where commands take the tip at a few places, with any drawn plant.
 
 use crate::cutting::LinearForce;
-use crate::deviation::contour;
+use crate::deviation::{Reference, Sources, contour, missed, simulate};
 use crate::motion::TimingLaw;
 use crate::plan::Plan;
+use crate::progress::Progress;
 use crate::robot::Joints;
 use crate::setup::Setup;
 use crate::uncertainty::draw::{self, Draw};
@@ -39,6 +40,17 @@ pub(super) struct Plants<'a> {
 }
 
 impl Plants<'_> {
+    /// What of the path the tip never reaches with joint commands [rad] and `factor` times the
+    /// frequency of the filter [m].
+    pub(super) fn missed(&self, q: &[Joints], factor: f64) -> f64 {
+        let plan = self.nominal().1;
+        let setup = Setup { shaper: plan.shaper().tuned(factor), ..(*plan.setup).clone() };
+        let plan = Plan { setup: Arc::new(setup), ..plan.clone() };
+        let reference = Reference::along(&plan, Sources::ALL);
+        let actual = simulate(&plan, &reference, q, &mut Progress::none()).actual;
+        missed::missed(&plan.path, &reference.arc_length, &actual).max
+    }
+
     pub(super) fn nominal(&self) -> Filtered<'_> {
         self.filtered[self.filtered.len() / 2]
     }
@@ -72,6 +84,11 @@ impl Outcomes<'_> {
         for (_, places) in &mut self.nodes {
             *places = order.iter().map(|&k| places[k]).collect();
         }
+    }
+
+    /// The tip at a place with a drawn plant [m] and the nominal frequency of the filter.
+    pub(super) fn tip(&self, place: usize, draw: &Draw) -> Vector3<f64> {
+        self.nodes[self.nodes.len() / 2].1[place].tip(self.plan, draw)
     }
 
     /// Contour error at a place with a drawn plant [m].

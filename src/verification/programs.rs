@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::export::post;
 use crate::export::style::PostStyle;
 use crate::export::{self, Export, ExportOptions, Format};
-use crate::report::{Report, VerdictState, length_text, millimetres};
+use crate::report::{Report, VerdictState, millimetres};
 use crate::units::MM;
 use crate::verification::rehearsal::{Rehearsal, rehearse};
 use serde::Serialize;
@@ -73,16 +73,16 @@ impl Programs {
         post::expressible(report, command, id)?;
         let (state, p95) = (report.verdict_state_at(*reached), report.p95_at(*reached));
         let figures =
-            format!("up to {} mm at 95 %, nominally {} mm", length_text(p95, MM, 2), millimetres(*reached));
+            format!("up to {} mm at 95 %, nominally {} mm", millimetres(p95), millimetres(*reached));
         let tolerance = report.setup().goal.tolerance;
         let tolerance_text = millimetres(tolerance);
         let judged = match state {
             VerdictState::CannotRun => format!("cannot run; if it could, {figures}."),
             _ if p95 > tolerance => format!("{figures}; beyond the tolerance of {tolerance_text} mm."),
-            _ => {
-                let but = report.decisive(state, *reached);
-                format!("{figures}; within the tolerance of {tolerance_text} mm{but}.")
-            }
+            _ => match report.decisive(state, *reached) {
+                Some(but) => format!("{figures}, but {but}; beyond the tolerance of {tolerance_text} mm."),
+                None => format!("{figures}; within the tolerance of {tolerance_text} mm."),
+            },
         };
         let sentence = format!("As {}: {judged}", in_words(format));
         let met = state == VerdictState::Met;

@@ -112,7 +112,7 @@ pub(crate) type Pinned = (&'static str, Vec<(&'static str, Value)>, &'static str
 pub(crate) fn pinned() -> [Pinned; 5] {
     use serde_json::json;
     [
-        ("default", vec![], "beb394495f7cd38dbcf9d5158e56bc6c"),
+        ("default", vec![], "27afa232dc195c05483c2ee2ea0e1ca5"),
         (
             "rounded rectangle, EI in Hz, chip from feed, tilted part, offset tool",
             vec![
@@ -126,7 +126,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("workpiece_frame", json!({"xyz_mm":[10,20,30],"rpy_deg":[10,-20,30]})),
                 ("tool_frame", json!({"xyz_mm":[0,50,120],"rpy_deg":[0,30,0]})),
             ],
-            "531451fb61c1963151e34e9663fb675b",
+            "99ceb22c345cc5ee26cace016a80f87e",
         ),
         (
             "points, ZVDD, another branch",
@@ -135,7 +135,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("shaper", json!({"kind":"zvdd","frequency_rad_s":60,"damping":0.02})),
                 ("start_branch", json!({"shoulder":"front","elbow":"negative","wrist":"flipped"})),
             ],
-            "9e605a6a831b63bc3d4ddc7c5d9ac36c",
+            "b2212342e6bcc342a133ed1d8a42c42d",
         ),
         (
             "arc without shaper",
@@ -146,7 +146,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ),
                 ("shaper", json!("none")),
             ],
-            "31c59fe150b30e6f61844077142aa7a4",
+            "6902f3ff0a34f221bf2c6c7d970887e5",
         ),
         (
             "ball nose by catalogue constants, conventional milling, a tool that bends",
@@ -163,7 +163,7 @@ pub(crate) fn pinned() -> [Pinned; 5] {
                 ("cutting.engagement", json!("conventional")),
                 ("cutting.radial_depth_mm", json!(2.5)),
             ],
-            "7ac5ecc509aeabeb2899eb510133fb76",
+            "3a2a6b6a9f5172c20ac4a4631a5e4bcc",
         ),
     ]
 }

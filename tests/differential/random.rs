@@ -250,6 +250,8 @@ pub(crate) fn case(seed: u64, robots: &[Preset]) -> Case {
             "corner_angle_deg":corner_angle,"corner_dwell":dwell.map_or(json!("settle"), |t| json!(t))},
         "tool": tool, "material": material, "cutting": cutting, "shaper": shaper,
         "compensation": {"tolerance_mm":tolerance,"max_passes":max_passes,"sources":named},
+        // The plain model judges the nominal error alone.
+        "uncertainty": {"stiffness_percent":0,"cutting_percent":0},
     });
     let illegal = dice.once_in(40).then(|| {
         let (key, value, field) = dice.one_of(&ILLEGAL);
