@@ -1,0 +1,35 @@
+%
+O01003 (BRACKET)
+(Using high feed G1 F500. instead of G0.)
+(Machine)
+(  vendor: HAAS)
+(  model: VF-2)
+(  description: Haas VF-2)
+(T1 D=12. CR=0. - ZMIN=-1. - flat end mill)
+N10 G90 G94 G17
+N15 G21
+N20 G53 G0 Z0.
+
+(2D Pocket1)
+N25 T1 M6
+N30 S4000 M3
+N35 G54
+N40 M8
+N45 G0 X20. Y12.
+N50 G43 Z15. H1
+N55 G0 Z5.
+N60 G1 Z1. F500.
+N65 G3 X12. Y12. Z0. I-4. J0. F300.
+N70 X20. Y12. Z-1. I4. J0.
+N75 X12. Y12. I-4. J0.
+N80 X20. Y12. I4. J0.
+N85 G1 X30.
+N90 Y20.
+N95 G0 Z15.
+
+N100 M9
+N105 M5
+N110 G53 G0 Z0.
+N115 G53 Y0.
+N120 M30
+%

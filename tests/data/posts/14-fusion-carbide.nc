@@ -1,0 +1,23 @@
+(SLOT)
+(T201 D=6.35 CR=0. - ZMIN=-2. - flat end mill)
+G90
+G21
+G53 G0 Z-5.
+
+(Slot1)
+M5
+M6 T201
+S18000 M3
+G54
+G0 X0. Y0.
+Z15.
+Z2.
+G1 Z0. F400.
+X40. Z-2. F800.
+X0.
+G0 Z15.
+
+M5
+G53 G0 Z-5.
+G53 G0 X-5. Y-5.
+M30
