@@ -61,7 +61,7 @@ fn rows_are_read() {
         ("x,y,z,feed [ipm]\n0,0,0,1\n1,0,0,6", "line 1 0 0 feed 2.54"),
         // Axes.
         ("1,2,3,0,0,1.0\n4,-5,6,0,0.6,0.8", tilted),
-        ("x,y,z,i,j,k\n1,2,3,0,0,1\n4,-5,6,0,3,4", tilted),
+        ("x,y,z,i,j,k\n1,2,3,0,0,1\n4,-5,6,0,0.612,0.816", tilted),
         ("x,y,z,nx,ny,nz\n1,2,3,0,0,1\n4,-5,6,0,0.6,0.8", tilted),
         ("axis_i axis_j axis_k x y z\n0 0 1 1 2 3\n0 0.6 0.8 4 -5 6", tilted),
         ("1,2,3,0,0,1,10\n4,-5,6,0,0.6,0.8,50", both),
@@ -102,7 +102,7 @@ fn mistakes_are_placed_and_say_what_to_do() {
         ("0,0,2000000", (1, 5), "within 1000000 mm"),
         // Headers.
         ("x,y\n1,2", (1, 3), "x, y and z"),
-        ("x,y,w\n1,2,3", (1, 5), "the columns are"),
+        ("x,y,v\n1,2,3", (1, 5), "the columns are"),
         ("x,y,z,x\n1,2,3,4", (1, 7), "stands once"),
         ("x,y,z,i,j\n1,2,3,0,0", (1, 9), "all three"),
         ("x_mm,y_in,z\n1,2,3", (1, 6), "same unit"),
@@ -128,7 +128,7 @@ fn mistakes_are_placed_and_say_what_to_do() {
         ("x,y,z,f\n0,0,0,1\n1,0,0,-5", (3, 7), "a feed is"),
         ("x,y,z,f\n0,0,0,1\n1,0,0,", (3, 5), "4 cells"),
         ("x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,0", (3, 7), "the length 1"),
-        ("x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,1\n1,0,0,0,1,1", (4, 7), "45.000 deg in place"),
+        ("x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,1\n1,0,0,0,0.7071,0.7071", (4, 7), "45.000 deg in place"),
         ("x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,-1", (3, 7), "180 deg"),
     ] {
         common::refused_at(read(text), text, place, part);
@@ -154,10 +154,126 @@ fn the_chosen_units_hold_unless_the_header_gives_others() {
 
 #[test]
 fn an_axis_off_unit_length_is_remarked() {
-    let program = read("x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,2\n2,0,0,0,0,3").unwrap();
+    let program = read("x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,1.02\n2,0,0,0,0,0.97").unwrap();
     let remarks: Vec<_> = program.remarks.iter().map(|remark| (remark.code, remark.line)).collect();
     assert_eq!(remarks, [("axis-length", 3)]);
     assert!(program.remarks[0].message.contains("1 more"), "{}", program.remarks[0].message);
+}
+
+#[test]
+fn spreadsheets_are_read_as_they_write() {
+    let two = "line 4 -5 6 job";
+    let thousand = "line 1234.5 -5 6 job";
+    let fed = "line 4 -5 6 feed 50";
+    for (text, expected) in [
+        // A stated separator, whatever ends the lines, and what stands before and after the text.
+        ("sep=;\n1;2;3\n4;-5;6", two),
+        ("\"sep=,\"\r\nx,y,z,f\r\n1,2,3,10\r\n4,-5,6,50", fed),
+        ("SEP=,\n1,2,3,10\n4,-5,6,50", fed),
+        ("sep=\t\n1\t2\t3\n4\t-5\t6", two),
+        ("1,2,3\r4,-5,6\r", two),
+        ("x,y,z\r1,2,3\r\r4,-5,6", two),
+        ("\u{feff}\u{feff}1,2,3\n4,-5,6\n", two),
+        ("1,2,3\n4,-5,6\n\u{1a}", two),
+        ("1,2,3\r\n4,-5,6\r\n\u{1a}\r\n", two),
+        ("1,2,3\n4,-5,6\0\0\0\n", two),
+        // Thousands are set off by spaces where blanks do not separate.
+        ("1;2;3\n1 234,5;-5;6", thousand),
+        ("1\t2\t3\n1 234,5\t-5\t6", thousand),
+        ("1\t2\t3\n1 234.5\t-5\t6", thousand),
+        ("1;2;3\n1\u{a0}234,5;-5;6", thousand),
+        ("1;2;3\n1\u{202f}234,5;-5;6", thousand),
+        ("1 2 3\n1\u{a0}234,5 -5 6", thousand),
+        ("1;2;3\n1'234.5;-5;6", thousand),
+        ("1,2,3\n\"1 234.5\",-5,6", thousand),
+        ("1;2;3\n-12 345;-5;6", "line -12345 -5 6 job"),
+        // Other no-break spaces are blanks.
+        ("1\u{a0}2\u{a0}3\n4\u{a0}-5\u{a0}6", two),
+        // Quotation marks, and separators between them.
+        ("\"1\",\"2\",\"3\"\n\"4\",\"-5\",\"6\"", two),
+        ("\"1\";\"2\";\"3\"\n\"4,5\";\"-5,5\";\"6\"", "line 4.5 -5.5 6 job"),
+        ("\"1,5\",2,3\n\"4,5\",\"-5,5\",6\n7,8,9", "line 4.5 -5.5 6 job; line 7 8 9 job"),
+        ("\"x\",\"y\",\"z\",\"Feed, mm/min\"\n1,2,3,600\n4,-5,6,3000", fed),
+        // Tabs separate where there are tabs: a name has blanks.
+        ("x [mm]\ty [mm]\tz [mm]\tFeed rate [mm/min]\n1\t2\t3\t600\n4\t-5\t6\t3000", fed),
+        ("1,\t2,\t3\n4,\t-5,\t6", two),
+        ("1 2\t3\n4 -5\t6", two),
+        // A column of row numbers.
+        ("n,x,y,z\n1,1,2,3\n2,4,-5,6", two),
+        ("Point No;x;y;z\nP1;1;2;3\nP2;4;-5;6", two),
+        ("x y z line\n1 2 3 10\n4 -5 6 20", two),
+        ("index,x,y,z,i,j,k,feed\n7,1,2,3,0,0,1,10\n9,4,-5,6,0,0,1,50", fed),
+        (",x,y,z\n0,1,2,3\n1,4,-5,6", two),
+        (";x;y;z\n0;1,0;2,0;3,0\n1;4,0;-5,0;6,0", two),
+        ("1 1 2 3\n2 4 -5 6", two),
+        ("1;1,0;2;3\n2;4,0;-5;6", two),
+        ("1\t1\t2\t3\n2\t4\t-5\t6", two),
+        ("1,1.0,2,3\n2,4.0,-5,6", two),
+        ("1 1 2 3 0 0 1\n2 4 -5 6 0 0.6 0.8", "line 4 -5 6 job tilt 0 0.6 0.8"),
+        // No row numbers: they do not count, or the rest is a feed along a straight line.
+        ("1 2 3 10\n3 -5 6 50", "line 3 -5 6 feed 50"),
+        ("0 2 3 10\n1 -5 6 50", "line 1 -5 6 feed 50"),
+        ("1 2 3 50\n2 2 3 50\n3 2 3 50", "line 2 2 3 feed 50; line 3 2 3 feed 50"),
+        ("1.0 2 3 10\n2.0 -5 6 50", "line 2 -5 6 feed 50"),
+        ("x y z f\n1 2 3 10\n2 -5 6 50", "line 2 -5 6 feed 50"),
+        ("1 2 3 0 0 1 10\n2 -5 6 0 0 1 50", "line 2 -5 6 feed 50"),
+    ] {
+        let program = read(text).unwrap_or_else(|error| panic!("{text:?}: {error}"));
+        assert_eq!(described(&program), expected, "{text:?}");
+        assert_sound(&program, text);
+    }
+    for (text, place, part) in [
+        ("1;2;3\n1 23;2;3", (2, 1), "\"1 23\""),
+        ("1;2;3\n1 234,567 8;2;3", (2, 1), "a number"),
+        ("1\t2\t3\n1\t\t3", (2, 3), "\"\""),
+        ("\"1,234\",2,3", (1, 1), "1234 or 1.234"),
+        ("\"1,5\",2.5,3", (1, 7), "either points or commas"),
+        ("sep=;\n1,2,3", (2, 1), "\"1,2,3\""),
+        ("sep=|\n1|2|3", (1, 1), "the columns are"),
+        ("1,2,3\n4,-5,6\n\u{1a}7,8,9", (3, 1), "\"\u{1a}7\""),
+        ("n,x,y\n1,2,3", (1, 5), "x, y and z"),
+        ("n,no,x,y,z\n1,1,2,3,4", (1, 3), "stands once"),
+    ] {
+        common::refused_at(read(text), text, place, part);
+    }
+    for (text, line) in [("n,x,y,z\n1,1,2,3\n2,4,-5,6", 2), ("1 1 2 3\n2 4 -5 6", 1)] {
+        let program = read(text).unwrap();
+        let remarks: Vec<_> = program.remarks.iter().map(|remark| (remark.code, remark.line)).collect();
+        assert_eq!(remarks, [("index-column", line)], "{text:?}");
+    }
+}
+
+#[test]
+fn angles_of_a_robot_are_no_axis() {
+    for (text, place) in [
+        // P33
+        ("0 0 0 0 90 0\n50 0 0 0 90 0", (1, 7)),
+        ("0,0,0,180.0,0,90\n50,0,0,180.0,0,90", (1, 7)),
+        ("0 0 0 0 0 0\n50 0 0 0 0 0", (1, 7)),
+        ("0 0 0 0 0 1\n50 0 0 0 0 1.06", (2, 8)),
+        ("0 0 0 0 0 1\n50 0 0 0 0 0.94", (2, 8)),
+        ("0 0 0 0 90 0 10\n50 0 0 0 90 0 10", (1, 7)),
+        ("1 0 0 0 0 90 0\n2 50 0 0 0 90 0", (1, 7)),
+        ("x,y,z,i,j,k\n0,0,0,0,0,1\n50,0,0,0,3,4", (3, 8)),
+        ("x,y,z,a,b,c\n0,0,0,0,90,0", (1, 7)),
+        ("X;Y;Z;A [deg];B [deg];C [deg]\n0;0;0;0;90;0", (1, 7)),
+        ("x y z rx ry rz\n0 0 0 0 1.57 0", (1, 7)),
+        ("x\ty\tz\tw\tp\tr\n0\t0\t0\t0\t90\t0", (1, 7)),
+        ("w,p,r,x,y,z\n0,90,0,0,0,0", (1, 1)),
+        ("x,y,z,qw,qx,qy,qz\n0,0,0,1,0,0,0", (1, 7)),
+    ] {
+        common::refused_at(read(text), text, place, "angles of a robot");
+    }
+    for text in [
+        // P49
+        "0,0,0,0,0,0.999\n50,0,0,0,0.01,0.9999",
+        "0 0 0 0 0 1\n50 0 0 0.57 0.57 0.57",
+        "0 0 0 0 0 1.04\n50 0 0 0 0 0.96",
+    ] {
+        let program = read(text).unwrap_or_else(|error| panic!("{text:?}: {error}"));
+        assert_sound(&program, text);
+        assert!((program.moves[0].segment.length() - 0.05).abs() < 1e-12, "{text:?}");
+    }
 }
 
 #[test]
@@ -185,8 +301,10 @@ fn random_text(random: &mut fastrand::Rng, header: &str, scale: f64) -> String {
     for _ in 0..30 {
         let [x, y, z] = [0; 3].map(|_| (random.f64() * 200.0 - 100.0) / scale);
         let [i, j] = [0; 2].map(|_| random.f64() - 0.5);
+        let length = (i * i + j * j + 1.0_f64).sqrt();
+        let [i, j, k] = [i / length, j / length, 1.0 / length];
         let feed = (1.0 + random.f64() * 100.0) / scale;
-        writeln!(text, "{x};{y};{z};{i};{j};1;{feed}").unwrap();
+        writeln!(text, "{x};{y};{z};{i};{j};{k};{feed}").unwrap();
     }
     text
 }
@@ -249,6 +367,14 @@ fn no_text_makes_the_reader_panic() {
         "1,2,3\n",
         "4,5,6\n",
         "1;2;3\n",
+        "sep=,\n",
+        "n,x,y,z\n",
+        "1 1 2 3\n2 4 5 6\n",
+        "\u{a0}",
+        "1 234",
+        "\r",
+        "\u{1a}",
+        "\"1,5\"",
     ];
     let mut read_well = 0;
     for round in 0..20_000 {

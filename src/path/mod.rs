@@ -10,6 +10,7 @@ pub mod reference;
 pub mod roll;
 pub mod program;
 pub mod unit;
+mod lines;
 mod builder;
 pub mod gcode;
 pub mod apt;

@@ -12,6 +12,9 @@ pub(super) enum Width {
     Any,
 }
 
+/// Largest number of columns: x, y, z, i, j, k, a feed and an index.
+pub(super) const MOST: usize = 8;
+
 /// The cells that hold the parts of a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Columns {
@@ -19,6 +22,8 @@ pub(super) struct Columns {
     pub(super) point: [usize; 3],
     pub(super) axis: Option<[usize; 3]>,
     pub(super) feed: Option<usize>,
+    /// The rows' numbers or names, which are left out.
+    pub(super) index: Option<usize>,
     /// Unit of length in the header.
     pub(super) unit: Option<LengthUnit>,
     /// Unit of feed in the header.
@@ -28,7 +33,7 @@ pub(super) struct Columns {
 }
 
 /// Column names in lower case, in the order of the parts of a row without a header.
-const NAMES: [&[&str]; 7] = [
+const NAMES: [&[&str]; MOST] = [
     &["x", "px", "posx"],
     &["y", "py", "posy"],
     &["z", "pz", "posz"],
@@ -36,7 +41,22 @@ const NAMES: [&[&str]; 7] = [
     &["j", "ny", "ay", "uy", "axisj", "axisy"],
     &["k", "nz", "az", "uz", "axisk", "axisz"],
     &["feed", "f", "feedrate"],
+    // An empty name as tables of Python write it.
+    &["n", "no", "nr", "num", "number", "index", "idx", "id", "point", "pt", "line", "row", ""],
 ];
+
+/// The part of a row that is left out.
+const INDEX: usize = 7;
+
+/// Names of angles, in lower case: of the robot's makers, of CAM systems, and of quaternions.
+const ANGLES: [&str; 23] = [
+    "a", "b", "c", "w", "p", "r", "rx", "ry", "rz", "o", "t", "roll", "pitch", "yaw", "alpha", "beta",
+    "gamma", "qw", "qx", "qy", "qz", "q1", "q2",
+];
+
+/// What is allowed where angles of a robot are found.
+pub(super) const NO_ANGLES: &str = "angles of a robot (A, B, C; W, P, R; RX, RY, RZ) are not read: give the tool's axis \
+    as i, j, k, a vector of the length 1 (within 5 %) from tip to spindle, or leave these columns out";
 
 impl Columns {
     /// The columns of a text without a header.
@@ -54,12 +74,29 @@ impl Columns {
                 return Err(Fault::new(format!("{count} numbers"), expected));
             }
         };
-        Ok(Self { count, point: [0, 1, 2], axis, feed, unit: None, feed_unit: None, named: false })
+        Ok(Self {
+            count,
+            point: [0, 1, 2],
+            axis,
+            feed,
+            index: None,
+            unit: None,
+            feed_unit: None,
+            named: false,
+        })
+    }
+
+    /// The columns of a text without a header whose first column counts the rows.
+    pub(super) fn after_index(count: usize, width: Width) -> Result<Self, Fault> {
+        let Self { point, axis, .. } = Self::of_count(count - 1, width)?;
+        let next = |cells: [usize; 3]| cells.map(|cell| cell + 1);
+        let columns = Self::of_count(count, width)?;
+        Ok(Self { point: next(point), axis: axis.map(next), feed: None, index: Some(0), ..columns })
     }
 
     /// The columns of a header. A fault comes with the index of its cell.
     pub(super) fn of_names(names: &[&str], width: Width) -> Result<Self, (usize, Fault)> {
-        let mut places = [None; 7];
+        let mut places = [None; MOST];
         let (mut unit, mut feed_unit) = (None, None);
         for (index, name) in names.iter().enumerate() {
             let fault = |expected: &str| (index, Fault::new(format!("the column \"{name}\""), expected));
@@ -69,7 +106,8 @@ impl Columns {
                     "the columns are x, y, z, i, j, k and feed, with or without a unit: x [mm], y_in"
                 }
             };
-            let (part, stated) = part_and_unit(name).ok_or_else(|| fault(unknown))?;
+            let (part, stated) =
+                part_and_unit(name).ok_or_else(|| fault(if is_angle(name) { NO_ANGLES } else { unknown }))?;
             if width == Width::Points && part > 2 {
                 return Err(fault(unknown));
             }
@@ -77,7 +115,7 @@ impl Columns {
                 return Err(fault("each column stands once"));
             }
             match (part, stated.as_str()) {
-                (_, "") => {}
+                (_, "") | (INDEX, _) => {}
                 (0..3, stated) => {
                     let read = length_unit(stated).ok_or_else(|| fault("lengths are in mm or in"))?;
                     if unit.replace(read).is_some_and(|before| before != read) {
@@ -99,15 +137,27 @@ impl Columns {
         if axis.is_none() && places[3..6].iter().any(Option::is_some) {
             return Err(end("of i, j and k all three are there, or none"));
         }
-        Ok(Self { count: names.len(), point, axis, feed: places[6], unit, feed_unit, named: true })
+        Ok(Self {
+            count: names.len(),
+            point,
+            axis,
+            feed: places[6],
+            index: places[INDEX],
+            unit,
+            feed_unit,
+            named: true,
+        })
     }
 }
 
 /// The part of a row that a name stands for, and its unit: `x_mm`, `Feed rate [mm/min]`.
 fn part_and_unit(name: &str) -> Option<(usize, String)> {
     let name = name.to_lowercase();
-    let apart = |c: char| c.is_whitespace() || "_-/.:[]()".contains(c);
+    let apart = |c: char| c.is_whitespace() || "_-/.,:[]()".contains(c);
     let mut words: Vec<&str> = name.split(apart).filter(|word| !word.is_empty() && *word != "per").collect();
+    if name.is_empty() {
+        words.push("");
+    }
     let part_of = |name: &str| NAMES.iter().position(|names| names.contains(&name));
     // A name may have two words: axis i, pos x, feed rate.
     let joined = words.get(..2).map(<[&str]>::concat);
@@ -123,6 +173,13 @@ fn part_and_unit(name: &str) -> Option<(usize, String)> {
         }
     };
     Some((part, words.join("/")))
+}
+
+/// Whether a column's name is that of an angle or of a part of a quaternion: `A`, `rx [deg]`.
+fn is_angle(name: &str) -> bool {
+    let name = name.to_lowercase();
+    let first = name.split(|c: char| !c.is_alphanumeric()).find(|word| !word.is_empty());
+    first.is_some_and(|word| ANGLES.contains(&word))
 }
 
 fn length_unit(text: &str) -> Option<LengthUnit> {

@@ -1,12 +1,13 @@
 //! Rows of numbers: lines split into cells, and the meaning of commas.
 
-use super::cell::{Separator, is_passed_over, number, position, separate};
-use super::header::{Columns, Width};
+use super::cell::{Separator, is_passed_over, number, position, separate_by, unquoted, without_gaps};
+use super::header::{Columns, MOST, Width};
+use super::index;
 use crate::error::Error;
 use crate::path::builder::{self, Fault};
+use crate::path::lines::TextLines;
 use crate::path::unit::LengthUnit;
 use nalgebra::Vector3;
-use std::str::Lines;
 
 /// Meaning of the commas in the rows so far.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,11 +22,11 @@ pub(super) struct Row<'a> {
     pub(super) line: usize,
     pub(super) columns: Columns,
     /// The numbers in the order of the text; only the first `columns.count` are used.
-    pub(super) numbers: [f64; 7],
+    pub(super) numbers: [f64; MOST],
     /// x, y, z [m].
     pub(super) point: Vector3<f64>,
     text: &'a str,
-    starts: [usize; 7],
+    starts: [usize; MOST],
 }
 
 impl Row<'_> {
@@ -37,15 +38,19 @@ impl Row<'_> {
 
 /// The rows of a text, in order.
 pub(super) struct Rows<'a> {
-    lines: std::iter::Enumerate<Lines<'a>>,
+    lines: std::iter::Enumerate<TextLines<'a>>,
     count: usize,
     field: &'a str,
     unit: LengthUnit,
     width: Width,
     columns: Option<Columns>,
+    /// The separator that a first line `sep=;` states.
+    stated: Option<Separator>,
     comma: Option<Comma>,
     /// Whether a decimal point has been seen.
     decimal_point: bool,
+    /// Whether a decimal comma has been seen, perhaps between quotation marks.
+    decimal_comma: bool,
     /// Whether a row has shown that its commas are separators.
     settled: bool,
     /// The first row whose commas may be either, with its position.
@@ -55,16 +60,17 @@ pub(super) struct Rows<'a> {
 
 impl<'a> Rows<'a> {
     pub(super) fn new(text: &'a str, field: &'a str, unit: LengthUnit, width: Width) -> Self {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         Self {
-            lines: text.lines().enumerate(),
+            lines: TextLines::of(text).enumerate(),
             count: 0,
             field,
             unit,
             width,
             columns: None,
+            stated: None,
             comma: None,
             decimal_point: false,
+            decimal_comma: false,
             settled: false,
             ambiguous: None,
             cells: Vec::with_capacity(8),
@@ -90,10 +96,15 @@ impl<'a> Rows<'a> {
         while let Some((index, line)) = self.lines.next() {
             self.count = index + 1;
             let text = line.split('#').next().unwrap_or_default();
-            if is_passed_over(text) {
+            if is_passed_over(text) && !(self.columns.is_none() && is_header_after_index(text)) {
                 continue;
             }
-            let separator = separate(text, &mut self.cells);
+            if let (None, None, Some(stated)) = (self.columns, self.stated, stated_separator(text)) {
+                self.settled = stated == Separator::Comma;
+                self.stated = Some(stated);
+                continue;
+            }
+            let separator = separate_by(self.stated, text, &mut self.cells);
             let columns = match self.columns {
                 Some(columns) => columns,
                 None => {
@@ -107,14 +118,15 @@ impl<'a> Rows<'a> {
             };
             return self.row(text, separator, columns).map(Some);
         }
-        match self.ambiguous {
-            Some((position, row)) => {
-                let expected = "nothing says whether the commas are decimal signs: name the columns in a first line (x,y,z,feed), \
-                                or separate the cells by semicolons";
-                Err(self.error(position, &format!("\"{row}\""), expected))
-            }
-            None => Ok(None),
-        }
+        self.ambiguity().map_or(Ok(None), Err)
+    }
+
+    /// The error of the first row whose commas may be either, unless a row has shown what they are.
+    pub(super) fn ambiguity(&self) -> Option<Error> {
+        let (position, row) = self.ambiguous?;
+        let expected = "nothing says whether the commas are decimal signs: name the columns in a first line (x,y,z,feed), \
+                        or separate the cells by semicolons";
+        Some(self.error(position, &format!("\"{row}\""), expected))
     }
 
     /// The columns given by the first line, and whether it is a header.
@@ -122,11 +134,19 @@ impl<'a> Rows<'a> {
         let line = self.count;
         let named = |cell: &str| cell.trim_matches('"').chars().next().is_some_and(char::is_alphabetic);
         let unit = |cell: &str| cell.starts_with(['[', '(']);
-        if !self.cells.iter().all(|(_, cell)| named(cell) || unit(cell))
+        // The first name may be missing, before an index.
+        let nameless = self.cells.first().is_some_and(|(_, cell)| cell.trim_matches('"').is_empty());
+        if !self.cells.iter().skip(usize::from(nameless)).all(|(_, cell)| named(cell) || unit(cell))
             || !self.cells.iter().any(|(_, cell)| named(cell))
         {
+            let lines = self.lines.clone().map(|(_, line)| line);
+            if self.width == Width::Any && index::is_first(&self.cells, self.stated, lines) {
+                return Columns::after_index(self.cells.len(), self.width)
+                    .map(|columns| (columns, false))
+                    .map_err(|fault| self.miscounted(text, MOST, fault));
+            }
             let columns = Columns::of_count(self.cells.len(), self.width);
-            let most = if self.width == Width::Points { 3 } else { 7 };
+            let most = if self.width == Width::Points { 3 } else { MOST - 1 };
             return columns
                 .map(|columns| (columns, false))
                 .map_err(|fault| self.miscounted(text, most, fault));
@@ -150,7 +170,7 @@ impl<'a> Rows<'a> {
     /// in preference to the count.
     fn miscounted(&self, text: &str, count: usize, fault: Fault) -> Error {
         let of = |start: usize| position(self.count, text, start);
-        let wrong = self.cells.iter().find(|(_, cell)| number(cell, true).is_none());
+        let wrong = self.cells.iter().find(|(_, cell)| value(cell, Separator::Blank).is_err());
         match (wrong, self.cells.get(count).or(self.cells.last())) {
             (Some((start, cell)), _) => not_a_number(cell).at(self.field, of(*start)),
             (None, last) => fault.at(self.field, of(last.map_or(0, |(start, _)| *start))),
@@ -167,13 +187,16 @@ impl<'a> Rows<'a> {
             let fault = Fault::new(format!("{} cells", self.cells.len()), expected);
             return Err(self.miscounted(text, columns.count, fault));
         }
-        let (mut numbers, mut starts) = ([0.0; 7], [0; 7]);
+        let (mut numbers, mut starts) = ([0.0; MOST], [0; MOST]);
         for (index, (start, cell)) in self.cells.iter().enumerate() {
             let fail = |fault: Fault| fault.at(self.field, position(line, text, *start));
-            numbers[index] =
-                number(cell, separator != Separator::Comma).ok_or_else(|| fail(not_a_number(cell)))?;
             starts[index] = *start;
+            if columns.index == Some(index) {
+                continue;
+            }
+            numbers[index] = value(cell, separator).map_err(&fail)?;
             self.decimal_point |= cell.contains('.');
+            self.decimal_comma |= cell.contains(',');
             let comma = match separator {
                 Separator::Comma => Some(Comma::Separator),
                 _ => cell.contains(',').then_some(Comma::Decimal),
@@ -182,7 +205,7 @@ impl<'a> Rows<'a> {
                 let expected = "in the whole text, commas are either decimal signs or separators";
                 return Err(fail(Fault::new(format!("\"{}\"", text.trim()), expected)));
             }
-            if self.comma == Some(Comma::Decimal) && self.decimal_point {
+            if self.decimal_comma && self.decimal_point {
                 return Err(fail(Fault::new(
                     format!("\"{cell}\""),
                     "decimal signs are either points or commas, in the whole text",
@@ -193,7 +216,7 @@ impl<'a> Rows<'a> {
         {
             // A decimal point, an exponent, or a sign where the fraction would be.
             let shows = |(index, (_, cell)): (usize, &(usize, &str))| {
-                cell.contains(['.', 'e', 'E']) || (index % 2 == 1 && cell.starts_with(['-', '+']))
+                cell.contains(['.', 'e', 'E', '"']) || (index % 2 == 1 && cell.starts_with(['-', '+']))
             };
             self.settled = self.cells.iter().enumerate().any(shows);
             let here = (position(line, text, self.cells[0].0), text.trim());
@@ -208,6 +231,39 @@ impl<'a> Rows<'a> {
     }
 }
 
+/// Whether a line that looks like a comment is a header with a nameless first column: `;x;y;z`.
+fn is_header_after_index(text: &str) -> bool {
+    let names: Vec<&str> = text.split(';').map(str::trim).collect();
+    Columns::of_names(&names, Width::Any).is_ok()
+}
+
+/// The separator that a line `sep=;` states, as spreadsheets write it for themselves.
+fn stated_separator(text: &str) -> Option<Separator> {
+    let text = text.trim_start().trim_start_matches('"');
+    let stated = text.get(..4).filter(|start| start.eq_ignore_ascii_case("sep="))?;
+    match text[stated.len()..].trim_end_matches(['"', ' ', '\r']) {
+        ";" => Some(Separator::Semicolon),
+        "," => Some(Separator::Comma),
+        "\t" => Some(Separator::Tab),
+        "" => Some(Separator::Blank),
+        _ => None,
+    }
+}
+
+/// The number in a cell, perhaps between quotation marks or with its thousands set off.
+fn value(cell: &str, separator: Separator) -> Result<f64, Fault> {
+    let inner = unquoted(cell);
+    let comma = separator != Separator::Comma || inner.is_some();
+    let text = inner.unwrap_or(cell);
+    let thousands = |text: &str| text.split_once(',').is_some_and(|(_, fraction)| fraction.len() == 3);
+    if separator == Separator::Comma && inner.is_some_and(thousands) {
+        let expected = "nothing says whether this comma is a decimal sign: write 1234 or 1.234";
+        return Err(Fault::new(cell, expected));
+    }
+    let grouped = || number(&without_gaps(text).filter(|_| comma)?, comma);
+    number(text, comma).or_else(grouped).ok_or_else(|| not_a_number(cell))
+}
+
 fn not_a_number(cell: &str) -> Fault {
-    Fault::new(format!("\"{cell}\""), "a number, such as 12.5")
+    Fault::new(format!("\"{}\"", unquoted(cell).unwrap_or(cell)), "a number, such as 12.5")
 }
