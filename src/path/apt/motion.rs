@@ -1,11 +1,11 @@
-//! Statements that move the tool: GOTO, FROM, CIRCLE, MOVARC.
+//! Statements that move the tool to a point: GOTO, FROM, GOHOME.
 
 use super::reader::{Feed, Reader};
 use super::statement::{Statement, TextPlace};
 use crate::error::Error;
 use crate::path::builder::{self, Circle, Target};
 use crate::path::program::MovePace;
-use crate::units::{DEG, MM};
+use crate::units::MM;
 use nalgebra::Vector3;
 
 impl<'a> Reader<'a> {
@@ -22,6 +22,9 @@ impl<'a> Reader<'a> {
         let place = statement.place;
         let before = self.builder.pose;
         let (point, axis) = self.point_and_axis(statement)?;
+        if let Some(cycle) = self.cycle {
+            return self.drill(&cycle, (point, axis), &place);
+        }
         let target = self.target(&place, point, axis)?;
         let done = match self.circle.take() {
             Some((circle, _)) => {
@@ -64,6 +67,32 @@ impl<'a> Reader<'a> {
         Ok(Target { point, axis, pace, spindle, line: place.line })
     }
 
+    /// A rapid move to a point.
+    pub(super) fn rapid_to(
+        &mut self,
+        place: &TextPlace<'_>,
+        point: Vector3<f64>,
+        axis: Vector3<f64>,
+    ) -> Result<(), Error> {
+        self.rapid = true;
+        let target = self.target(place, point, axis)?;
+        self.builder.line_to(target).map_err(|fault| fault.at(self.field, place.position()))
+    }
+
+    /// `GOHOME/x,y,z` is a rapid move; where `GOHOME` alone leads is not known.
+    pub(super) fn go_home(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
+        self.no_circle_waits()?;
+        let place = statement.place;
+        if !statement.is_bare() {
+            let (point, axis) = self.point_and_axis(statement)?;
+            return self.rapid_to(&place, point, axis);
+        }
+        self.home = Some(place.line);
+        self.ignore(statement);
+        self.builder.remark("home", place.line, || "the way home is not part of the path".into());
+        Ok(())
+    }
+
     /// The pace of the move at `place`.
     fn pace(&mut self, place: &TextPlace<'_>) -> Result<MovePace, Error> {
         if self.rapid {
@@ -104,55 +133,6 @@ impl<'a> Reader<'a> {
                 return Err(self.error(&place, "FROM at another point than the tool's", expected));
             }
         }
-        Ok(())
-    }
-
-    pub(super) fn arc(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
-        self.no_circle_waits()?;
-        let place = statement.place;
-        let tokens = self.tokens(statement)?;
-        let (values, angle) = tokens.split_at(tokens.len().min(7));
-        let movarc = statement.word == "MOVARC";
-        let known = match angle {
-            [] => values.len() == 7 && !movarc,
-            [word, _] => movarc && word.is("ANGLE"),
-            _ => false,
-        };
-        if !known {
-            let place = tokens.get(7).map_or(statement.end(), |token| token.place);
-            let expected = if movarc {
-                "an arc is MOVARC/xc,yc,zc,i,j,k,r,ANGLE,a"
-            } else {
-                "an arc is CIRCLE/xc,yc,zc,i,j,k,r; \
-                 for longer ones (Siemens NX writes eleven values) let the CAM system write straight moves"
-            };
-            return Err(self.error(
-                &place,
-                format!("{} with {} values", statement.word, tokens.len()),
-                expected,
-            ));
-        }
-        let numbers: Vec<f64> = values.iter().map(|token| self.number(token)).collect::<Result<_, _>>()?;
-        let center = self.point(&numbers[..3], values)?;
-        let axis = self
-            .builder
-            .direction(Vector3::from_column_slice(&numbers[3..6]), place.line)
-            .map_err(|fault| fault.at(self.field, values[3].place.position()))?;
-        let radius = self.radius(&values[6])?;
-        let sweep = angle.get(1).map(|token| match self.number(token)? {
-            degrees if degrees > 0.0 && degrees <= 360e3 => Ok(degrees * DEG),
-            degrees => Err(self.error(
-                &token.place,
-                format!("the angle {degrees} deg"),
-                "an angle is above 0, 1000 turns at most",
-            )),
-        });
-        if !movarc {
-            self.builder.remark("circle-sense", place.line, || {
-                "CIRCLE is read as counter-clockwise about its vector, as PTC Creo means it; other systems may mean the other way".into()
-            });
-        }
-        self.circle = Some((Circle { center, axis, radius, sweep: sweep.transpose()? }, place));
         Ok(())
     }
 }

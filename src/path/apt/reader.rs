@@ -1,7 +1,9 @@
 //! The modal state of APT statements, and their dispatch.
 
-use super::statement::{Statement, Statements, TextPlace};
-use super::{Options, words};
+use super::cycle::DrillCycle;
+use super::drive::{Ahead, DriveSide};
+use super::statement::{AptToken, Statement, Statements, TextPlace};
+use super::{Options, language, words};
 use crate::error::Error;
 use crate::path::builder::{Circle, Fault, ProgramBuilder};
 use crate::path::program::{Ignored, Program};
@@ -9,7 +11,7 @@ use crate::path::unit::LengthUnit;
 use nalgebra::Vector3;
 
 /// A feed as written.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub(super) enum Feed {
     /// [m/s]
     PerTime(f64),
@@ -18,6 +20,7 @@ pub(super) enum Feed {
 }
 
 pub(super) struct Reader<'a> {
+    text: &'a str,
     pub(super) field: &'a str,
     pub(super) builder: ProgramBuilder,
     pub(super) unit: LengthUnit,
@@ -37,12 +40,14 @@ pub(super) struct Reader<'a> {
     pub(super) circle: Option<(Circle, TextPlace<'a>)>,
     /// The circle of the arc completed by the previous statement.
     pub(super) made: Option<Circle>,
-    /// The direction of `INDIRV`, and its place.
-    pub(super) ahead: Option<(Vector3<f64>, TextPlace<'a>)>,
-    /// Line of a `GOHOME`.
+    /// The direction in which the next arc starts.
+    pub(super) ahead: Option<Ahead<'a>>,
+    pub(super) side: Option<DriveSide<'a>>,
+    pub(super) cycle: Option<DrillCycle>,
+    /// Line of a `GOHOME` without a point.
     pub(super) home: Option<usize>,
-    /// The first statement of the coordinates' frame.
-    pub(super) frame: Option<String>,
+    /// The coordinates' frame: its origin, x axis and y axis, as written.
+    pub(super) frame: Option<Vec<f64>>,
     /// Line of `FINI`.
     pub(super) ended: Option<usize>,
 }
@@ -53,6 +58,7 @@ pub(super) fn read(
     mut on_line: impl FnMut(usize),
 ) -> Result<Program, Error> {
     let mut reader = Reader {
+        text,
         field: options.field,
         builder: ProgramBuilder::default(),
         unit: options.unit,
@@ -67,6 +73,8 @@ pub(super) fn read(
         circle: None,
         made: None,
         ahead: None,
+        side: None,
+        cycle: None,
         home: None,
         frame: None,
         ended: None,
@@ -103,37 +111,41 @@ impl<'a> Reader<'a> {
     /// Executes a statement.
     fn follow(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
         let place = &statement.place;
+        if let Some(word) = statement.note() {
+            return self.note(word, statement);
+        }
         if let Some(line) = self.ended {
             let expected = format!("nothing follows FINI (line {line})");
             return Err(self.error(place, statement.written(), expected));
         }
         let made = self.made.take();
-        if let (Some((_, place)), "GOTO" | "FROM" | "CIRCLE" | "MOVARC" | "FINI") =
+        if let (Some(ahead), "GOTO" | "FROM" | "CIRCLE" | "MOVARC" | "CYCLE" | "GOHOME" | "FINI") =
             (&self.ahead, statement.word.as_str())
         {
-            return Err(self.error(
-                place,
-                "INDIRV without its arc",
-                "TLON,GOFWD/(CIRCLE/...),ON,(LINE/...) follows it",
-            ));
+            let expected = "TLON,GOFWD/(CIRCLE/...),ON,(LINE/...) follows it";
+            return Err(self.error(&ahead.place, "a start direction without its arc", expected));
+        }
+        if let (Some(cycle), "FROM" | "CIRCLE" | "MOVARC" | "INDIRV" | "INDIRP" | "GOHOME") =
+            (&self.cycle, statement.word.as_str())
+        {
+            let expected = format!("GOTO to a hole, or CYCLE/OFF to end the cycle of line {}", cycle.line);
+            return Err(self.error(place, statement.written(), expected));
         }
         match statement.word.as_str() {
             "GOTO" => self.go(statement, made)?,
             "FROM" => self.start(statement)?,
             "CIRCLE" | "MOVARC" => self.arc(statement)?,
-            "INDIRV" => {
-                self.no_circle_waits()?;
-                let (numbers, _) = self.numbers(statement, &[3])?;
-                self.ahead = Some((Vector3::from_column_slice(&numbers), *place));
-            }
-            "TLON,GOFWD" => self.arc_on_circle(statement)?,
+            "INDIRV" | "INDIRP" => self.direct(statement)?,
+            "TLON" | "TLLFT" | "TLRGT" => self.side(statement)?,
+            "GOFWD" | "TLON,GOFWD" | "TLLFT,GOFWD" | "TLRGT,GOFWD" => self.arc_on_circle(statement)?,
+            "CYCLE" => self.cycle(statement)?,
             "RAPID" => {
                 self.words(statement, &[])?;
                 self.rapid = true;
             }
             "FEDRAT" => self.feed(statement)?,
             "SPINDL" => self.spindle(statement)?,
-            "UNITS" => self.units(statement)?,
+            "UNITS" | "UNIT" => self.units(statement)?,
             "MULTAX" => self.multax = Some(self.words(statement, &["ON", "OFF"])? != Some("OFF")),
             "TLAXIS" => {
                 let (numbers, _) = self.numbers(statement, &[3])?;
@@ -141,29 +153,23 @@ impl<'a> Reader<'a> {
                 self.fixed_axis = Some(axis.map_err(|fault| fault.at(self.field, place.position()))?);
             }
             "DELAY" | "DWELL" => self.dwell(statement)?,
-            "GOHOME" => {
-                self.home = Some(place.line);
-                self.ignore(statement);
-                self.builder.remark("home", place.line, || "the way home is not part of the path".into());
-            }
+            "GOHOME" => self.go_home(statement)?,
             "FINI" => self.ended = Some(place.line),
-            "MSYS" | "ORIGIN" => self.frame(statement)?,
-            word if words::HARMLESS.contains(&word) => self.harmless(word, statement),
+            "MSYS" | "ORIGIN" | "CSYS" => self.frame(statement)?,
+            word if words::is_harmless(word) => self.harmless(word, statement),
             word if words::CONTROLLER.contains(&word) => self.controller_text(statement),
             word => self.other(word, statement)?,
         }
         Ok(())
     }
 
-    /// The frame of the coordinates, which must not change.
-    fn frame(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
-        let frame = statement.written();
-        if self.frame.as_ref().is_some_and(|first| *first != frame) {
-            let expected = "one frame for the whole program: let the CAM system write one file for each";
-            return Err(self.error(&statement.place, frame, expected));
+    /// A comment that Creo writes for programs: only the tool and the frame matter.
+    fn note(&mut self, word: &str, statement: &Statement<'a>) -> Result<(), Error> {
+        match word {
+            "CUTTER" => self.tool(statement),
+            "CSYS" => self.frame(statement)?,
+            _ => {}
         }
-        self.frame = Some(frame);
-        self.ignore(statement);
         Ok(())
     }
 
@@ -194,14 +200,14 @@ impl<'a> Reader<'a> {
     fn other(&mut self, word: &str, statement: &Statement<'a>) -> Result<(), Error> {
         let place = &statement.place;
         if let Some(advice) = words::refused(word) {
-            let tokens = self.tokens(statement)?;
-            if let ([token], "CUTCOM" | "CYCLE" | "TRACUT" | "COPY") = (tokens.as_slice(), word)
-                && (token.is("OFF") || token.is("NOMORE"))
-            {
+            if self.is_off(word, statement) {
                 self.ignore(statement);
                 return Ok(());
             }
             return Err(self.error(place, statement.written(), advice));
+        }
+        if let (None, Some((name, advice))) = (self.builder.pose, language::other_than_apt(self.text)) {
+            return Err(self.error(place, format!("{name} (\"{}\")", statement.written()), advice));
         }
         if word.contains('=') {
             let expected =
@@ -213,6 +219,19 @@ impl<'a> Reader<'a> {
             None => "a word of APT, such as GOTO, RAPID or FEDRAT".into(),
         };
         Err(self.error(place, format!("the unknown word \"{word}\""), expected))
+    }
+
+    /// Whether a word that is refused otherwise asks for nothing: it is switched off, or turns by 0.
+    fn is_off(&self, word: &str, statement: &Statement<'a>) -> bool {
+        let Ok(tokens) = statement.tokens() else { return false };
+        match (word, tokens.as_slice()) {
+            ("CUTCOM" | "TRACUT" | "COPY", [token]) => token.is("OFF") || token.is("NOMORE"),
+            ("ROTABL" | "ROTHED", tokens) => {
+                let mut angles = tokens.iter().filter_map(AptToken::number).peekable();
+                angles.peek().is_some() && angles.all(|angle| angle == 0.0)
+            }
+            _ => false,
+        }
     }
 
     /// Lists a statement without effect on the path.

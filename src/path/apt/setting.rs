@@ -1,76 +1,97 @@
 //! Statements that set a state (FEDRAT, SPINDL, UNITS), and waits.
 
 use super::reader::{Feed, Reader};
-use super::statement::Statement;
+use super::statement::{AptToken, Statement};
 use crate::error::Error;
 use crate::path::builder::{self, LONGEST_WAIT, SPINDLE};
 use crate::path::program::{Dwell, Tool};
 use crate::path::unit::LengthUnit;
-use crate::units::{INCH, MINUTE, MM, RPM};
+use crate::units::{MINUTE, RPM};
+
+/// What a word says of a feed: whether it is per revolution, and its unit of length.
+fn feed_word(word: &str) -> Option<(Option<bool>, Option<LengthUnit>)> {
+    Some(match word {
+        "PERMIN" => (Some(false), None),
+        "PERREV" => (Some(true), None),
+        "MMPM" => (Some(false), Some(LengthUnit::Mm)),
+        "MMPR" => (Some(true), Some(LengthUnit::Mm)),
+        "IPM" => (Some(false), Some(LengthUnit::Inch)),
+        "IPR" => (Some(true), Some(LengthUnit::Inch)),
+        _ => return None,
+    })
+}
 
 impl<'a> Reader<'a> {
     pub(super) fn feed(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
         let tokens = self.tokens(statement)?;
-        let (value, word) = match tokens.as_slice() {
-            [value] => (value, None),
-            [first, second] if first.number().is_some() => (first, Some(second)),
-            [first, second] => (second, Some(first)),
+        let (values, words): (Vec<_>, Vec<_>) =
+            tokens.iter().copied().partition(|token| token.number().is_some());
+        match values.as_slice() {
+            [value] if words.len() <= 2 => self.feed = Some(self.feed_of(value, &words)?),
             _ => {
                 let found = format!("FEDRAT with {} values", tokens.len());
                 return Err(self.error(&statement.end(), found, "a feed is FEDRAT/f or FEDRAT/f,MMPM"));
             }
-        };
+        }
+        Ok(())
+    }
+
+    /// A feed, in the text's unit of length a minute unless words say another.
+    pub(super) fn feed_of(&mut self, value: &AptToken<'a>, words: &[AptToken<'a>]) -> Result<Feed, Error> {
         let number = self.number(value)?;
-        let (inch, mm) = (INCH * number, MM * number);
-        let own = self.unit.in_m() * number;
-        let unit = word.map_or(String::new(), |word| word.text.to_ascii_uppercase());
-        self.feed = Some(match unit.as_str() {
-            "" | "PERMIN" => Feed::PerTime(own / MINUTE),
-            "PERREV" => Feed::PerTurn(own),
-            "MMPM" => Feed::PerTime(mm / MINUTE),
-            "IPM" => Feed::PerTime(inch / MINUTE),
-            "MMPR" => Feed::PerTurn(mm),
-            "IPR" => Feed::PerTurn(inch),
-            _ => {
-                let place = word.map_or(value.place, |word| word.place);
-                return Err(self.error(&place, format!("\"{unit}\""), "a feed is in MMPM, IPM, MMPR or IPR"));
+        let (mut per_turn, mut length) = (None, None);
+        for word in words {
+            let known = feed_word(&word.text.to_ascii_uppercase());
+            let agrees = known.is_some_and(|(turn, unit)| {
+                turn.is_none_or(|turn| *per_turn.get_or_insert(turn) == turn)
+                    && unit.is_none_or(|unit| *length.get_or_insert(unit) == unit)
+            });
+            if !agrees {
+                let found = format!("\"{}\"", word.text);
+                return Err(self.error(&word.place, found, "a feed is in MMPM, IPM, MMPR or IPR"));
             }
-        });
+        }
         if number <= 0.0 {
             return Err(self.error(&value.place, format!("the feed {number}"), "a feed is larger than 0"));
         }
-        match self.feed {
-            Some(Feed::PerTime(feed)) => {
-                builder::feed(feed).map_err(|fault| fault.at(self.field, value.place.position()))?;
-            }
-            _ => {
-                builder::coordinate(own).map_err(|fault| fault.at(self.field, value.place.position()))?;
-            }
+        if let Some(unit) = length.filter(|unit| *unit != self.unit) {
+            let (unit, lengths) = (unit.name(), self.unit.name());
+            self.builder.remark("feed-unit", value.place.line, || {
+                format!("the feed is in {unit}, but lengths are in {lengths}")
+            });
         }
-        let line = statement.place.line;
-        match (unit.starts_with('I'), unit.starts_with("MM"), self.unit) {
-            (true, _, LengthUnit::Mm) | (_, true, LengthUnit::Inch) => {
-                let lengths = self.unit.name();
-                self.builder.remark("feed-unit", line, || {
-                    format!("the feed is in {unit}, but lengths are in {lengths}")
-                });
-            }
-            _ => {}
+        let size = number * length.unwrap_or(self.unit).in_m();
+        if per_turn == Some(true) {
+            return builder::coordinate(size)
+                .map(Feed::PerTurn)
+                .map_err(|fault| fault.at(self.field, value.place.position()));
         }
-        Ok(())
+        builder::feed(size / MINUTE)
+            .map(Feed::PerTime)
+            .map_err(|fault| fault.at(self.field, value.place.position()))
     }
 
     pub(super) fn spindle(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
         let tokens = self.tokens(statement)?;
         let mut speed = None;
-        for token in &tokens {
+        let mut rest = tokens.iter();
+        while let Some(token) = rest.next() {
             match token.number() {
+                Some(0.0) if speed.is_none() => {
+                    self.spinning = false;
+                    self.builder.remark("spindle-zero", token.place.line, || {
+                        "a spindle speed of 0 is read as a spindle that stands still".into()
+                    });
+                    return Ok(());
+                }
                 Some(rpm) if speed.is_none() && SPINDLE.contains(&rpm) => speed = Some(rpm * RPM),
                 Some(rpm) => {
                     let expected = "one speed, from 1 to 1000000 rpm; SPINDL/OFF stops the spindle";
                     return Err(self.error(&token.place, format!("the spindle speed {rpm}"), expected));
                 }
                 None if token.is("RPM") || token.is("CLW") || token.is("ON") => {}
+                // The gear.
+                None if token.is("RANGE") && rest.next().is_some() => {}
                 None if token.is("OFF") && tokens.len() == 1 => {
                     self.spinning = false;
                     return Ok(());
@@ -111,7 +132,13 @@ impl<'a> Reader<'a> {
         let unit = match self.words(statement, &["MM", "INCHES", "INCH", "IN"])? {
             Some("MM") => LengthUnit::Mm,
             Some(_) => LengthUnit::Inch,
-            None => return Err(self.error(&statement.end(), "nothing", "UNITS is followed by MM or INCHES")),
+            None => {
+                return Err(self.error(
+                    &statement.end(),
+                    "nothing",
+                    format!("{} is followed by MM or INCHES", statement.word),
+                ));
+            }
         };
         if let (Some(line), true) = (self.first_length, unit != self.unit) {
             let found =
@@ -137,16 +164,19 @@ impl<'a> Reader<'a> {
                 return Err(self.error(&place, statement.written(), "a wait is DELAY/t, in seconds"));
             }
         };
-        let time = self.number(token)?;
-        if !(0.0..=LONGEST_WAIT).contains(&time) {
-            return Err(self.error(
-                &token.place,
-                format!("a wait of {time} s"),
-                format!("a wait is 0 to {LONGEST_WAIT} s"),
-            ));
-        }
+        let time = self.wait_of(token)?;
         let after = self.builder.program.moves.len();
         self.builder.program.dwells.push(Dwell { after, time, line: statement.place.line });
         Ok(())
+    }
+
+    /// A time [s].
+    pub(super) fn wait_of(&self, token: &AptToken<'a>) -> Result<f64, Error> {
+        let time = self.number(token)?;
+        if (0.0..=LONGEST_WAIT).contains(&time) {
+            return Ok(time);
+        }
+        let expected = format!("a wait is 0 to {LONGEST_WAIT} s");
+        Err(self.error(&token.place, format!("a wait of {time} s"), expected))
     }
 }

@@ -3,11 +3,15 @@
 
 use crate::error::Error;
 use crate::path::builder::Fault;
-use std::str::Lines;
+use crate::path::lines::TextLines;
 
 /// Words followed by text for people or for the controller, up to the end of the line, `$`
 /// included.
 const FREE_TEXT: [&str; 6] = ["PARTNO", "PPRINT", "REMARK", "INSERT", "TPRINT", "LETTER"];
+
+/// What begins a comment that a program may read: `$$-> CUTTER / 10.0`, as PTC Creo writes it. Unlike
+/// other comments it goes on in the next line after a `$`.
+const NOTE: &str = "$$->";
 
 /// A place in the text.
 #[derive(Debug, Clone, Copy)]
@@ -72,6 +76,16 @@ pub(super) struct Statement<'a> {
 }
 
 impl<'a> Statement<'a> {
+    /// The word of a comment `$$-> WORD / ...`, if the statement is one.
+    pub(super) fn note(&self) -> Option<&str> {
+        self.word.strip_prefix(NOTE).map(str::trim_start)
+    }
+
+    /// Whether nothing follows the word but blanks and, perhaps, a slash.
+    pub(super) fn is_bare(&self) -> bool {
+        self.rest.iter().all(|place| place.text[place.byte..].trim().is_empty())
+    }
+
     /// What follows the slash, cut at commas; empty without a slash.
     ///
     /// # Errors
@@ -124,7 +138,7 @@ impl<'a> Statement<'a> {
 
 /// The statements of a text in order.
 pub(super) struct Statements<'a> {
-    lines: std::iter::Enumerate<Lines<'a>>,
+    lines: std::iter::Enumerate<TextLines<'a>>,
     field: &'a str,
     /// Number of lines read.
     pub(super) count: usize,
@@ -132,8 +146,7 @@ pub(super) struct Statements<'a> {
 
 impl<'a> Statements<'a> {
     pub(super) fn new(text: &'a str, field: &'a str) -> Self {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        Self { lines: text.lines().enumerate(), field, count: 0 }
+        Self { lines: TextLines::of(text).enumerate(), field, count: 0 }
     }
 
     /// The next line that is not blank, without its comment, and whether it is continued.
@@ -144,7 +157,11 @@ impl<'a> Statements<'a> {
             let free = FREE_TEXT
                 .iter()
                 .any(|word| text[byte..].get(..word.len()).is_some_and(|s| s.eq_ignore_ascii_case(word)));
-            let dollar = if free { None } else { text.find('$') };
+            let dollar = match text {
+                _ if free => None,
+                note if note[byte..].starts_with(NOTE) => last_dollar(note),
+                text => text.find('$'),
+            };
             let goes_on = dollar.is_some_and(|at| !text[at + 1..].starts_with('$'));
             let text = text[..dollar.unwrap_or(text.len())].trim_end();
             if goes_on || byte < text.len() {
@@ -165,7 +182,7 @@ impl<'a> Iterator for Statements<'a> {
         let free = FREE_TEXT
             .iter()
             .find(|word| body.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word)));
-        let (word, length) = match (free, body.find('/')) {
+        let (mut word, length) = match (free, body.find('/')) {
             (Some(word), _) => (word.to_string(), word.len()),
             (None, Some(slash)) => (squeezed(&body[..slash]), slash),
             (None, None) => (squeezed(body), body.len()),
@@ -181,14 +198,20 @@ impl<'a> Iterator for Statements<'a> {
         }
         while goes_on {
             let Some((next, more)) = self.line() else {
+                if word.starts_with(NOTE) {
+                    break;
+                }
                 let end = (place.line, place.text.chars().count() + 1);
                 let expected = "$ says that the statement goes on in the next line";
                 return Some(Err(Fault::new("the end of the text after $", expected).at(self.field, end)));
             };
             (place, goes_on) = (next, more);
-            if !slash && rest.is_empty() && place.text[place.byte..].starts_with('/') {
+            if let (false, true, Some(at)) = (slash, rest.is_empty(), place.text[place.byte..].find('/'))
+                && (at == 0 || word.ends_with(','))
+            {
+                word.push_str(&squeezed(&place.text[place.byte..place.byte + at]));
                 slash = true;
-                place.byte += 1;
+                place.byte += at + 1;
             }
             if place.byte < place.text.len() {
                 rest.push(place);
@@ -198,12 +221,20 @@ impl<'a> Iterator for Statements<'a> {
     }
 }
 
-/// Upper case, with single blanks.
+/// Place of a `$` that ends a line, unless it is the second of two.
+fn last_dollar(text: &str) -> Option<usize> {
+    let before = text.trim_end().strip_suffix('$')?;
+    (!before.ends_with('$')).then_some(before.len())
+}
+
+/// Upper case, with single blanks, and none after a comma.
 fn squeezed(text: &str) -> String {
     let mut words = text.split_whitespace();
     let mut squeezed = words.next().unwrap_or_default().to_ascii_uppercase();
     for word in words {
-        squeezed.push(' ');
+        if !squeezed.ends_with(',') {
+            squeezed.push(' ');
+        }
         squeezed.push_str(&word.to_ascii_uppercase());
     }
     squeezed

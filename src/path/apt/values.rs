@@ -38,6 +38,9 @@ impl<'a> Reader<'a> {
         statement: &Statement<'a>,
         allowed: &[&'static str],
     ) -> Result<Option<&'static str>, Error> {
+        if statement.is_bare() {
+            return Ok(None);
+        }
         let tokens = self.tokens(statement)?;
         let Some(token) = tokens.first() else { return Ok(None) };
         match allowed.iter().find(|word| token.is(word)) {

@@ -4,7 +4,7 @@
 //! Siemens, and CATIA's output.
 
 /// Words that neither move the tool nor change its path: listed only.
-pub(super) const HARMLESS: [&str; 48] = [
+pub(super) const HARMLESS: [&str; 50] = [
     "AIR",
     "AUTOPS",
     "BREAK",
@@ -46,23 +46,32 @@ pub(super) const HARMLESS: [&str; 48] = [
     "SELCTL",
     "SELECT",
     "SEQNO",
+    "SETUP",
     "STOP",
     "TLDATA",
     "TMARK",
     "TOLER",
+    "TOOL PATH",
     "TOOLNO",
     "TPRINT",
-    "TOOL PATH",
+    "TRNTYP",
 ];
+
+/// Whether a word neither moves the tool nor changes its path. SolidWorks CAM has many of one kind:
+/// `CSI_SET_OFFSET` and the like.
+pub(super) fn is_harmless(word: &str) -> bool {
+    HARMLESS.contains(&word) || word.starts_with("CSI_SET_")
+}
 
 /// Words whose text goes to the controller unchanged: listed with a remark, because it may move the
 /// tool.
 pub(super) const CONTROLLER: [&str; 3] = ["AUXFUN", "INSERT", "PREFUN"];
 
 /// Words that the reader supports, for suggestions.
-pub(super) const READ: [&str; 18] = [
-    "CIRCLE", "CUTCOM", "CYCLE", "DELAY", "DWELL", "FEDRAT", "FINI", "FROM", "GOHOME", "GOTO", "INDIRV",
-    "MOVARC", "MULTAX", "ORIGIN", "RAPID", "SPINDL", "TLAXIS", "UNITS",
+pub(super) const READ: [&str; 23] = [
+    "CIRCLE", "CSYS", "CUTCOM", "CYCLE", "DELAY", "DWELL", "FEDRAT", "FINI", "FROM", "GOFWD", "GOHOME",
+    "GOTO", "INDIRP", "INDIRV", "MOVARC", "MSYS", "MULTAX", "ORIGIN", "RAPID", "SPINDL", "TLAXIS", "TLON",
+    "UNITS",
 ];
 
 /// What to do about a word that changes the path in an unsupported way.
@@ -78,18 +87,21 @@ pub(super) fn refused(word: &str) -> Option<&'static str> {
             "cutter compensation bends the path: let the CAM system compensate, and write the tool centre's path"
         }
         "CYCLE" | "PITCH" | "THREAD" | "HELIX" => {
-            "cycles are not followed: let the CAM system write them out as GOTO (\"expand cycles\")"
+            "such cycles are not followed, only CYCLE/DRILL,DEPTH,d,MMPM,f,CLEAR,c and DEEP or BRKCHP with STEP,s, FACE with DWELL,t: \
+             let the CAM system write others out as GOTO (\"expand cycles\")"
         }
         "GODLTA" | "MODE" => "moves are absolute here: write GOTO/x,y,z",
-        "GO" | "GOLFT" | "GORGT" | "GOFWD" | "GOBACK" | "GOUP" | "GODOWN" | "OFFSET" | "INDIRV"
-        | "INDIRP" | "PSIS" | "TLON" | "TLLFT" | "TLRGT" | "TLLFT,GOFWD" | "TLRGT,GOFWD" | "THICK"
-        | "TLONPS" | "TLOFPS" => {
+        "GO" | "GOLFT" | "GORGT" | "GOBACK" | "GOUP" | "GODOWN" | "OFFSET" | "PSIS" | "THICK" | "TLONPS"
+        | "TLOFPS" => {
             "part geometry is not followed: let the CAM system write arcs as CIRCLE or as points, in CLDATA (GOTO)"
         }
         "RETRCT" | "RETURN" | "GOCLER" => {
             "a retract to a plane is not followed: write RAPID and the GOTO that it means"
         }
-        "ARCDAT" | "ARCMOV" | "ARCSLP" | "NURBS" | "SPLINE" | "POLY" => {
+        "NURBS" | "SPLINE" | "BSPLINE" | "POLY" | "KNOT" | "CNTRL" => {
+            "splines are not read: let the CAM system write lines and arcs (GOTO and CIRCLE)"
+        }
+        "ARCDAT" | "ARCMOV" | "ARCSLP" => {
             "this kind of curve is not followed: let the CAM system write CIRCLE or points"
         }
         "MACRO" | "CALL" | "TERMAC" | "LOOPST" | "LOOPND" | "IF" | "JUMPTO" | "DO" | "INCLUD" | "READ"
