@@ -416,7 +416,9 @@ fn another_language_is_named() {
         common::refused_at(read(text), text, place, part);
         assert!(read(text).unwrap_err().to_string().contains(name), "{text:?}");
     }
-    // Not after a point: one strange word makes no other language.
+    // One strange word in a text of APT makes no other language.
     let text = "GOTO/0,0,0\nG01 X5\nGOTO/1,0,0";
     common::refused_at(read(text), text, (2, 1), "a word of APT");
+    let text = "ABCDE/1\n$$-> CSYS / 1, 0, 0, 0, $\n 0, 1, 0, 0, $\n 0, 0, 1, 0\nGOTO / 0, 0, 0";
+    common::refused_at(read(text), text, (1, 1), "a word of APT");
 }

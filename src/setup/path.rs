@@ -40,7 +40,8 @@ fn program(given: &job::Path, text: &str, progress: &mut Progress) -> Result<Pro
     let on_line = |line: usize| {
         if line >= next {
             next = line + STRIDE;
-            progress.at(line as f64 / lines);
+            // A bare CR ends a line for some readers.
+            progress.at((line as f64 / lines).min(1.0));
         }
     };
     let unit = match given.unit.unwrap_or_default() {

@@ -24,30 +24,36 @@ const BEGINNINGS: [(&str, &[&str]); 6] = [
     ("Staubli VAL3", &["MOVEL(", "MOVEJ(", "MOVEC("]),
 ];
 
-/// What the text is instead of APT, and what to do about it.
+/// What the text is instead of APT, and what to do about it; `None` for a text that has a statement
+/// of APT, or nothing known.
 pub(super) fn other_than_apt(text: &str) -> Option<(&'static str, &'static str)> {
-    TextLines::of(text).take(LINES).find_map(|line| {
-        let line = line.trim().to_ascii_uppercase();
-        if is_gcode(&line) {
-            return Some(("G-code", "this is G-code: choose G-code as the kind of path (\"gcode\")"));
-        }
-        if is_heidenhain(&line) {
-            return Some(("Heidenhain Klartext", NOT_READ));
-        }
-        if is_row(&line) {
-            return Some((
-                "rows of numbers",
-                "these are points: choose points as the kind of path (\"csv\")",
-            ));
-        }
-        // `DEF PART()` is KRL, `def part():` is URScript, whose moves tell it.
-        if line.ends_with(':') {
-            return None;
-        }
-        let (name, _) =
-            BEGINNINGS.iter().find(|(_, words)| words.iter().any(|word| line.starts_with(word)))?;
-        Some((*name, NOT_READ))
-    })
+    let lines: Vec<String> =
+        TextLines::of(text).take(LINES).map(|line| line.trim().to_ascii_uppercase()).collect();
+    let goes =
+        |line: &String| line.strip_prefix("GOTO").is_some_and(|rest| rest.trim_start().starts_with('/'));
+    if lines.iter().any(|line| goes(line) || line.starts_with("PARTNO")) {
+        return None;
+    }
+    lines.iter().find_map(|line| named(line))
+}
+
+/// The language that a line in upper case tells, and what to do about it.
+fn named(line: &str) -> Option<(&'static str, &'static str)> {
+    if is_gcode(line) {
+        return Some(("G-code", "this is G-code: choose G-code as the kind of path (\"gcode\")"));
+    }
+    if is_heidenhain(line) {
+        return Some(("Heidenhain Klartext", NOT_READ));
+    }
+    if is_row(line) {
+        return Some(("rows of numbers", "these are points: choose points as the kind of path (\"csv\")"));
+    }
+    // `DEF PART()` is KRL, `def part():` is URScript, whose moves tell it.
+    if line.ends_with(':') {
+        return None;
+    }
+    let (name, _) = BEGINNINGS.iter().find(|(_, words)| words.iter().any(|word| line.starts_with(word)))?;
+    Some((*name, NOT_READ))
 }
 
 const NOT_READ: &str = "this language is not read: let the CAM system write G-code, APT/CLDATA or points";
