@@ -142,7 +142,8 @@ fn arcs_along_a_drive_curve_are_true_arcs() {
     }
     // TLON holds; in one statement it may be continued.
     let text = format!(
-        "GOTO/10,0,0\nINDIRV/0,1,0\nTLON, $\n{quarter}\nINDIRV/-1,0,0\nGOFWD/(CIRCLE/0,0,0,10),ON,2,INTOF,(LINE/0,0,0,-10,0,0)"
+        "GOTO/10,0,0\nINDIRV/0,1,0\nTLON, $\n{quarter}\nINDIRV/-1,0,0\n\
+         GOFWD/(CIRCLE/0,0,0,10),ON,2,INTOF,(LINE/0,0,0,-10,0,0)"
     );
     assert_length(&text, 2.0 * QUARTER);
     for (text, place, part) in [
@@ -200,7 +201,8 @@ fn circles_turn_as_their_system_means_them() {
         );
     }
     assert_eq!(remarks(&sound(SOLIDWORKS)), [("circle-sense", 11)]);
-    let words = "UNIT/INCH\nCSI_SET_OFFSET/1\nCSI_SET_TOOL,2\nTRNTYP/1\nSETUP/1\nPAINT/PATH\nPAINT/SPEED,10\nRAPID / \nGOTO/0,0,0\nRAPID  \nGOTO/1,0,0";
+    let words = "UNIT/INCH\nCSI_SET_OFFSET/1\nCSI_SET_TOOL,2\nTRNTYP/1\nSETUP/1\nPAINT/PATH\n\
+                 PAINT/SPEED,10\nRAPID / \nGOTO/0,0,0\nRAPID  \nGOTO/1,0,0";
     let program = sound(words);
     assert_eq!((described(&program).as_str(), program.ignored.len()), ("line 25.4 0 0 rapid", 6));
     let go = "GOTO/10,0,0\nCIRCLE/0,0,0,0,0,1";
@@ -267,7 +269,8 @@ fn drilling_cycles_are_expanded() {
         (
             "DRILL,DEEP,DEPTH,3,STEP,2,CLEAR,1",
             "GOTO/0,0,0",
-            "line 0 0 1 rapid; line 0 0 -1 feed 1; line 0 0 1 rapid; line 0 0 -0.746 rapid; line 0 0 -3 feed 1; line 0 0 1 rapid",
+            "line 0 0 1 rapid; line 0 0 -1 feed 1; line 0 0 1 rapid; line 0 0 -0.746 rapid; \
+             line 0 0 -3 feed 1; line 0 0 1 rapid",
         ),
         (
             "BRKCHP,DEPTH,3,INCR,2,CLEAR,1",
@@ -278,7 +281,8 @@ fn drilling_cycles_are_expanded() {
         (
             "DRILL,DEPTH,3,CLEAR,1",
             "GOTO/5,0,0,1,0,0",
-            "line 6 0 0 rapid tilt 1 0 0; line 2 0 0 feed 1 from 1 0 0 tilt 1 0 0; line 6 0 0 rapid from 1 0 0 tilt 1 0 0",
+            "line 6 0 0 rapid tilt 1 0 0; line 2 0 0 feed 1 from 1 0 0 tilt 1 0 0; \
+             line 6 0 0 rapid from 1 0 0 tilt 1 0 0",
         ),
     ] {
         let text = format!("FEDRAT/60\nGOTO/0,0,9\nCYCLE/{cycle}\n{holes}");
@@ -379,7 +383,8 @@ fn what_cam_systems_add_is_harmless() {
     for (text, place, part) in [
         // P30
         (
-            "GOTO/0,0,0\nFEDRAT/600,MMPM\nGOTO/10,0,0\nNURBS/\nKNOT/0.1,0.5,1.0\nCNTRL/11,0,0\nCNTRL/12,1,0\nGOTO/20,0,0",
+            "GOTO/0,0,0\nFEDRAT/600,MMPM\nGOTO/10,0,0\nNURBS/\n\
+             KNOT/0.1,0.5,1.0\nCNTRL/11,0,0\nCNTRL/12,1,0\nGOTO/20,0,0",
             (4, 1),
             "splines",
         ),

@@ -41,7 +41,8 @@ impl ArcForm {
                 "CIRCLE with six values is read as counter-clockwise about its vector, as SolidWorks CAM means it",
             ),
             Self::Creo => Some(
-                "CIRCLE is read as counter-clockwise about its vector, as PTC Creo means it; other systems may mean the other way",
+                "CIRCLE is read as counter-clockwise about its vector, as PTC Creo means it; \
+                 other systems may mean the other way",
             ),
             Self::Nx => Some(
                 "CIRCLE with eleven values is read as clockwise about its vector, as Siemens NX means it",

@@ -102,7 +102,8 @@ impl<'a> Reader<'a> {
         let circle = Circle { center, axis, radius: self.radius(&r)?, sweep: None };
         // A tool beside the circle is on it only if its radius is zero.
         if side != "TLON" && !(circle.passes(&from) && circle.passes(&end)) {
-            let expected = "the tool runs beside the circle, which is not followed: let the CAM system write the path of its centre with TLON, as CIRCLE or as points";
+            let expected = "the tool runs beside the circle, which is not followed: \
+                            let the CAM system write the path of its centre with TLON, as CIRCLE or as points";
             return Err(self.error(&side_at, side, expected));
         }
         let target = self.target(&place, end, tool_axis)?;

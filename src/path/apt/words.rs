@@ -87,7 +87,8 @@ pub(super) fn refused(word: &str) -> Option<&'static str> {
             "cutter compensation bends the path: let the CAM system compensate, and write the tool centre's path"
         }
         "CYCLE" | "PITCH" | "THREAD" | "HELIX" => {
-            "such cycles are not followed, only CYCLE/DRILL,DEPTH,d,MMPM,f,CLEAR,c and DEEP or BRKCHP with STEP,s, FACE with DWELL,t: \
+            "such cycles are not followed, only CYCLE/DRILL,DEPTH,d,MMPM,f,CLEAR,c, \
+             DEEP or BRKCHP with STEP,s, and FACE with DWELL,t: \
              let the CAM system write others out as GOTO (\"expand cycles\")"
         }
         "GODLTA" | "MODE" => "moves are absolute here: write GOTO/x,y,z",

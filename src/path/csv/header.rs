@@ -55,8 +55,8 @@ const ANGLES: [&str; 23] = [
 ];
 
 /// What is allowed where angles of a robot are found.
-pub(super) const NO_ANGLES: &str = "angles of a robot (A, B, C; W, P, R; RX, RY, RZ) are not read: give the tool's axis \
-    as i, j, k, a vector of the length 1 (within 5 %) from tip to spindle, or leave these columns out";
+pub(super) const NO_ANGLES: &str = "angles of a robot (A, B, C; W, P, R; RX, RY, RZ) are not read: \
+    give the tool's axis as i, j, k, a vector of the length 1 (within 5 %) from tip to spindle, or leave these columns out";
 
 impl Columns {
     /// The columns of a text without a header.

@@ -61,7 +61,9 @@ pub fn program(text: &str, options: &Options<'_>, mut on_line: impl FnMut(usize)
         if columns.index.is_some() && builder.pose.is_none() {
             builder.remark("index-column", row.line, || match columns.named {
                 true => "the column that numbers the rows is left out".into(),
-                false => "the first column counts the rows and is left out; if it is x, name the columns in a first line: x,y,z,feed".into(),
+                false => "the first column counts the rows and is left out; \
+                          if it is x, name the columns in a first line: x,y,z,feed"
+                    .into(),
             });
         }
         let axis = match columns.axis {
