@@ -6,7 +6,7 @@
 mod block;
 
 use crate::error::Error;
-use crate::job::{DhRow, Job, Opw};
+use crate::job::{DhRow, Job, Opw, PathKind};
 use crate::robot::library::Preset;
 use block::FieldBlock;
 use serde::{Deserialize, Serialize, Serializer};
@@ -202,6 +202,13 @@ pub(crate) fn check_path_keys(job: &Job) -> Result<(), Error> {
                 "given",
                 format!("a path of kind {kind} has no {key}; it belongs to {kinds}"),
             ));
+        }
+    }
+    // They have no field in the form.
+    for key in ["block_delete", "start_mm"] {
+        if given.get(key).is_some() && job.path.kind != PathKind::Gcode {
+            let expected = format!("a path of kind {kind} has no {key}; it belongs to gcode");
+            return Err(Error::invalid(format!("path.{key}"), "given", expected));
         }
     }
     Ok(())

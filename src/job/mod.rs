@@ -24,7 +24,7 @@ pub use input::{
     Branch, CompensateAt, Compensation, DhRow, Elbow, Frame, Job, Joint3, Motion, Opw, Robot, SagZero,
     Shaper, ShaperKind, ShaperSpec, Shoulder, Wrist,
 };
-pub use path::{FeedUnit, Path, PathKind, Unit};
+pub use path::{FeedUnit, Path, PathKind, ProgramDialect, Unit};
 pub use source::{Source, Sources};
 pub use spin::{Spin, SpinGoal, SpinMode, SpinReference};
 pub use uncertainty::Uncertainty;

@@ -53,6 +53,25 @@ choice! {
     }
 }
 
+choice! {
+    /// Controller that a G-code program is written for.
+    ProgramDialect {
+        /// Recognised by what the program writes.
+        #[default]
+        Auto = "auto",
+        /// Fanuc and Haas.
+        Fanuc = "fanuc",
+        /// LinuxCNC.
+        LinuxCnc = "linuxcnc",
+        /// grbl and its relatives.
+        Grbl = "grbl",
+        /// Siemens Sinumerik.
+        Siemens = "siemens",
+        /// Mach3 and Mach4.
+        Mach = "mach",
+    }
+}
+
 /// The desired path in the workpiece frame. The keys in use depend on `kind`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Path {
@@ -94,7 +113,7 @@ pub struct Path {
     /// Text of a program, or pasted rows.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub text: Option<ProgramText>,
-    /// Unit of length of rows or of an APT text that do not give their own; default mm.
+    /// Unit of length of rows or of a program that do not give their own; default mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<Unit>,
     /// Unit of the feeds of rows that do not give their own; default mm/s.
@@ -109,12 +128,19 @@ pub struct Path {
     /// Whether lines of a G-code program that start with a slash are skipped; default true.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub block_delete: Option<bool>,
+    /// Controller of a G-code program; if not given, it is recognised.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dialect: Option<ProgramDialect>,
+    /// Tool position before the first line of a G-code program; if not given, the path starts where the
+    /// program has given X, Y and Z.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start_mm: Option<[f64; 3]>,
 }
 
 keys!(new Path {
     kind, center_mm, radius_mm, normal, start_deg, sweep_deg, from_mm, to_mm, width_mm, height_mm,
     corner_radius_mm, points_mm, text, unit, feed_unit, tool_length_offsets_mm, work_offsets_mm,
-    block_delete
+    block_delete, dialect, start_mm
 } required kind);
 
 impl Path {

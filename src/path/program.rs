@@ -4,6 +4,7 @@
 //! language a path came from.
 
 use crate::path::Segment;
+use crate::path::gcode::GcodeDialect;
 use nalgebra::Vector3;
 use std::sync::Arc;
 
@@ -20,6 +21,10 @@ pub struct Program {
     pub remarks: Vec<Remark>,
     /// Tools described by the program.
     pub tools: Vec<Tool>,
+    /// Whether subprograms, loops or jumps decide which line is next.
+    pub jumps: bool,
+    /// The controller whose G-code it is.
+    pub dialect: Option<GcodeDialect>,
     /// Unit of length of the text, as read: `mm` or `inch`.
     pub unit: &'static str,
     /// Number of lines in the text.

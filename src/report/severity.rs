@@ -20,23 +20,28 @@ pub enum Severity {
 /// them only where no controller passes them; see `report/singularity.rs`.
 const CANNOT_RUN: [&str; 4] = ["joint-limit", "command-acceleration", "joint-speed", "force-payload"];
 /// Codes of warnings that are only good to know.
-const NOTES: [&str; 16] = [
+const NOTES: [&str; 21] = [
     "approach-left-out",
     "block-delete",
     "chord",
     "circle-sense",
     "controller-text",
     "default-used",
+    "feed-zero",
     "header-unit",
     "home",
+    "index-column",
     "inverse-numerical",
     "joint-limit-near",
     "joint-limits-unknown",
     "joint-speeds-unknown",
+    "machine-zero",
     "nearly-full-circle",
     "rake-unused",
+    "rotary-zero",
     "spin-reference",
     "text-after-end",
+    "tool-length-kept",
 ];
 
 impl Severity {

@@ -4,6 +4,7 @@ use crate::cutting::material::Material;
 use crate::deviation::contour::MeanMax;
 use crate::deviation::{Deviation, Largest};
 use crate::model::MODEL;
+use crate::path::gcode::GcodeDialect;
 use crate::path::{MovePace, Path, SourceProgram};
 use crate::report::expected::{ExpectedError, HowSure};
 use crate::report::{Budget, CutFigures, Report, RollGain, VerdictState, WallFigures, Warning};
@@ -151,6 +152,9 @@ pub struct ProgramSummary {
     pub language: &'static str,
     /// Unit of length in the text.
     pub unit: &'static str,
+    /// Controller whose G-code it is: `fanuc`, `linuxcnc`, `grbl`, `siemens`, `mach` or `unknown`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dialect: Option<&'static str>,
     /// Number of lines.
     pub lines: usize,
     /// Number of cutting moves.
@@ -205,6 +209,7 @@ impl ProgramSummary {
         Self {
             language: source.language,
             unit: program.unit,
+            dialect: program.dialect.map(GcodeDialect::id),
             lines: program.lines,
             cutting_moves: program.moves.len() - rapid_moves,
             rapid_moves,

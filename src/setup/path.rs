@@ -1,8 +1,9 @@
 //! The job's path: a shape, or a program in one of the supported languages.
 
 use crate::error::Error;
-use crate::job::{self, FeedUnit, Job, PathKind, Unit, fields};
+use crate::job::{self, FeedUnit, Job, PathKind, ProgramDialect, Unit, fields};
 use crate::model::{MODEL, stamped};
+use crate::path::gcode::GcodeDialect;
 use crate::path::unit::{self, LengthUnit};
 use crate::path::{Path, Program, Remark, SourceProgram, apt, csv, gcode, shape};
 use crate::progress::Progress;
@@ -70,6 +71,9 @@ fn program(given: &job::Path, text: &str, progress: &mut Progress) -> Result<Pro
                 work_offsets,
                 tool_length_offsets: lengths.map(|&(number, length)| (number, length * MM)).collect(),
                 block_delete: given.block_delete.unwrap_or(true),
+                dialect: dialect(given.dialect.unwrap_or_default()),
+                unit: given.unit.map(|_| unit),
+                start: given.start_mm.map(|start| Vector3::from(start) * MM),
                 ..gcode::Options::default()
             };
             gcode::program(text, &options, on_line)
@@ -82,6 +86,18 @@ fn program(given: &job::Path, text: &str, progress: &mut Progress) -> Result<Pro
             };
             csv::program(text, &csv::Options { field: TEXT, unit, feed_unit }, on_line)
         }
+    }
+}
+
+/// The controller of the job as the reader names it.
+fn dialect(given: ProgramDialect) -> Option<GcodeDialect> {
+    match given {
+        ProgramDialect::Auto => None,
+        ProgramDialect::Fanuc => Some(GcodeDialect::Fanuc),
+        ProgramDialect::LinuxCnc => Some(GcodeDialect::LinuxCnc),
+        ProgramDialect::Grbl => Some(GcodeDialect::Grbl),
+        ProgramDialect::Siemens => Some(GcodeDialect::Siemens),
+        ProgramDialect::Mach => Some(GcodeDialect::Mach),
     }
 }
 

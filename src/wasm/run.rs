@@ -25,7 +25,8 @@ export interface Warning {
 export interface Parts { joints: number[]; tool: number; shaping: number; total: number; }
 export interface Budget { sample: number; time_s: number; worst_mm: Parts; mean_mm: Parts; sentence: string; }
 export interface Understood {
-  language: "gcode" | "apt" | "csv"; unit: string; lines: number; cutting_moves: number; rapid_moves: number;
+  language: "gcode" | "apt" | "csv"; unit: string; lines: number;
+  dialect?: "fanuc" | "linuxcnc" | "grbl" | "siemens" | "mach" | "unknown"; cutting_moves: number; rapid_moves: number;
   multi_axis: boolean;
   lowest_mm: [number, number, number]; highest_mm: [number, number, number]; feeds_mm_s?: [number, number];
   ignored: { word: string; lines: number[] }[];

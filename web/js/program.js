@@ -8,10 +8,17 @@ import { formatNumber } from "./number.js";
 import { inLength, lengthUnit } from "./units.js";
 
 const LANGUAGES = { gcode: "G-code", apt: "APT / CLDATA", csv: "Points" };
+const DIALECTS = {
+  fanuc: " for Fanuc or Haas",
+  linuxcnc: " for LinuxCNC",
+  grbl: " for grbl",
+  siemens: " for Siemens",
+  mach: " for Mach",
+};
 const ENDINGS = {
   apt: ["apt", "aptsource", "cls", "cl", "ncl"],
   csv: ["csv", "txt", "tsv", "xyz"],
-  gcode: ["nc", "ngc", "gcode", "g", "tap", "cnc", "mpf", "eia", "iso"],
+  gcode: ["nc", "ngc", "gcode", "g", "tap", "cnc", "mpf", "spf", "eia", "iso"],
 };
 
 const MOST_IGNORED = 40; // words listed
@@ -96,7 +103,10 @@ export function showProgram(program, duration) {
   const span = (low, high) => (read(low) === read(high) ? read(low) : `${read(low)} to ${read(high)}`);
   const extents = ["X", "Y", "Z"].map((axis, i) => `${axis} ${span(program.lowest_mm[i], program.highest_mm[i])}`);
   const facts = [
-    ["Language", `${LANGUAGES[program.language]}, ${program.lines} lines in ${program.unit}`],
+    [
+      "Language",
+      `${LANGUAGES[program.language]}${DIALECTS[program.dialect] ?? ""}, ${program.lines} lines in ${program.unit}`,
+    ],
     [
       "Moves",
       `${program.cutting_moves} that cut, ${program.rapid_moves} rapid${program.multi_axis ? "; the tool axis turns" : ""}`,

@@ -24,7 +24,21 @@ const MOTION: [&str; 7] = ["G0", "G1", "G2", "G3", "G17", "G18", "G19"];
 /// The program to rewrite, if there is one and the command follows the order of its lines.
 pub(super) fn original<'r>(report: &'r Report, command: &Command) -> Option<&'r SourceProgram> {
     let follows = || command.moves.is_sorted_by_key(|commanded| commanded.line);
-    report.setup().program.as_ref().filter(|listing| listing.language == "gcode" && follows())
+    let is_plain =
+        |listing: &SourceProgram| !listing.program.jumps && listing.text.lines().all(has_plain_words);
+    let listing = report.setup().program.as_ref();
+    listing.filter(|listing| listing.language == "gcode" && follows() && is_plain(listing))
+}
+
+/// Whether a line has nothing but letters with a number: no variables, expressions, names or notes,
+/// which would not survive the change of a word.
+fn has_plain_words(line: &str) -> bool {
+    let optional = after_slash(line) > 0;
+    tokens(line, 0).filter(|token| token.kind == Kind::Word).all(|token| {
+        let number = token.text.get(1..).unwrap_or_default().trim();
+        let is_word = token.text.starts_with(|sign: char| sign.is_ascii_alphabetic());
+        optional || token.text == "%" || is_word && number.parse::<f64>().is_ok()
+    })
 }
 
 /// The original with the command's moves.
@@ -244,7 +258,7 @@ mod tests {
             ("/2 G1 X 1 . 5", vec!["/2", "G1", "X1.5"], ""),
             ("\u{feff}G91.1", vec!["\u{feff}", "G91.1"], ""),
             // Lines that no control accepts.
-            ("X(a)1 \u{a0}2 (b(c)d)", vec!["X12", "D"], "(a)(b(c))"),
+            ("X(a)1 \u{a0}2 (b(c)d)", vec!["X12"], "(a)(b(c)d)"),
             ("5#\u{e4} (open", vec!["5", "#", "\u{e4}"], "(open"),
         ] {
             let (found, remarks) = words_and_comments(line);

@@ -1,6 +1,9 @@
 //! One line of a program: its codes by modal group, and its other words, each used once.
 
 use super::code::{self, GROUPS, Group, Meaning};
+use super::expression::Variables;
+use super::interpreter::AXES;
+use super::siemens::{Siemens, SiemensCycle};
 use super::word::{self, Word, WordFault};
 
 /// A G or M code.
@@ -19,20 +22,37 @@ pub(super) struct Block<'t> {
     /// The line.
     pub(super) text: &'t str,
     codes: [Option<Code>; GROUPS],
+    /// What a Siemens cycle of the line asks for besides its words.
+    pub(super) cycle: Option<SiemensCycle>,
+    /// Whether an axis word stands in the line.
+    has_axis: bool,
     /// Words other than G, M and N, in order.
     words: Vec<Word>,
-    /// Codes without effect, in order.
-    pub(super) harmless: Vec<Word>,
+    /// Codes without effect, in order, each with the letters that it takes along.
+    pub(super) harmless: Vec<(Word, &'static [char])>,
 }
 
 impl<'t> Block<'t> {
     /// Reads a line from the byte `from` on; reuses the block's storage.
-    pub(super) fn read(&mut self, text: &'t str, from: usize) -> Result<(), WordFault> {
+    pub(super) fn read(
+        &mut self,
+        text: &'t str,
+        from: usize,
+        variables: &mut Variables,
+        siemens: Option<&mut Siemens>,
+    ) -> Result<(), WordFault> {
         self.text = text;
         self.codes = [None; GROUPS];
         self.words.clear();
         self.harmless.clear();
-        word::words(text, from, &mut self.words)?;
+        self.cycle = None;
+        match siemens {
+            Some(siemens) => {
+                siemens.words(text, from, &mut self.words, variables)?;
+                self.cycle = siemens.cycle;
+            }
+            None => word::words(text, from, &mut self.words, variables)?,
+        }
         self.sort()
     }
 
@@ -40,6 +60,7 @@ impl<'t> Block<'t> {
     fn sort(&mut self) -> Result<(), WordFault> {
         let text = self.text;
         let mut words = std::mem::take(&mut self.words);
+        self.has_axis = words.iter().any(|word| AXES.contains(&word.letter));
         let mut seen = 0_u32;
         let mut first = true;
         let mut kept = 0;
@@ -74,14 +95,21 @@ impl<'t> Block<'t> {
         let known = (exact - tenths).abs() < 1e-6 && (0.0..10_000.0).contains(&tenths);
         // No code has the number 1000, so it is refused as unknown.
         let tenths = if known { tenths as u32 } else { 10_000 };
-        let meaning = if word.letter == 'G' { code::g(tenths) } else { code::m(tenths) };
+        let meaning = match word.letter {
+            // G5 P switches look-ahead; a spline has X and Y.
+            'G' if tenths == 50 && !self.has_axis => Meaning::Harmless(&['P']),
+            'G' => code::g(tenths),
+            _ => code::m(tenths),
+        };
         match meaning {
             Meaning::Refused(instead) => Err(word.fault(self.text, instead)),
-            Meaning::Harmless => {
-                self.harmless.push(word);
+            Meaning::Harmless(letters) => {
+                self.harmless.push((word, letters));
                 Ok(())
             }
             Meaning::Acts(group) => match self.codes[group as usize] {
+                // Written twice, it is one code.
+                Some(other) if other.tenths == tenths => Ok(()),
                 Some(other) => {
                     let other = other.word.text(self.text);
                     Err(word.fault(
@@ -150,7 +178,7 @@ impl<'t> Block<'t> {
             'D' => {
                 "D names a cutter radius offset, which is not modelled: post the path of the tool's centre"
             }
-            'E' => "E is no word of milling; a number has no exponent in G-code: write it out",
+            'E' => "E is no word of milling; an exponent has a sign: X1e-05",
             _ => "no word starts with this letter; known are F G H I J K L M N O P Q R S T X Y Z",
         };
         Err(word.fault(self.text, expected))

@@ -26,15 +26,20 @@ pub(super) enum Group {
     WorkOffset,
     /// G61, G61.1, G64.
     Blending,
-    /// G4, G52, G53, G92, G92.1: active in their own block only.
+    /// G4, G10, G28, G30, G52, G53, G92, G92.1: active in their own block only.
     NonModal,
     /// M3, M5.
     Spindle,
-    /// M0, M1, M2, M30, M60.
+    /// M0, M1, M2, M17, M30, M60, M99.
     Stop,
     /// M6.
     ToolChange,
 }
+
+/// G54.1 P (Fanuc) and G154 P (Haas): offsets beyond G59.
+pub(super) const EXTENDED_OFFSET: u32 = 541;
+/// See [`EXTENDED_OFFSET`].
+pub(super) const HAAS_OFFSET: u32 = 1540;
 
 /// Number of groups.
 pub(super) const GROUPS: usize = Group::ToolChange as usize + 1;
@@ -44,8 +49,8 @@ pub(super) const GROUPS: usize = Group::ToolChange as usize + 1;
 pub(super) enum Meaning {
     /// Active, and the only one of its group.
     Acts(Group),
-    /// Has no effect on the path.
-    Harmless,
+    /// Has no effect on the path, and takes these letters along.
+    Harmless(&'static [char]),
     /// Would change the path (or the forces) in a way that is not modelled; what to do instead.
     Refused(&'static str),
 }
@@ -63,11 +68,24 @@ pub(super) fn g(tenths: u32) -> Meaning {
         930 | 940 | 950 => Acts(Group::FeedMode),
         430 | 440 | 490 => Acts(Group::ToolLength),
         980 | 990 => Acts(Group::Retract),
-        540 | 550 | 560 | 570 | 580 | 590 | 591 | 592 | 593 => Acts(Group::WorkOffset),
+        // Siemens names the units so for feeds as well.
+        7000 | 7100 => Acts(Group::Unit),
+        540 | 550 | 560 | 570 | 580 | 590 | 591 | 592 | 593 | EXTENDED_OFFSET | HAAS_OFFSET => {
+            Acts(Group::WorkOffset)
+        }
         610 | 611 | 640 => Acts(Group::Blending),
-        40 | 520 | 530 | 920 | 921 => Acts(Group::NonModal),
+        40 | 100 | 280 | 300 | 520 | 530 | 920 | 921 => Acts(Group::NonModal),
         // Each ends a mode whose start is refused, or names the only mode there is.
-        150 | 400 | 500 | 690 | 970 => Harmless,
+        131 | 150 | 230 | 400 | 491 | 500 | 670 | 690 | 691 | 970 | 1130 => Harmless(&[]),
+        501 => Harmless(&['X', 'Y', 'Z']),
+        // Where the controller keeps its accuracy: smoothing, look-ahead, exact stop, speed watch.
+        51 => Harmless(&['Q', 'R', 'P', 'X', 'Y', 'Z']),
+        80 => Harmless(&['P']),
+        90 | 250 | 600 | 6010 | 6020 | 6030 | 6410 | 6420 | 6430 | 6440 | 6450 => Harmless(&[]),
+        542 => Harmless(&['P']),
+        1870 => Harmless(&['P', 'E']),
+        // They store where the reference position is.
+        281 | 301 => Harmless(&['X', 'Y', 'Z', 'A', 'B', 'C']),
         410 | 411 | 420 | 421 => Refused(
             "cutter radius compensation is not modelled: have the CAM system post the path of the tool's centre",
         ),
@@ -78,20 +96,11 @@ pub(super) fn g(tenths: u32) -> Meaning {
         680 | 681 => Refused(
             "a rotated frame is not read: turn the workpiece frame of the job, or post rotated coordinates",
         ),
-        100 => {
-            Refused("offsets are not set from within a program: give them as the job's work and tool offsets")
-        }
-        280 | 281 | 300 | 301 => Refused(
-            "where the machine's reference position lies is not known: delete the line, or write the position with G53 G0",
-        ),
-        50 | 51 | 52 | 62 => Refused("splines are not read: have the CAM system post lines and arcs"),
-        650 | 660 | 661 | 670 => {
-            Refused("macro calls are not followed: have the CAM system post plain moves")
-        }
+        50 | 52 | 62 => Refused("splines are not read: have the CAM system post lines and arcs"),
+        650 | 660 | 661 => Refused("macro calls are not followed: have the CAM system post plain moves"),
         431 | 434 | 435 => Refused(
             "only G43 with an H number is read, for a tool that keeps its direction: post for three axes",
         ),
-        541 => Refused("extended work offsets are not read: use G54 to G59.3"),
         922 | 923 => Refused(
             "of the G92 family G92 and G92.1 are read: clear the offset with G92.1 and set it with G92",
         ),
@@ -100,7 +109,7 @@ pub(super) fn g(tenths: u32) -> Meaning {
             "of the canned cycles G73, G81, G82, G83, G85 and G89 are read: post the others as plain moves",
         ),
         382..=385 => Refused("probing is not read: delete the line"),
-        70 | 80 | 960 => Refused("this is a word of lathes; the reader is for milling"),
+        70 | 960 => Refused("this is a word of lathes; the reader is for milling"),
         _ => Refused("this G number is not known; if it does not change the path, delete it"),
     }
 }
@@ -109,14 +118,20 @@ pub(super) fn g(tenths: u32) -> Meaning {
 pub(super) fn m(tenths: u32) -> Meaning {
     use Meaning::{Acts, Harmless, Refused};
     match tenths {
-        0 | 10 | 20 | 300 | 600 => Acts(Group::Stop),
+        0 | 10 | 20 | 170 | 300 | 600 | 990 => Acts(Group::Stop),
         30 | 50 => Acts(Group::Spindle),
         60 => Acts(Group::ToolChange),
-        70 | 80 | 90 | 480 | 490 => Harmless,
         40 => Refused("the cutting model is for a clockwise spindle: use a right-hand tool and M3"),
-        970..=990 => {
+        970..=989 => {
             Refused("sub-program calls are not followed: have the CAM system post one whole program")
         }
-        _ => Refused("this M number is not known; if it does not change the path, delete it"),
+        // LinuxCNC's switch of the kinematics.
+        4280 | 4290 | 4300 => Refused("the kinematics is switched here: post for three axes, or use APT"),
+        // Fans and heaters take S, an oriented spindle R; P is the number or the time of a function.
+        1040 | 1060 | 1090 | 1400 => Harmless(&['S', 'P']),
+        190 => Harmless(&['P', 'R', 'S', 'Q']),
+        290 => Harmless(&['S']),
+        // In every control's book an M that is not of the standard is a function of the machine.
+        _ => Harmless(&['P']),
     }
 }

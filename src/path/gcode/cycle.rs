@@ -1,7 +1,7 @@
 //! Canned drilling cycles: the active one and its sticky words.
 
 use super::block::Block;
-use super::word::{Word, WordFault};
+use super::word::{Word, WordFault, WordMode};
 
 /// The active cycle, with the words that carry over from hole to hole.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +18,8 @@ pub(super) struct Cycle {
     pub(super) peck: Option<f64>,
     /// P: dwell at the bottom [s].
     pub(super) dwell: Option<f64>,
+    /// Level from which pecks count, if not the clearance plane [m].
+    pub(super) surface: Option<f64>,
 }
 
 /// A programmed height.
@@ -32,7 +34,7 @@ pub(super) struct Level {
 impl Cycle {
     /// A cycle that starts a series.
     pub(super) fn new(tenths: u32) -> Self {
-        Self { tenths, start: None, clearance: None, bottom: None, peck: None, dwell: None }
+        Self { tenths, start: None, clearance: None, bottom: None, peck: None, dwell: None, surface: None }
     }
 
     /// The cycle for this code. A repeated code keeps its words; another code continues the series
@@ -46,7 +48,7 @@ impl Cycle {
         matches!(self.tenths, 730 | 830)
     }
 
-    /// Whether it waits at the bottom for P.
+    /// Whether it always waits at the bottom for P.
     pub(super) fn dwells(&self) -> bool {
         matches!(self.tenths, 820 | 890)
     }
@@ -59,24 +61,20 @@ impl Cycle {
         unit: f64,
         incremental: bool,
     ) -> Result<(), WordFault> {
-        let level = |word: Word| Level { value: word.value * unit, incremental };
+        let level = |word: Word| Level {
+            value: word.value * unit,
+            incremental: incremental && word.mode == WordMode::Modal,
+        };
         self.clearance = block.take('R').map(level).or(self.clearance);
         self.bottom = block.take(normal).map(level).or(self.bottom);
         if self.pecks()
             && let Some(word) = block.take('Q')
         {
-            if word.value <= 0.0 {
-                return Err(word.fault(block.text, "the depth of a peck is greater than 0"));
-            }
-            self.peck = Some(word.value * unit);
-        }
-        if self.dwells()
-            && let Some(word) = block.take('P')
-        {
             if word.value < 0.0 {
-                return Err(word.fault(block.text, "a dwell is 0 or more seconds"));
+                return Err(word.fault(block.text, "the depth of a peck is 0 (in one go) or more"));
             }
-            self.dwell = Some(word.value);
+            // A depth of 0 drills in one go.
+            self.peck = Some(if word.value > 0.0 { word.value * unit } else { f64::INFINITY });
         }
         Ok(())
     }

@@ -42,22 +42,33 @@ impl Interpreter<'_> {
                 "a canned cycle needs a feed a minute (G94) or a revolution (G95)",
             ));
         }
-        if let Some(word) = block.peek('K') {
-            return Err(word.fault(block.text, "repeats of a canned cycle are written with L"));
-        }
         cycle.update(block, letter, self.modal.unit, self.modal.incremental)?;
-        let repeats = match block.take('L') {
+        if let Some(word) = block.take('P') {
+            cycle.dwell = Some(self.dwell_time(word, block)?);
+        }
+        // L in the standard, K on a Fanuc.
+        let repeats = match block.take('L').or_else(|| block.take('K')) {
             Some(word) => word.whole(block.text, 0, MOST)?,
             None => 1,
         };
         let level = self.position[normal];
+        if let Some(given) = block.cycle {
+            let absolute = |value: f64| value * self.modal.unit + self.origin()[normal];
+            (cycle.start, cycle.surface) = (Some(absolute(given.level)), Some(absolute(given.surface)));
+        }
         let start = *cycle.start.get_or_insert(level);
         self.modal.motion = Some(Motion::Cycle(cycle));
+        if cycle.clearance.is_none() {
+            self.remark("cycle-clearance", || {
+                format!("{name} has no R (clearance plane): the level before it is taken")
+            });
+        }
         let absolute = |level: Level| level.value + self.origin()[normal];
-        let (Some(clearance), Some(bottom)) = (cycle.clearance, cycle.bottom) else {
+        let clearance = cycle.clearance.unwrap_or(Level { value: 0.0, incremental: true });
+        let Some(bottom) = cycle.bottom else {
             return Err(fault(
-                format!("{name} without {}", if cycle.clearance.is_none() { "R" } else { "a depth" }),
-                &format!("{name} needs R (clearance plane) and {letter} (bottom)"),
+                format!("{name} without a depth"),
+                &format!("{name} needs {letter} (bottom of the hole)"),
             ));
         };
         let clearance = if clearance.incremental { start + clearance.value } else { absolute(clearance) };
@@ -72,7 +83,7 @@ impl Interpreter<'_> {
         self.check_cycle(&cycle, clearance - bottom, &name, place)?;
         for _ in 0..repeats {
             let before = self.position;
-            let mut over = self.target(block, false)?;
+            let mut over = self.target(block)?;
             over[normal] = before[normal];
             if over[normal] < clearance {
                 self.rapid_to_level(normal, clearance)?;
@@ -83,6 +94,9 @@ impl Interpreter<'_> {
         }
         for letter in AXES {
             block.take(letter);
+        }
+        if block.cycle.is_some_and(|given| !given.stays) {
+            self.modal.end_cycle();
         }
         Ok(())
     }
@@ -117,8 +131,9 @@ impl Interpreter<'_> {
         if let Some(peck) = cycle.peck {
             let lift = PECK_CLEARANCE.min(peck);
             let mut step = 1.0;
-            while hole.clearance - peck * step > hole.bottom + SAME {
-                let depth = hole.clearance - peck * step;
+            let top = cycle.surface.unwrap_or(hole.clearance);
+            while top - peck * step > hole.bottom + SAME {
+                let depth = top - peck * step;
                 self.feed_to_level(normal, depth, at)?;
                 if cycle.tenths == 830 {
                     self.rapid_to_level(normal, hole.clearance)?;

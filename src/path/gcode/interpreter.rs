@@ -2,11 +2,15 @@
 
 use super::block::Block;
 use super::code::Group;
+use super::dialect::GcodeDialect;
 use super::modal::Modal;
 use super::options::Options;
-use super::word::{self, WordFault};
+use super::siemens::Siemens;
+use super::word::{self, Word, WordFault};
 use crate::path::builder::LONGEST_WAIT;
 use crate::path::program::{Dwell, Ignored, Program, Remark};
+use crate::path::unit::LengthUnit;
+use crate::units::MM;
 use nalgebra::Vector3;
 
 /// The letters of the axes, in the order of a vector's components.
@@ -18,6 +22,8 @@ const LONG_WAIT: f64 = 30.0;
 /// The state of a running program.
 pub(super) struct Interpreter<'o> {
     pub(super) options: &'o Options,
+    pub(super) dialect: GcodeDialect,
+    pub(super) siemens: Siemens,
     pub(super) program: Program,
     pub(super) modal: Modal,
     /// Programmed tip position in the workpiece frame [m]; valid only for the axes that are
@@ -26,6 +32,8 @@ pub(super) struct Interpreter<'o> {
     pub(super) known: [bool; 3],
     /// End of the last move: `position`, unless a move was too short to keep.
     pub(super) tip: Vector3<f64>,
+    /// The highest Z so far [m].
+    pub(super) highest: f64,
     /// Line of the text, from 1.
     pub(super) line: usize,
     /// Offset of the work coordinate system in force [m].
@@ -41,12 +49,15 @@ pub(super) struct Interpreter<'o> {
 }
 
 impl<'o> Interpreter<'o> {
-    pub(super) fn new(options: &'o Options) -> Self {
+    pub(super) fn new(options: &'o Options, dialect: GcodeDialect) -> Self {
         let start = options.start.unwrap_or_default();
         Self {
             options,
+            dialect,
+            siemens: Siemens::default(),
             program: Program::default(),
-            modal: Modal::default(),
+            modal: Modal::starting_in(options.unit.map_or(MM, LengthUnit::in_m)),
+            highest: options.start.map_or(f64::NEG_INFINITY, |start| start.z),
             position: start,
             known: [options.start.is_some(); 3],
             tip: start,
@@ -98,7 +109,7 @@ impl<'o> Interpreter<'o> {
         self.motion(block)?;
         if let Some(code) = block.code(Group::Stop) {
             match code.tenths {
-                20 | 300 => self.ended = true,
+                20 | 170 | 300 | 990 => self.ended = true,
                 _ => self.ignore(code.word.text(block.text)),
             }
         }
@@ -108,9 +119,15 @@ impl<'o> Interpreter<'o> {
 
     /// Consumes tool changes and words without effect.
     fn pass_over(&mut self, block: &mut Block) -> Result<(), WordFault> {
-        for word in std::mem::take(&mut block.harmless) {
+        for (word, letters) in std::mem::take(&mut block.harmless) {
             self.ignore(word.text(block.text));
+            for &letter in letters {
+                if let Some(word) = block.take(letter) {
+                    self.ignore(word.text(block.text));
+                }
+            }
         }
+        self.pass_over_words(block);
         if let Some(word) = block.take('T') {
             self.ignore(word.text(block.text));
             if self.modal.tool.is_some_and(|tool| tool != word.value) {
@@ -133,25 +150,61 @@ impl<'o> Interpreter<'o> {
         Ok(())
     }
 
+    /// Consumes words that say nothing here: a rotary axis at 0, the number of a radius offset that
+    /// is never switched on.
+    fn pass_over_words(&mut self, block: &mut Block) {
+        for letter in ['A', 'B', 'C'] {
+            if block.peek(letter).is_some_and(|word| word.value == 0.0)
+                && let Some(word) = block.take(letter)
+            {
+                self.ignore(word.text(block.text));
+                self.remark("rotary-zero", || {
+                    "a rotary axis at 0: the tool keeps its direction as long as it stays there".into()
+                });
+            }
+        }
+        if let Some(word) = block.take('D') {
+            self.ignore(word.text(block.text));
+        }
+        if block.peek('F').is_some_and(|word| word.value == 0.0)
+            && !block.has(Group::NonModal, 40)
+            && let Some(word) = block.take('F')
+        {
+            self.ignore(word.text(block.text));
+            self.remark("feed-zero", || "a feed of 0 is left out: the one before stays in force".into());
+        }
+    }
+
     fn dwell(&mut self, block: &mut Block) -> Result<(), WordFault> {
         let Some(code) = block.code(Group::NonModal).filter(|code| code.tenths == 40) else { return Ok(()) };
-        let expected = "the time of G4 is P in seconds (G4 P0.5)";
+        let expected = "the time of G4 is P, or X or U in seconds (G4 P0.5)";
         let moves = block.code(Group::Motion).is_some();
-        if let Some(word) = block.first_of(&['X', 'Y', 'Z', 'U']).filter(|word| !moves || word.letter == 'U')
-        {
-            return Err(word.fault(block.text, expected));
-        }
-        let Some(word) = block.take('P') else { return Err(code.word.fault(block.text, expected)) };
-        if !(0.0..=LONGEST_WAIT).contains(&word.value) {
+        let time = block
+            .take('P')
+            .or_else(|| block.take('U'))
+            .or_else(|| if moves { None } else { block.take('X').or_else(|| block.take('F')) });
+        let Some(word) = time else { return Err(code.word.fault(block.text, expected)) };
+        let time = self.dwell_time(word, block)?;
+        self.wait(time);
+        Ok(())
+    }
+
+    /// The time [s] of a dwell: X, U and F are seconds, P as the dialect counts it.
+    pub(super) fn dwell_time(&mut self, word: Word, block: &Block) -> Result<f64, WordFault> {
+        let text = word.text(block.text);
+        let in_milliseconds = word.letter == 'P' && self.dialect.counts_milliseconds(text, word.value);
+        let time = if in_milliseconds { word.value / 1000.0 } else { word.value };
+        if !(0.0..=LONGEST_WAIT).contains(&time) {
             return Err(word.fault(block.text, format!("a dwell is 0 to {LONGEST_WAIT} seconds")));
         }
-        if word.value > LONG_WAIT {
+        if in_milliseconds {
+            self.remark("dwell-milliseconds", || format!("{text} is read as {time} s: milliseconds"));
+        } else if time > LONG_WAIT {
             self.remark("long-dwell", || {
-                format!("G4 P{0} is read as {0} s; some controls count P in milliseconds", word.value)
+                format!("{text} is read as {time} s; some controls count P in milliseconds")
             });
         }
-        self.wait(word.value);
-        Ok(())
+        Ok(time)
     }
 
     /// Adds a wait of `time` [s].

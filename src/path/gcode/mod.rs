@@ -10,40 +10,48 @@
 //! - G2, G3 with I J K or R, P: arcs and helices in the plane of G17, G18 (axes Z, X, seen from +Y)
 //!   or G19. R below 0 selects the arc of more than half a turn. An arc that ends within 1 nm of
 //!   its start is a full circle. P is the number of turns.
-//! - G20 G21, G70 G71: inch, mm; they apply to the whole of their line. The default is mm, with a
-//!   remark.
+//! - G20 G21, G70 G71: inch, mm; they apply to the whole of their line. The default is that of the
+//!   job, or mm with a remark.
 //! - G90 G91, G90.1 G91.1: end points and centres, absolute or incremental. The default is G90 and
 //!   G91.1.
 //! - G93 G94 G95, F, S: feed in 1/minutes, length per minute, length per revolution. Without F the
 //!   job's feed is used, with a remark.
-//! - G54 to G59.3, G52, G92, G92.1, G53: offsets. Machine zero is the origin of the workpiece
-//!   frame.
+//! - G54 to G59.3, G52, G92, G92.1: offsets. G54.1 P and G154 P are at zero, with a remark, and so
+//!   is what G10 sets; other values are refused.
+//! - G28, G30, G53: positions of the machine. They are left out, with a remark: the tool goes up to
+//!   the highest level so far if they move Z, and otherwise stays where it is.
 //! - G43 G44 H, G49: tool length offsets along Z, in addition to the job's tool frame.
-//! - G73 G81 G82 G83 G85 G89, G80, G98 G99: drilling, expanded into moves. The default is G98. L
+//! - G73 G81 G82 G83 G85 G89, G80, G98 G99: drilling, expanded into moves. The default is G98. L (K)
 //!   repeats. Under G91, R is relative to the level at the start of the series and the bottom is
-//!   relative to R.
-//! - G4 P: wait in seconds.
-//! - M0 M1 M60, M2 M30, M3 M5, M6 T, M7 M8 M9, M48 M49, G61 G64, G15 G40 G50 G69 G97: the end, the
-//!   spindle, and words without effect on the path, which are listed.
+//!   relative to R. After G80 the motion before the cycle is in force again.
+//! - G4 P, X, U: wait. X and U are seconds, P what the [`GcodeDialect`] counts.
+//! - M0 M1 M60, M2 M17 M30 M99, M3 M5, M6 T: the end, the spindle. Any other M is a function of the
+//!   machine. It is listed, like G codes that only smooth, look ahead or end a mode.
 //!
 //! Everything else is an error whose message says what to do: above all cutter compensation (G41,
-//! G42), scaling, rotation, polar coordinates, reference moves (G28, G30), G10, tapping, macros,
-//! subprograms, expressions, rotary axes and M4. A lone `O` number in the first line names the
-//! program and is skipped.
+//! G42), scaling, rotation, polar coordinates, tapping, macros, subprograms, expressions, rotary axes
+//! other than 0 and M4. A lone `O` number in the first line names the program and is skipped.
 
 mod arc;
 mod block;
 mod code;
+mod control;
 mod cycle;
+mod dialect;
+mod expression;
+mod flow;
 mod drill;
+mod foreign;
 mod interpreter;
 mod modal;
 mod motion;
 mod offset;
 mod options;
+mod siemens;
 pub(crate) mod token;
 mod word;
 
+pub use dialect::GcodeDialect;
 pub use drill::PECK_CLEARANCE;
 pub use options::{ARC_TOLERANCE_PART, Options};
 
@@ -51,6 +59,8 @@ use crate::error::Error;
 use crate::path::program::Program;
 use crate::units::INCH;
 use block::Block;
+use expression::Variables;
+use flow::Flow;
 use interpreter::Interpreter;
 use word::WordFault;
 
@@ -63,22 +73,48 @@ use word::WordFault;
 /// [`Error::Text`] with line and column of the first word that is unknown, does not fit, or would
 /// change the path in a way that is not modelled.
 pub fn program(text: &str, options: &Options, mut on_line: impl FnMut(usize)) -> Result<Program, Error> {
-    let mut interpreter = Interpreter::new(options);
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text).trim_end_matches(['\0', '\u{1a}']);
+    foreign::check(text, &options.field)?;
+    let dialect = options.dialect.unwrap_or_else(|| GcodeDialect::of(text));
+    let mut interpreter = Interpreter::new(options, dialect);
     let mut block = Block::default();
     let mut opened = false;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    for (index, line) in text.lines().enumerate() {
-        interpreter.line = index + 1;
-        run_line(line, &mut interpreter, &mut block, &mut opened).map_err(|fault| Error::Text {
-            field: options.field.clone(),
-            line: index + 1,
-            column: line[..fault.at].chars().count() + 1,
-            found: fault.found,
-            expected: fault.expected,
-        })?;
-        on_line(index + 1);
+    let mut variables = Variables::default();
+    let place = |index: usize, line: &str, fault: WordFault| Error::Text {
+        field: options.field.clone(),
+        line: index + 1,
+        column: line[..fault.at].chars().count() + 1,
+        found: fault.found,
+        expected: fault.expected,
+    };
+    let jumps = flow::decides(text);
+    if jumps {
+        let mut flow = Flow::new(text);
+        let mut furthest = 0;
+        while !interpreter.ended() {
+            let next = flow.next(&mut variables);
+            let next = next.map_err(|(index, fault)| place(index, flow.lines[index], fault))?;
+            let Some(index) = next else { break };
+            interpreter.line = index + 1;
+            let line = flow.lines[index];
+            run_line(line, &mut interpreter, &mut block, &mut variables, &mut opened)
+                .map_err(|fault| place(index, line, fault))?;
+            if index + 1 > furthest {
+                furthest = index + 1;
+                on_line(furthest);
+            }
+        }
+    } else {
+        for (index, line) in text.lines().enumerate() {
+            interpreter.line = index + 1;
+            run_line(line, &mut interpreter, &mut block, &mut variables, &mut opened)
+                .map_err(|fault| place(index, line, fault))?;
+            on_line(index + 1);
+        }
     }
     let mut program = interpreter.program;
+    program.dialect = Some(dialect);
+    program.jumps = jumps;
     if program.unit.is_empty() {
         program.unit = if interpreter.modal.unit == INCH { "inch" } else { "mm" };
     }
@@ -91,10 +127,10 @@ fn run_line<'t>(
     line: &'t str,
     interpreter: &mut Interpreter,
     block: &mut Block<'t>,
+    variables: &mut Variables,
     opened: &mut bool,
 ) -> Result<(), WordFault> {
     let content = line.trim_start();
-    let start = line.len() - content.len();
     if content.is_empty() {
         return Ok(());
     }
@@ -107,8 +143,10 @@ fn run_line<'t>(
     if let Some(rest) = content.strip_prefix('%') {
         let rest = rest.trim();
         if !rest.is_empty() && !rest.starts_with(['(', ';']) {
-            let expected = "a percent sign stands alone on its line".into();
-            return Err(WordFault { at: start, found: format!("\"{}\"", content.trim_end()), expected });
+            // The name or number of the program, or a note.
+            interpreter.ignore(content.trim_end());
+            *opened = true;
+            return Ok(());
         }
         if *opened || interpreter.started() {
             interpreter.end();
@@ -122,8 +160,50 @@ fn run_line<'t>(
         interpreter.remark("block-delete", || "lines with a slash are left out: block delete is on".into());
         return Ok(());
     }
-    block.read(line, from)?;
+    let line = without_tail(line, interpreter);
+    let siemens = (interpreter.dialect == GcodeDialect::Siemens).then_some(&mut interpreter.siemens);
+    block.read(line, from, variables, siemens)?;
     if block.is_empty() { Ok(()) } else { interpreter.run(block) }
+}
+
+/// A line without what no motion hangs on: a command to the sender (`$H`), the text of M117, the
+/// checksum of a line, and what a slash in it leaves to the operator.
+fn without_tail<'t>(line: &'t str, interpreter: &mut Interpreter) -> &'t str {
+    let mut end = line.len();
+    let mut depth = 0;
+    for token in token::tokens(line, after_slash(line)) {
+        let (is_word, text) = (token.kind == token::Kind::Word, token.text);
+        depth += i32::from(text == "[") - i32::from(text == "]");
+        // Within an expression, a slash divides and a star multiplies.
+        if !is_word || depth > 0 {
+            continue;
+        }
+        let skipped = match text.as_bytes()[0] {
+            b'$' => true,
+            b'*' => {
+                line[token.end()..].trim().is_empty() && text[1..].bytes().all(|sign| sign.is_ascii_digit())
+            }
+            b'/' => interpreter.options.block_delete,
+            b'M' | b'm' if text[1..].trim_ascii_start() == "117" => true,
+            // A stop may tell the operator what to do.
+            b'M' | b'm' if ["0", "00", "1", "01"].contains(&text[1..].trim_ascii_start()) => {
+                let rest = line[token.end()..].split(['(', ';']).next().unwrap_or_default();
+                if rest.trim().len() > 1 && !rest.bytes().any(|sign| sign.is_ascii_digit()) {
+                    interpreter.ignore(rest.trim());
+                    end = token.end();
+                    break;
+                }
+                false
+            }
+            _ => false,
+        };
+        if skipped {
+            interpreter.ignore(line[token.start..].trim_end());
+            end = token.start;
+            break;
+        }
+    }
+    &line[..end]
 }
 
 /// The byte after the slash of a line marked for block delete (`/G1`, `/2 G1`, `N10 /G1`); 0

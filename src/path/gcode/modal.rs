@@ -38,8 +38,10 @@ pub(super) enum FeedMode {
 /// The modal state.
 #[derive(Debug, Clone)]
 pub(super) struct Modal {
-    /// `None` at the start and after G80.
+    /// `None` at the start.
     pub(super) motion: Option<Motion>,
+    /// G0 to G3 before the canned cycles, in force again after G80.
+    before_cycle: Option<Motion>,
     pub(super) plane: Plane,
     /// Length of one unit [m].
     pub(super) unit: f64,
@@ -66,6 +68,7 @@ impl Default for Modal {
     fn default() -> Self {
         Self {
             motion: None,
+            before_cycle: None,
             plane: Plane::Xy,
             unit: MM,
             unit_said: false,
@@ -82,6 +85,16 @@ impl Default for Modal {
 }
 
 impl Modal {
+    /// The state at the start, with the length of one unit [m].
+    pub(super) fn starting_in(unit: f64) -> Self {
+        Self { unit, ..Self::default() }
+    }
+
+    /// Puts the motion before a canned cycle in force again.
+    pub(super) fn end_cycle(&mut self) {
+        self.motion = self.before_cycle;
+    }
+
     /// Spindle speed [1/s], if the program sets one above 0.
     pub(super) fn spindle(&self) -> Option<f64> {
         self.speed.filter(|&speed| speed > 0.0)
@@ -96,7 +109,7 @@ impl Modal {
     /// own line.
     pub(super) fn set(&mut self, block: &mut Block) -> Result<(), WordFault> {
         if let Some(code) = block.code(Group::Unit) {
-            self.unit = if matches!(code.tenths, 200 | 700) { INCH } else { MM };
+            self.unit = if matches!(code.tenths, 200 | 700 | 7000) { INCH } else { MM };
             self.unit_said = true;
         }
         if let Some(code) = block.code(Group::Plane) {
@@ -150,9 +163,11 @@ impl Modal {
                 10 => Motion::Line,
                 tenths => Motion::Arc { counter_clockwise: tenths == 30 },
             });
+            self.before_cycle = self.motion;
         } else if let Some(code) = cycle {
             self.motion = match self.motion {
-                _ if code.tenths == 800 => None,
+                // Cycles are a group of their own on most controllers; LinuxCNC has no motion then.
+                _ if code.tenths == 800 => self.before_cycle,
                 Some(Motion::Cycle(cycle)) => Some(Motion::Cycle(cycle.or_new(code.tenths))),
                 _ => Some(Motion::Cycle(Cycle::new(code.tenths))),
             };
@@ -163,6 +178,10 @@ impl Modal {
     fn set_feed(&mut self, block: &mut Block) -> Result<(), WordFault> {
         if self.feed_mode == FeedMode::InverseTime {
             self.feed = None;
+        }
+        // A dwell's F is its time.
+        if block.has(Group::NonModal, 40) && block.first_of(&['P', 'X', 'U']).is_none() {
+            return Ok(());
         }
         let Some(word) = block.take('F') else { return Ok(()) };
         if word.value <= 0.0 {

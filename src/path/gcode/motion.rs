@@ -6,7 +6,7 @@ use super::code::Group;
 use super::interpreter::{AXES, Interpreter};
 use super::modal::{FeedMode, Motion};
 use super::options::ARC_TOLERANCE_PART;
-use super::word::{Word, WordFault};
+use super::word::{Word, WordFault, WordMode};
 use crate::path::Segment;
 use crate::path::builder;
 use crate::path::program::{Move, MovePace};
@@ -24,7 +24,7 @@ impl Interpreter<'_> {
         let unit = if self.modal.unit == INCH { "inch" } else { "mm" };
         if !self.modal.unit_said {
             self.remark("unit-assumed", || {
-                "the program does not say its unit (G20 inch, G21 mm): mm is taken".into()
+                format!("the program does not say its unit (G20 inch, G21 mm): {unit} is taken (path.unit)")
             });
         }
         if self.program.unit.is_empty() {
@@ -34,26 +34,27 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The point given by the axis words. With `machine` (G53) they are relative to machine zero,
-    /// even under G91.
+    /// The point given by the axis words.
     ///
     /// An axis without a word keeps its position. The words are not consumed, because a repeated
     /// cycle reads them again.
-    pub(super) fn target(&mut self, block: &Block, machine: bool) -> Result<Vector3<f64>, WordFault> {
+    pub(super) fn target(&mut self, block: &Block) -> Result<Vector3<f64>, WordFault> {
         self.note_unit();
         let mut target = self.position;
         for (axis, letter) in AXES.into_iter().enumerate() {
             let Some(word) = block.peek(letter) else { continue };
             let value = word.value * self.modal.unit;
-            if machine {
-                target[axis] = value;
-            } else if !self.modal.incremental {
+            let absolute = match word.mode {
+                WordMode::Modal => !self.modal.incremental,
+                mode => mode == WordMode::Absolute,
+            };
+            if absolute {
                 target[axis] = value + self.origin()[axis];
             } else if self.known[axis] {
                 target[axis] += value;
             } else {
                 let expected = format!(
-                    "G91 counts from a position that is not known yet: give {letter} under G90 first, or a start position"
+                    "G91 counts from a position that is not known yet: give {letter} under G90 first, or path.start_mm"
                 );
                 return Err(word.fault(block.text, expected));
             }
@@ -63,32 +64,21 @@ impl Interpreter<'_> {
 
     /// Executes the active motion if the line has words for one.
     pub(super) fn motion(&mut self, block: &mut Block) -> Result<(), WordFault> {
-        let machine = block.has(Group::NonModal, 530);
+        if [530, 280, 300].into_iter().any(|code| block.has(Group::NonModal, code)) {
+            return self.leave_out(block);
+        }
         let axis_word = block.first_of(&AXES);
-        if machine
-            && (axis_word.is_none() || !matches!(self.modal.motion, Some(Motion::Rapid | Motion::Line)))
-        {
-            let expected = "G53 goes with axis words and G0 or G1";
-            let found = block.code(Group::NonModal).map_or("G53", |code| code.word.text(block.text));
-            return Err(WordFault {
-                at: block.start(),
-                found: format!("\"{found}\""),
-                expected: expected.into(),
-            });
-        }
-        if machine && self.options.work_offsets.iter().all(Option::is_none) {
-            self.remark("machine-zero", || {
-                "G53 counts from machine zero; the job gives no work offsets, so this is taken to be the workpiece frame's origin".into()
-            });
-        }
         match (self.modal.motion, axis_word) {
-            (None, Some(word)) => Err(word.fault(
-                block.text,
-                "no motion is in force here: write G0, G1, G2 or G3 (G80 has ended what was before)",
-            )),
+            (None, Some(_)) => {
+                self.remark("motion-assumed", || {
+                    "no motion is in force here (G0, G1, G2, G3): this is read as a rapid move, G0".into()
+                });
+                self.modal.motion = Some(Motion::Rapid);
+                self.straight(block)
+            }
             (None, None) => Ok(()),
             (Some(Motion::Rapid | Motion::Line), None) => Ok(()),
-            (Some(Motion::Rapid | Motion::Line), Some(_)) => self.straight(block, machine),
+            (Some(Motion::Rapid | Motion::Line), Some(_)) => self.straight(block),
             (Some(Motion::Arc { counter_clockwise }), _) => {
                 if block.first_of(&['X', 'Y', 'Z', 'I', 'J', 'K', 'R']).is_none() {
                     return Ok(());
@@ -100,10 +90,51 @@ impl Interpreter<'_> {
                 if axis_word.is_none() && block.peek('R').is_none() {
                     return Ok(());
                 }
+                self.begin_over_hole(block)?;
                 self.all_known(block)?;
                 self.drill(cycle, block)
             }
         }
+    }
+
+    /// The path may begin over the first hole of a cycle, whose line says where it is.
+    fn begin_over_hole(&mut self, block: &Block) -> Result<(), WordFault> {
+        let [a, b, n] = self.modal.plane.axes();
+        let said = |axis: usize| self.known[axis] || block.peek(AXES[axis]).is_some();
+        if self.known[n] && !(self.known[a] && self.known[b]) && said(a) && said(b) && !self.modal.incremental
+        {
+            let level = self.position[n];
+            let mut over = self.target(block)?;
+            over[n] = level;
+            (self.position, self.tip) = (over, over);
+            self.known = [true; 3];
+        }
+        Ok(())
+    }
+
+    /// A move to a position of the machine: G53, G28, G30. Where that lies from the workpiece is not
+    /// known, and an arm has no such position. The tool stays where it is, or goes up to the highest
+    /// level so far: what it is meant for is to be out of the way.
+    fn leave_out(&mut self, block: &mut Block) -> Result<(), WordFault> {
+        let code = block.code(Group::NonModal);
+        let axes: Vec<Word> =
+            ['X', 'Y', 'Z', 'A', 'B', 'C'].iter().filter_map(|&axis| block.take(axis)).collect();
+        let up = axes.is_empty() || axes.iter().any(|word| word.letter == 'Z');
+        for word in &axes {
+            self.ignore(word.text(block.text));
+        }
+        let name = code.map_or_else(String::new, |code| code.word.text(block.text).to_ascii_uppercase());
+        self.ignore(&name);
+        self.remark("machine-zero", || {
+            format!("{name} goes to a position of the machine, which a workpiece does not know: such moves are left out, the tool stays clear where it is")
+        });
+        // The codes of the line stay in force.
+        if up && !self.known.contains(&false) && self.tip.z < self.highest {
+            let mut clear = self.position;
+            clear.z = self.highest;
+            self.rapid(clear)?;
+        }
+        Ok(())
     }
 
     /// Fails if the tool position is not fully known.
@@ -114,7 +145,7 @@ impl Interpreter<'_> {
                 at: block.start(),
                 found: format!("a move that starts at an unknown {axis}"),
                 expected: format!(
-                    "write where the tool comes from, in a G0 line with {axis} before this one, or give a start position"
+                    "write where the tool comes from, in a G0 line with {axis} before this one, or give path.start_mm"
                 ),
             }),
         }
@@ -122,9 +153,9 @@ impl Interpreter<'_> {
 
     /// G0 and G1. The moves up to the first full position are not part of the path, because the
     /// machine's previous position is unknown.
-    fn straight(&mut self, block: &mut Block, machine: bool) -> Result<(), WordFault> {
+    fn straight(&mut self, block: &mut Block) -> Result<(), WordFault> {
         let rapid = self.modal.motion == Some(Motion::Rapid);
-        let to = self.target(block, machine)?;
+        let to = self.target(block)?;
         let begins = self.known.contains(&false);
         for (axis, letter) in AXES.into_iter().enumerate() {
             self.known[axis] |= block.take(letter).is_some();
@@ -134,13 +165,15 @@ impl Interpreter<'_> {
             (false, false) => self.feed(to, block.start()),
             (true, _) => {
                 if !rapid {
-                    self.all_known(block)?;
                     self.remark("approach-left-out", || {
-                        "this feed move starts where the machine happens to stand; the path begins at its end"
+                        "this feed move starts where the machine happens to stand; the path begins where X, Y and Z are known"
                             .into()
                     });
                 }
                 (self.position, self.tip) = (to, to);
+                if self.known[2] {
+                    self.highest = self.highest.max(to.z);
+                }
                 Ok(())
             }
         }
@@ -171,6 +204,7 @@ impl Interpreter<'_> {
             let expected = "a longer program does not fit a browser's memory: read it in parts".into();
             return Err(WordFault { at: 0, found: format!("more than {MOST_MOVES} moves"), expected });
         }
+        self.highest = self.highest.max(segment.point(segment.length()).z);
         self.program.moves.push(Move {
             segment,
             axis_from: Vector3::z(),
@@ -219,7 +253,7 @@ impl Interpreter<'_> {
         let plane = self.modal.plane;
         let [a, b, n] = plane.axes();
         let offsets = ['I', 'J', 'K'];
-        let to = self.target(block, false)?;
+        let to = self.target(block)?;
         for letter in AXES {
             block.take(letter);
         }
@@ -227,9 +261,12 @@ impl Interpreter<'_> {
             Some(word) => f64::from(word.whole(block.text, 1, MOST_TURNS)? - 1),
             None => 0.0,
         };
-        if let Some(word) = block.peek(offsets[n]) {
-            let expected = format!("in this plane {} and {} give the centre", offsets[a], offsets[b]);
-            return Err(word.fault(block.text, expected));
+        if let Some(word) = block.take(offsets[n]) {
+            // Some posts write all three; that across the plane says nothing if it is 0.
+            if word.value != 0.0 {
+                let expected = format!("in this plane {} and {} give the centre", offsets[a], offsets[b]);
+                return Err(word.fault(block.text, expected));
+            }
         }
         let (first, second, radius) = (block.take(offsets[a]), block.take(offsets[b]), block.take('R'));
         let arc = Arc { plane, from: self.tip, to, counter_clockwise, extra_turns };
@@ -276,7 +313,7 @@ impl Interpreter<'_> {
         let mut center = self.position;
         for (axis, word) in words {
             match word {
-                Some(word) if self.modal.centers_absolute => {
+                Some(word) if self.modal.centers_absolute || word.mode == WordMode::Absolute => {
                     center[axis] = word.value * self.modal.unit + self.origin()[axis];
                 }
                 Some(word) => center[axis] += word.value * self.modal.unit,

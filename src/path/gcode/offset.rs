@@ -2,7 +2,8 @@
 //! length.
 
 use super::block::Block;
-use super::code::Group;
+use super::block::Code;
+use super::code::{EXTENDED_OFFSET, Group, HAAS_OFFSET};
 use super::interpreter::{AXES, Interpreter};
 use super::word::{Word, WordFault};
 use nalgebra::Vector3;
@@ -19,15 +20,10 @@ impl Interpreter<'_> {
             self.set_tool_length(code.tenths, code.word, block)?;
         }
         if let Some(code) = block.code(Group::WorkOffset) {
-            let index =
-                if code.tenths >= 590 { code.tenths - 585 } else { (code.tenths - 540) / 10 } as usize;
-            self.work = self.options.work_offsets[index].unwrap_or_default();
-            if index > 0 && self.options.work_offsets[index].is_none() {
-                let name = code.word.text(block.text).to_ascii_uppercase();
-                self.remark("work-offset-missing", || {
-                    format!("the job gives no offset for {name}: its zero is taken to be that of the workpiece frame")
-                });
-            }
+            self.set_work_offset(code, block)?;
+        }
+        if block.has(Group::NonModal, 100) {
+            self.check_setting(block)?;
         }
         let Some(code) = block.code(Group::NonModal) else { return Ok(()) };
         if matches!(code.tenths, 520 | 920) {
@@ -53,13 +49,70 @@ impl Interpreter<'_> {
         }
     }
 
+    /// G54 to G59.3 from the job's table; G54.1 P and G154 P, which it has no row for, at zero.
+    fn set_work_offset(&mut self, code: Code, block: &mut Block) -> Result<(), WordFault> {
+        let mut name = code.word.text(block.text).to_ascii_uppercase();
+        let given = if matches!(code.tenths, EXTENDED_OFFSET | HAAS_OFFSET) {
+            let Some(number) = block.take('P') else {
+                return Err(code.word.fault(block.text, "an extended work offset needs its number P"));
+            };
+            name = format!("{name} {}", number.text(block.text).to_ascii_uppercase());
+            None
+        } else {
+            let index =
+                if code.tenths >= 590 { code.tenths - 585 } else { (code.tenths - 540) / 10 } as usize;
+            if index == 0 {
+                self.work = self.options.work_offsets[0].unwrap_or_default();
+                return Ok(());
+            }
+            self.options.work_offsets[index]
+        };
+        self.work = given.unwrap_or_default();
+        if given.is_none() {
+            self.remark("work-offset-missing", || {
+                format!(
+                    "the job gives no offset for {name}: its zero is taken to be that of the workpiece frame"
+                )
+            });
+        }
+        Ok(())
+    }
+
+    /// G10: an offset of zero is what the program has already.
+    fn check_setting(&mut self, block: &mut Block) -> Result<(), WordFault> {
+        let at = block.code(Group::NonModal).map(|code| code.word);
+        let values: Vec<Word> = ['X', 'Y', 'Z', 'A', 'B', 'C', 'R', 'H']
+            .iter()
+            .filter_map(|&letter| block.take(letter))
+            .collect();
+        for letter in ['L', 'P'] {
+            block.take(letter);
+        }
+        match (values.iter().find(|word| word.value != 0.0), at) {
+            (Some(_), Some(code)) => Err(code.fault(
+                block.text,
+                "offsets other than 0 are not set from within a program: give them as the job's work and tool offsets",
+            )),
+            _ => {
+                self.ignore("G10");
+                Ok(())
+            }
+        }
+    }
+
     fn set_tool_length(&mut self, tenths: u32, code: Word, block: &mut Block) -> Result<(), WordFault> {
         if tenths == 490 {
+            block.take('H');
             self.tool_length = 0.0;
             return Ok(());
         }
         let Some(word) = block.take('H') else {
-            return Err(code.fault(block.text, "G43 and G44 need H, the number of a tool length offset"));
+            // Without H, the offset in force stays.
+            self.remark("tool-length-kept", || {
+                let code = code.text(block.text).to_ascii_uppercase();
+                format!("{code} names no offset H: the one in force is kept")
+            });
+            return Ok(());
         };
         let number = word.whole(block.text, 0, 9999)?;
         let table = &self.options.tool_length_offsets;

@@ -1,5 +1,7 @@
 //! Settings of the reader.
 
+use super::dialect::GcodeDialect;
+use crate::path::unit::LengthUnit;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
@@ -18,6 +20,10 @@ pub struct Options {
     /// Tool length offsets by their number H [m], added to Z; the part that the job's tool frame
     /// does not already contain. If the table is empty, every offset is zero, with a remark.
     pub tool_length_offsets: BTreeMap<u32, f64>,
+    /// The controller whose program it is; without one, it is recognised.
+    pub dialect: Option<GcodeDialect>,
+    /// Unit of length until the program says one; without either it is mm, with a remark.
+    pub unit: Option<LengthUnit>,
     /// Tool position before the first line [m]. `None`: the path starts at the first position for
     /// which the program has given X, Y and Z.
     pub start: Option<Vector3<f64>>,
@@ -36,6 +42,8 @@ impl Default for Options {
             field: "path.text".into(),
             work_offsets: [None; 9],
             tool_length_offsets: BTreeMap::new(),
+            dialect: None,
+            unit: None,
             start: None,
             arc_tolerance: 5e-6,
             block_delete: true,

@@ -42,7 +42,7 @@ pub(crate) fn tokens(line: &str, from: usize) -> impl Iterator<Item = Token<'_>>
         let start = line.len() - rest.len();
         let (kind, length) = match rest.chars().next()? {
             ';' => (Kind::LineComment, rest.len()),
-            '(' => (Kind::Comment, rest.find(')').map_or(rest.len(), |closing| closing + 1)),
+            '(' => (Kind::Comment, comment(rest)),
             ')' => (Kind::Comment, 1),
             sign => (Kind::Word, sign.len_utf8() + number(&rest[sign.len_utf8()..])),
         };
@@ -51,8 +51,24 @@ pub(crate) fn tokens(line: &str, from: usize) -> impl Iterator<Item = Token<'_>>
     })
 }
 
+/// Length in bytes of the comment at the start of `text`: to the bracket that closes it, counting
+/// those that open within (CAM systems name a copied operation so, `(2D Contour (2))`). If that is
+/// missing, it ends at the first closing bracket.
+fn comment(text: &str) -> usize {
+    let mut depth = 0;
+    for (at, sign) in text.char_indices() {
+        match sign {
+            '(' => depth += 1,
+            ')' if depth == 1 => return at + 1,
+            ')' => depth -= 1,
+            _ => {}
+        }
+    }
+    text.find(')').map_or(text.len(), |closing| closing + 1)
+}
+
 /// Length in bytes of the number that follows a letter in `text`. Blanks may precede it, but not
-/// split it.
+/// split it. An exponent has a sign: without one, E would be a word of its own.
 fn number(text: &str) -> usize {
     let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
     let mut at = text.len() - text.trim_ascii_start().len();
@@ -60,6 +76,11 @@ fn number(text: &str) -> usize {
     at += digits(&text[at..]);
     if text[at..].starts_with('.') {
         at += 1 + digits(&text[at + 1..]);
+    }
+    let exponent = &text[at..];
+    if exponent.starts_with(['e', 'E']) && exponent[1..].starts_with(['+', '-']) {
+        let length = digits(&exponent[2..]);
+        at += if length > 0 { 2 + length } else { 0 };
     }
     at
 }
@@ -85,6 +106,7 @@ mod tests {
         let words = |line| read(line).into_iter().map(|(_, text)| text).collect::<Vec<_>>();
         assert_eq!(words("N10g1X-1.5 y .5M05"), ["N10", "g1", "X-1.5", "y .5", "M05"]);
         assert_eq!(words("X 1 . 5"), ["X 1", ". 5"]);
+        assert_eq!(words("Y-3.55e-15X1E+2P2E0.025"), ["Y-3.55e-15", "X1E+2", "P2", "E0.025"]);
         assert_eq!(words("X1..2 +-3"), ["X1.", ".2", "+-3"]);
         assert_eq!(words("%"), ["%"]);
         assert_eq!(words("/2 G1"), ["/2", "G1"]);
@@ -93,12 +115,13 @@ mod tests {
     }
 
     #[test]
-    fn comments_end_at_the_first_bracket_or_with_the_line() {
+    fn comments_end_at_their_bracket_or_with_the_line() {
         use Kind::{Comment, LineComment, Word};
         for (line, tokens) in [
             ("(a)X1 (b;c)", vec![(Comment, "(a)"), (Word, "X1"), (Comment, "(b;c)")]),
             ("X1;(a) b ", vec![(Word, "X1"), (LineComment, ";(a) b ")]),
-            ("(a(b)c)", vec![(Comment, "(a(b)"), (Word, "c"), (Comment, ")")]),
+            ("(a(b)c)X1", vec![(Comment, "(a(b)c)"), (Word, "X1")]),
+            ("(a(b)c", vec![(Comment, "(a(b)"), (Word, "c")]),
             ("G (a", vec![(Word, "G "), (Comment, "(a")]),
         ] {
             assert_eq!(read(line), tokens, "{line}");

@@ -1,5 +1,6 @@
 //! Words that a controller would understand: a letter and a number, each with its place.
 
+use super::expression::{ExpressionReader, Variables};
 use super::token::{Kind, Token, tokens};
 
 /// A letter and its number.
@@ -13,6 +14,19 @@ pub(super) struct Word {
     pub(super) start: usize,
     /// Byte after the word.
     pub(super) end: usize,
+    /// How a position counts.
+    pub(super) mode: WordMode,
+}
+
+/// How the position that a word gives counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum WordMode {
+    /// As G90, G91, G90.1 and G91.1 say.
+    Modal,
+    /// From the program's zero (Siemens `AC`).
+    Absolute,
+    /// From where the tool is (Siemens `IC`).
+    Incremental,
 }
 
 /// What is wrong with a line, and where. The reader adds the line number.
@@ -52,21 +66,42 @@ impl Word {
     }
 }
 
-/// Collects the words of `line` from the byte `from` on, without comments.
-pub(super) fn words(line: &str, from: usize, words: &mut Vec<Word>) -> Result<(), WordFault> {
-    for token in tokens(line, from) {
+/// Collects the words of `line` from the byte `from` on, without comments, and sets the variables
+/// that it assigns.
+pub(super) fn words(
+    line: &str,
+    from: usize,
+    words: &mut Vec<Word>,
+    variables: &mut Variables,
+) -> Result<(), WordFault> {
+    let mut at = from;
+    while let Some(token) = tokens(line, at).next() {
+        at = token.end();
         match token.kind {
             Kind::LineComment => {}
             Kind::Comment => check_comment(line, &token)?,
+            // Tapes number a program with a colon instead of O.
+            Kind::Word if token.text.starts_with(':') && numbers_program(&line[token.start + 1..]) => {
+                return Ok(());
+            }
+            Kind::Word if token.text.starts_with('#') => at = assignment(line, token.start, variables)?,
             Kind::Word if !token.text.starts_with(|sign: char| sign.is_ascii_alphabetic()) => {
                 return Err(stray(line, token.start));
             }
             Kind::Word
                 if token.text.starts_with(['o', 'O'])
-                    && !(words.is_empty() && numbers_program(&line[token.start + 1..])) =>
+                    && !(words.iter().all(|word| word.letter == 'N')
+                        && numbers_program(&line[token.start + 1..])) =>
             {
                 let found = format!("\"{}\"", line[token.start..].trim_end());
                 return Err(WordFault { at: token.start, found, expected: SUBPROGRAM.into() });
+            }
+            Kind::Word if computes(line, &token) => {
+                let mut reader = ExpressionReader::new(line, token.start + 1, variables);
+                let value = if reader.take("=") { reader.expression()? } else { reader.value()? };
+                at = reader.at;
+                let letter = char::from(token.text.as_bytes()[0].to_ascii_uppercase());
+                words.push(Word { letter, value, start: token.start, end: at, mode: WordMode::Modal });
             }
             Kind::Word => words.push(word(line, &token)?),
         }
@@ -74,23 +109,44 @@ pub(super) fn words(line: &str, from: usize, words: &mut Vec<Word>) -> Result<()
     Ok(())
 }
 
+/// Whether a letter is followed by an expression instead of a number.
+fn computes(line: &str, token: &Token) -> bool {
+    matches!(token.text[1..].trim_ascii_start(), "" | "+" | "-")
+        && line[token.end()..].starts_with(['#', '[', '='])
+}
+
+/// Sets a variable (`#1 = 5`, `#<depth> = [#1 / 2]`); returns the byte after it.
+fn assignment(line: &str, start: usize, variables: &mut Variables) -> Result<usize, WordFault> {
+    let mut reader = ExpressionReader::new(line, start, variables);
+    let variable = reader.variable()?;
+    if !reader.take("=") {
+        return Err(stray(line, start));
+    }
+    let value = reader.expression()?;
+    let end = reader.at;
+    if let Some(variable) = variable {
+        variables.set(variable, value);
+    }
+    Ok(end)
+}
+
 /// What to do about an O word.
 pub(super) const SUBPROGRAM: &str =
     "sub-programs and loops (O words) are not followed; have the CAM system post the program without them";
-const MACRO: &str = "variables and macros are not followed; have the CAM system post plain numbers";
+const MACRO: &str = "a variable is set at the start of a word, such as #1=5, or stands for the number of a letter, such as X#1";
 const EXPRESSION: &str =
-    "expressions are not computed; have the CAM system post plain numbers (comments stand in round brackets)";
+    "an expression in square brackets follows a letter, such as X[#1+2]; comments stand in round brackets";
 
 /// Fails unless the comment opens and closes exactly once.
 fn check_comment(line: &str, comment: &Token) -> Result<(), WordFault> {
     let Some(inside) = comment.text.strip_prefix('(') else { return Err(stray(line, comment.start)) };
     match inside.find(['(', ')']) {
-        Some(at) if inside[at..].starts_with(')') => Ok(()),
+        // Brackets within are closed; see the tokens.
+        Some(_) if comment.text.matches('(').count() == comment.text.matches(')').count() => Ok(()),
         Some(at) => Err(WordFault {
             at: comment.start + 1 + at,
             found: "a bracket that opens inside a comment".into(),
-            expected: "controls end a comment at its first closing bracket: take the inner brackets out"
-                .into(),
+            expected: "each bracket of a comment is closed on its line".into(),
         }),
         None => Err(WordFault {
             at: comment.start,
@@ -117,18 +173,15 @@ fn word(line: &str, token: &Token) -> Result<Word, WordFault> {
     match number.parse::<f64>() {
         Ok(value) if value.abs() <= LARGEST => {
             // Adding zero turns -0 into 0.
-            Ok(Word { letter, value: value + 0.0, start, end })
+            Ok(Word { letter, value: value + 0.0, start, end, mode: WordMode::Modal })
         }
         Ok(_) => Err(WordFault {
             at: start,
             found: format!("\"{}\"", token.text),
             expected: format!("numbers lie within -{LARGEST:e} and {LARGEST:e}"),
         }),
-        // `#5`, `[1+2]`, `<name>`: an error at the stray character says more than one at the letter
-        // before it.
-        Err(_) if matches!(number, "" | "+" | "-") && line[end..].starts_with(['#', '[', '<']) => {
-            Err(stray(line, end))
-        }
+        // `<name>`: an error at the stray character says more than one at the letter before it.
+        Err(_) if matches!(number, "" | "+" | "-") && line[end..].starts_with('<') => Err(stray(line, end)),
         Err(_) => Err(WordFault {
             at: start,
             found: format!("\"{}\" without a number", token.text.trim_end()),
@@ -158,7 +211,7 @@ mod tests {
 
     fn read(line: &str) -> Result<Vec<(char, f64)>, usize> {
         let mut found = Vec::new();
-        words(line, 0, &mut found)
+        words(line, 0, &mut found, &mut Variables::default())
             .map(|()| found.iter().map(|word| (word.letter, word.value)).collect())
             .map_err(|fault| fault.at)
     }
@@ -190,10 +243,11 @@ mod tests {
             ("X1..2", 3),
             ("X1 2", 3),
             ("X#5", 1),
-            ("#5=3", 0),
-            ("X-[1+2]", 2),
+            ("#5 3", 0),
+            ("X-[1+a]", 5),
+            ("X[1+2", 5),
             ("X1 (a", 3),
-            ("(a(b))", 2),
+            ("(a(b)", 2),
             ("X1)", 2),
             ("O<cut> call", 0),
             ("X1 O5", 3),

@@ -1,0 +1,115 @@
+//! The controller that a program is written for. It decides what several would read differently.
+
+use crate::path::builder::LONGEST_WAIT;
+
+/// A controller's way of writing programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GcodeDialect {
+    /// Fanuc, and Haas, which follows it.
+    Fanuc,
+    /// LinuxCNC.
+    LinuxCnc,
+    /// grbl and its relatives.
+    Grbl,
+    /// Siemens Sinumerik 840D and its relatives.
+    Siemens,
+    /// Mach3 and Mach4.
+    Mach,
+    /// None of them is recognised.
+    Unknown,
+}
+
+/// Words in comments and program names by which a controller is known.
+const NAMES: [(&str, GcodeDialect); 12] = [
+    ("haas", GcodeDialect::Fanuc),
+    ("fanuc", GcodeDialect::Fanuc),
+    ("mpfan", GcodeDialect::Fanuc),
+    ("linuxcnc", GcodeDialect::LinuxCnc),
+    ("emc2", GcodeDialect::LinuxCnc),
+    ("grbl", GcodeDialect::Grbl),
+    ("carbide", GcodeDialect::Grbl),
+    ("openbuilds", GcodeDialect::Grbl),
+    ("siemens", GcodeDialect::Siemens),
+    ("sinumerik", GcodeDialect::Siemens),
+    ("mach3", GcodeDialect::Mach),
+    ("mach4", GcodeDialect::Mach),
+];
+/// Pieces of lines, without blanks, that only one of them writes.
+const SIGNS: [(&str, GcodeDialect); 17] = [
+    ("%_N_", GcodeDialect::Siemens),
+    ("G710", GcodeDialect::Siemens),
+    ("CR=", GcodeDialect::Siemens),
+    ("MSG(", GcodeDialect::Siemens),
+    ("TRAORI", GcodeDialect::Siemens),
+    ("SUPA", GcodeDialect::Siemens),
+    ("CYCLE8", GcodeDialect::Siemens),
+    ("WORKPIECE(", GcodeDialect::Siemens),
+    ("T=\"", GcodeDialect::Siemens),
+    ("#<", GcodeDialect::LinuxCnc),
+    ("O<", GcodeDialect::LinuxCnc),
+    ("G28G91", GcodeDialect::Fanuc),
+    ("G91G28", GcodeDialect::Fanuc),
+    ("G187", GcodeDialect::Fanuc),
+    ("G05.1", GcodeDialect::Fanuc),
+    ("G05P", GcodeDialect::Fanuc),
+    ("$H", GcodeDialect::Grbl),
+];
+/// Lines that are looked at.
+const LOOKED_AT: usize = 200;
+/// A dwell from which on P without a decimal point is taken to be milliseconds where no controller is
+/// recognised.
+const MANY: f64 = 100.0;
+
+impl GcodeDialect {
+    /// Recognises the controller by what is written in the first lines.
+    pub fn of(text: &str) -> Self {
+        let mut numbered = false;
+        for line in text.lines().take(LOOKED_AT) {
+            let code: String = line.chars().filter(|sign| !sign.is_whitespace()).collect();
+            let (upper, lower) = (code.to_ascii_uppercase(), line.to_ascii_lowercase());
+            if let Some((_, dialect)) = NAMES
+                .iter()
+                .find(|(name, _)| lower.find(name).is_some_and(|at| lower[..at].contains(['(', ';', '%'])))
+            {
+                return *dialect;
+            }
+            let open = upper.split(['(', ';']).next().unwrap_or_default();
+            let sign = SIGNS
+                .iter()
+                .find(|(sign, _)| open.contains(sign) || sign.ends_with('(') && upper.contains(sign));
+            if let Some((_, dialect)) = sign {
+                return *dialect;
+            }
+            numbered |= open.len() > 1
+                && open.starts_with(['O', ':'])
+                && open[1..].bytes().all(|sign| sign.is_ascii_digit());
+        }
+        if numbered { Self::Fanuc } else { Self::Unknown }
+    }
+
+    /// Stable slug.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Fanuc => "fanuc",
+            Self::LinuxCnc => "linuxcnc",
+            Self::Grbl => "grbl",
+            Self::Siemens => "siemens",
+            Self::Mach => "mach",
+            Self::Unknown => "unknown",
+        }
+    }
+
+    /// Whether the P of a dwell, with the text and value of its word, counts milliseconds.
+    ///
+    /// Fanuc and Haas count a number without a point in milliseconds, with one in seconds; Mach3
+    /// counts milliseconds by default, but its posts write what was set; the others count seconds.
+    /// Nothing waits for more than an hour.
+    pub(super) fn counts_milliseconds(self, text: &str, value: f64) -> bool {
+        let whole = !text.contains('.');
+        match self {
+            Self::Fanuc => whole,
+            Self::LinuxCnc | Self::Grbl | Self::Siemens => value > LONGEST_WAIT,
+            Self::Mach | Self::Unknown => value > LONGEST_WAIT || whole && value >= MANY,
+        }
+    }
+}

@@ -1,0 +1,413 @@
+//! Programs that do not run from the first line to the last: subprograms, loops and conditions of
+//! LinuxCNC (O words) and Fanuc (M97, M98, M99, IF, WHILE, GOTO).
+//!
+//! Only what stands in the same text is followed. Steps and calls are bounded, so that a loop without
+//! an end is an error at its line.
+
+use super::control::{Control, control, do_number, line_number};
+use super::expression::{ExpressionReader, Variables};
+use super::word::{self, WordFault};
+use std::cell::Cell;
+use std::collections::BTreeMap;
+
+/// Most lines that are run.
+const MOST_STEPS: usize = 3_000_000;
+/// Most lines that are looked through for the other ends of jumps.
+const MOST_LOOKED_THROUGH: usize = 200_000_000;
+/// Most calls within each other.
+const DEEPEST: usize = 100;
+/// Most repeats of a call or a loop.
+const MOST_REPEATS: u32 = 100_000;
+
+/// A call that has not returned.
+struct Call {
+    back: usize,
+    start: usize,
+    repeats: u32,
+    locals: Option<BTreeMap<u32, f64>>,
+}
+
+/// A fault and the line, from 0, in which it is.
+pub(super) type LineFault = (usize, WordFault);
+
+/// A program and the place in it.
+pub(super) struct Flow<'t> {
+    pub(super) lines: Vec<&'t str>,
+    controls: Vec<Option<Control>>,
+    at: usize,
+    calls: Vec<Call>,
+    /// Lines of loops that repeat, with the repeats that are left.
+    repeats: Vec<(usize, u32)>,
+    steps: usize,
+    /// Lines that were looked through for the other end of a jump.
+    looked: Cell<usize>,
+    started: bool,
+}
+
+/// Whether a text has lines that decide which line is next.
+pub(super) fn decides(text: &str) -> bool {
+    text.lines().any(|line| !matches!(control(line), None | Some(Control::Label(_) | Control::Back)))
+}
+
+impl<'t> Flow<'t> {
+    pub(super) fn new(text: &'t str) -> Self {
+        let lines: Vec<&str> = text.lines().collect();
+        let controls = lines.iter().map(|line| control(line)).collect();
+        Self {
+            lines,
+            controls,
+            at: 0,
+            calls: Vec::new(),
+            repeats: Vec::new(),
+            steps: 0,
+            looked: Cell::new(0),
+            started: false,
+        }
+    }
+
+    /// The next line to run; none at the end.
+    ///
+    /// # Errors
+    /// At a call of what is not there, a loop or subprogram without its end, and where steps or calls
+    /// are too many.
+    pub(super) fn next(&mut self, variables: &mut Variables) -> Result<Option<usize>, LineFault> {
+        loop {
+            let Some(control) = self.controls.get(self.at) else {
+                let Some(call) = self.calls.last() else { return Ok(None) };
+                return Err(self.fault(
+                    call.back - 1,
+                    "a sub-program that is called here does not return: it ends with M99 or endsub",
+                ));
+            };
+            self.steps += 1;
+            if self.looked.get() > MOST_LOOKED_THROUGH {
+                return Err(self.fault(self.at, "a program with fewer jumps over so many lines"));
+            }
+            if self.steps > MOST_STEPS {
+                let expected = "a loop that ends: three million lines were run up to here";
+                return Err(self.fault(self.at, expected));
+            }
+            match control.clone() {
+                None => {
+                    self.at += 1;
+                    let line = self.lines[self.at - 1].trim_start();
+                    self.started |= !(line.is_empty() || line.starts_with(['%', '(', ';']));
+                    return Ok(Some(self.at - 1));
+                }
+                Some(Control::Label(_)) if !self.started && self.calls.is_empty() => {
+                    self.at += 1;
+                    self.started = true;
+                    return Ok(Some(self.at - 1));
+                }
+                Some(control) => {
+                    if !self.decide(control, variables)? {
+                        return Ok(None);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Goes where a line says; false at the end of the program.
+    fn decide(&mut self, control: Control, variables: &mut Variables) -> Result<bool, LineFault> {
+        use Control::*;
+        let here = self.at;
+        self.at += 1;
+        match control {
+            Label(_) => {
+                return Err(self.fault(
+                    here,
+                    "the program before ends with M30, or M99: it runs into the next one here",
+                ));
+            }
+            // A definition is run when it is called.
+            Sub(name) => {
+                let is_end = |control: &Control| *control == EndSub(name.clone());
+                self.at = self.after(here, is_end, "a sub-program ends with endsub")? + 1;
+            }
+            EndSub(_) | Return(_) => return self.back(here, variables),
+            Back => {
+                if self.calls.is_empty() {
+                    return Ok(false);
+                }
+                return self.back(here, variables);
+            }
+            Call(name, from) => self.call(here, &name, from, variables)?,
+            CallNumber { number, repeats, is_line } => {
+                // Older controls write the repeats before the four digits of the number.
+                let is_label = |control: &Option<Control>| *control == Some(Label(number));
+                let both =
+                    !is_line && number > 9999 && repeats.is_none() && !self.controls.iter().any(is_label);
+                let (number, repeats) =
+                    if both { (number % 10_000, number / 10_000) } else { (number, repeats.unwrap_or(1)) };
+                if repeats > MOST_REPEATS {
+                    return Err(self.fault(here, "repeats of 100000 at most"));
+                }
+                let start = if is_line { self.numbered(here, number)? } else { self.labelled(here, number)? };
+                self.enter(here, start, repeats, None)?;
+            }
+            If(name, from) | ElseIf(name, from) if matches!(self.controls[here], Some(If(..))) => {
+                if !self.holds(here, from, variables)? {
+                    self.at = self.branch(here, &name, variables)?;
+                }
+            }
+            // Reached from the branch before: that was the one.
+            If(name, _) | ElseIf(name, _) | Else(name) => {
+                let is_end = |control: &Control| *control == EndIf(name.clone());
+                self.at = self.after(here, is_end, "a condition ends with endif")? + 1;
+            }
+            EndIf(_) | Do(_) => {}
+            While(name, from) => self.loop_while(here, &name, from, variables)?,
+            EndWhile(name) => {
+                let is_start = |control: &Control| matches!(control, While(other, _) if *other == name);
+                self.at = self.before(here, is_start, "endwhile closes a while")?;
+            }
+            Repeat(name, from) => {
+                let times = self.value(here, from, variables)?.max(0.0);
+                if times > f64::from(MOST_REPEATS) {
+                    return Err(self.fault(here, "repeats of 100000 at most"));
+                }
+                let is_end = |control: &Control| *control == EndRepeat(name.clone());
+                let end = self.after(here, is_end, "a repeat ends with endrepeat")?;
+                match times as u32 {
+                    0 => self.at = end + 1,
+                    times => self.repeats.push((here, times - 1)),
+                }
+            }
+            EndRepeat(name) => {
+                let open = self.repeats.last().copied().filter(|(start, _)| self.is_repeat(*start, &name));
+                let Some((start, left)) = open else {
+                    return Err(self.fault(here, "endrepeat closes a repeat"));
+                };
+                self.repeats.pop();
+                if left > 0 {
+                    self.repeats.push((start, left - 1));
+                    self.at = start + 1;
+                }
+            }
+            Break(name) => {
+                let is_end = |control: &Control| {
+                    *control == EndWhile(name.clone()) || *control == EndRepeat(name.clone())
+                };
+                self.at = self.after(here, is_end, "break leaves a loop of the same number")? + 1;
+                self.repeats.retain(
+                    |(start, _)| !matches!(&self.controls[*start], Some(Repeat(other, _)) if *other == name),
+                );
+            }
+            Continue(name) => {
+                let is_end = |control: &Control| {
+                    *control == EndWhile(name.clone()) || *control == EndRepeat(name.clone())
+                };
+                self.at = self.after(here, is_end, "continue is in a loop of the same number")?;
+            }
+            When(from) => self.when(here, from, variables)?,
+            WhileDo(from) => self.while_do(here, from, variables)?,
+            End(number) => {
+                let line = self.lines[..here].iter().rposition(|line| do_number(line) == Some(number));
+                self.look(here - line.unwrap_or(0));
+                self.at = line.ok_or_else(|| self.fault(here, "END closes a WHILE with the same number"))?;
+            }
+            GoTo(from) => {
+                let number = self.value(here, from, variables)?;
+                self.at = self.numbered(here, number as u32)?;
+            }
+        }
+        Ok(true)
+    }
+
+    fn fault(&self, line: usize, expected: &str) -> LineFault {
+        let text = self.lines[line];
+        let at = text.len() - text.trim_start().len();
+        (line, WordFault { at, found: format!("\"{}\"", text.trim()), expected: expected.into() })
+    }
+
+    fn look(&self, lines: usize) {
+        self.looked.set(self.looked.get() + lines);
+    }
+
+    fn is_repeat(&self, line: usize, name: &str) -> bool {
+        matches!(&self.controls[line], Some(Control::Repeat(other, _)) if other == name)
+    }
+
+    /// The first line after `here` with a control.
+    fn after(&self, here: usize, is: impl Fn(&Control) -> bool, expected: &str) -> Result<usize, LineFault> {
+        let found = (here + 1..self.lines.len()).find(|&line| self.controls[line].as_ref().is_some_and(&is));
+        self.look(found.unwrap_or(self.lines.len()) - here);
+        found.ok_or_else(|| self.fault(here, expected))
+    }
+
+    /// The last line before `here` with a control.
+    fn before(&self, here: usize, is: impl Fn(&Control) -> bool, expected: &str) -> Result<usize, LineFault> {
+        let found = (0..here).rev().find(|&line| self.controls[line].as_ref().is_some_and(&is));
+        self.look(here - found.unwrap_or(0));
+        found.ok_or_else(|| self.fault(here, expected))
+    }
+
+    fn value(&self, line: usize, from: usize, variables: &Variables) -> Result<f64, LineFault> {
+        ExpressionReader::new(self.lines[line], from, variables).value().map_err(|fault| (line, fault))
+    }
+
+    fn holds(&self, line: usize, from: usize, variables: &Variables) -> Result<bool, LineFault> {
+        Ok(self.value(line, from, variables)? != 0.0)
+    }
+
+    /// The line to go on at when the condition of `here` does not hold.
+    fn branch(&self, here: usize, name: &str, variables: &Variables) -> Result<usize, LineFault> {
+        for line in here + 1..self.lines.len() {
+            match &self.controls[line] {
+                Some(Control::ElseIf(other, from))
+                    if other == name && self.holds(line, *from, variables)? =>
+                {
+                    return Ok(line + 1);
+                }
+                Some(Control::Else(other) | Control::EndIf(other)) if other == name => return Ok(line + 1),
+                _ => {}
+            }
+        }
+        Err(self.fault(here, "a condition ends with endif"))
+    }
+
+    fn loop_while(
+        &mut self,
+        here: usize,
+        name: &str,
+        from: usize,
+        variables: &Variables,
+    ) -> Result<(), LineFault> {
+        let holds = self.holds(here, from, variables)?;
+        let is_end = |control: &Control| matches!(control, Control::EndWhile(other) if other == name);
+        match self.after(here, is_end, "") {
+            Ok(end) if !holds => self.at = end + 1,
+            Ok(_) => {}
+            // Without endwhile, it closes a loop that began with do.
+            Err(_) => {
+                let is_do = |control: &Control| matches!(control, Control::Do(other) if other == name);
+                let start = self.before(here, is_do, "a while loop ends with endwhile")?;
+                self.at = if holds { start + 1 } else { here + 1 };
+            }
+        }
+        Ok(())
+    }
+
+    fn call(
+        &mut self,
+        here: usize,
+        name: &str,
+        from: usize,
+        variables: &mut Variables,
+    ) -> Result<(), LineFault> {
+        let is_sub =
+            |control: &Option<Control>| matches!(control, Some(Control::Sub(other)) if other == name);
+        self.look(self.lines.len());
+        let Some(start) = self.controls.iter().position(is_sub) else {
+            return Err(self.fault(here, "a sub-program that stands in this text"));
+        };
+        let mut given = BTreeMap::new();
+        let mut reader = ExpressionReader::new(self.lines[here], from, variables);
+        for number in 1..=30 {
+            reader.skip_blanks();
+            if !self.lines[here][reader.at..].starts_with('[') {
+                break;
+            }
+            given.insert(number, reader.value().map_err(|fault| (here, fault))?);
+        }
+        let locals = variables.locals();
+        variables.set_locals(given);
+        self.enter(here, start + 1, 1, Some(locals))
+    }
+
+    fn enter(
+        &mut self,
+        here: usize,
+        start: usize,
+        repeats: u32,
+        locals: Option<BTreeMap<u32, f64>>,
+    ) -> Result<(), LineFault> {
+        if self.calls.len() >= DEEPEST {
+            return Err(self.fault(here, "calls within each other, a hundred at most"));
+        }
+        if repeats == 0 {
+            return Ok(());
+        }
+        self.calls.push(Call { back: here + 1, start, repeats: repeats - 1, locals });
+        self.at = start;
+        Ok(())
+    }
+
+    /// Returns from a call, or repeats it.
+    fn back(&mut self, here: usize, variables: &mut Variables) -> Result<bool, LineFault> {
+        let Some(call) = self.calls.last_mut() else {
+            return Err(self.fault(here, "a return stands in a sub-program that was called"));
+        };
+        if call.repeats > 0 {
+            call.repeats -= 1;
+            self.at = call.start;
+            return Ok(true);
+        }
+        self.at = call.back;
+        if let Some(locals) = self.calls.pop().and_then(|call| call.locals) {
+            variables.set_locals(locals);
+        }
+        Ok(true)
+    }
+
+    /// The line after the number of a program.
+    fn labelled(&self, here: usize, number: u32) -> Result<usize, LineFault> {
+        let is_label = |control: &Option<Control>| *control == Some(Control::Label(number));
+        self.look(self.lines.len());
+        let found = self.controls.iter().position(is_label);
+        found.map(|line| line + 1).ok_or_else(|| {
+            self.fault(here, "a sub-program that stands in this text: the file of another one is not read")
+        })
+    }
+
+    /// The line with this number in the same program, from here on and then from its start.
+    fn numbered(&self, here: usize, number: u32) -> Result<usize, LineFault> {
+        let is_label = |control: &Option<Control>| matches!(control, Some(Control::Label(_)));
+        self.look(self.lines.len());
+        let first = self.controls[..here].iter().rposition(is_label).unwrap_or(0);
+        let last =
+            self.controls[here..].iter().position(is_label).map_or(self.lines.len(), |more| here + more);
+        let has = |line: &usize| line_number(self.lines[*line]) == Some(number);
+        (here..last)
+            .find(has)
+            .or_else(|| (first..here).find(has))
+            .ok_or_else(|| self.fault(here, &format!("a line N{number} in this program")))
+    }
+
+    /// `IF [..] GOTO n`, `IF [..] THEN #1 = ..`.
+    fn when(&mut self, here: usize, from: usize, variables: &mut Variables) -> Result<(), LineFault> {
+        let line = self.lines[here];
+        let mut reader = ExpressionReader::new(line, from, variables);
+        let holds = reader.value().map_err(|fault| (here, fault))? != 0.0;
+        let goes = reader.take("GOTO");
+        let is_then = !goes && reader.take("THEN");
+        let at = reader.at;
+        if !(goes || is_then) {
+            return Err(self.fault(here, "IF [condition] GOTO number, or IF [condition] THEN #1 = value"));
+        }
+        if !holds {
+            return Ok(());
+        }
+        if goes {
+            let number = self.value(here, at, variables)?;
+            self.at = self.numbered(here, number as u32)?;
+            return Ok(());
+        }
+        let mut words = Vec::new();
+        word::words(line, at, &mut words, variables).map_err(|fault| (here, fault))?;
+        if words.is_empty() { Ok(()) } else { Err(self.fault(here, "after THEN a variable is set")) }
+    }
+
+    fn while_do(&mut self, here: usize, from: usize, variables: &Variables) -> Result<(), LineFault> {
+        if self.holds(here, from, variables)? {
+            return Ok(());
+        }
+        let Some(number) = do_number(self.lines[here]) else {
+            return Err(self.fault(here, "WHILE [condition] DO 1"));
+        };
+        let is_end = |control: &Control| *control == Control::End(number);
+        self.at = self.after(here, is_end, "a loop ends with END and its number")? + 1;
+        Ok(())
+    }
+}
