@@ -1,5 +1,5 @@
 // One editor per kind of field. An editor is { node, inputs, read(), write(value), at(rest),
-// mark(line), step(count) } of which mark is for texts and step for numbers alone. read() gives the
+// mark(line), show(line), step(count) } of which mark and show are for texts and step for numbers alone. read() gives the
 // value or throws a Mistake; at(rest) gives the input that an error path such as "[1].a_mm" means.
 
 import { make } from "./dom.js";
@@ -311,6 +311,7 @@ function program() {
     write: (text) => (listing.text = text),
     at: () => listing.input,
     mark: (line) => listing.mark(line),
+    show: (line) => listing.show(line),
   };
 }
 

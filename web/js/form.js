@@ -108,6 +108,7 @@ export class Form {
     const where = line && !/\bline\b/i.test(message) ? `Line ${line}${column ? `, column ${column}` : ""}: ` : "";
     const text = message.startsWith(path) ? row.field.label + message.slice(path.length) : sentence(message);
     this.#setError(row, where + text, row.editor.at(path.slice(row.field.path.length)));
+    row.line = line;
     if (line) row.editor.mark?.(line);
     this.#digest();
     return true;
@@ -270,6 +271,7 @@ export class Form {
     const input = row.editor.inputs.find((each) => each.getAttribute("aria-invalid")) ?? row.editor.inputs[0];
     input.focus();
     input.scrollIntoView({ block: "center" });
+    if (row.line) row.editor.show?.(row.line);
   }
 }
 

@@ -103,8 +103,12 @@ function edited(stepped = false) {
   else compute();
 }
 
+/** Whether the shown result may be taken away: one of other inputs than those on the page may not. */
+const takeAway = (may) => TAKEN_AWAY.forEach((id) => (byId(id).disabled = !may));
+
 function stale() {
   state("stale");
+  takeAway(false);
   const problem = form.problem;
   if (problem) alertOn(problem.message, "Show the field", () => (foldInputs(false), problem.go()));
   say(lastValid().trim() || "No result yet.");
@@ -161,7 +165,7 @@ const events = {
     judgeAsProgram(shown, took);
     identify.look();
     placement.look();
-    for (const id of TAKEN_AWAY) byId(id).disabled = shown.preview;
+    takeAway(!shown.preview);
     if (form.flawed) return stale();
     if (shown.preview) say(`A preview of ${formatNumber(summary.samples, 1)} samples`);
     if (!current) return; // shown, but of an earlier edit
@@ -172,6 +176,7 @@ const events = {
     idle();
     if (form.showError(error)) return stale();
     state("stale");
+    takeAway(false);
     const where = error.line ? ` (line ${error.line}, column ${error.column})` : "";
     if (["unreachable", "branch-ends"].includes(error.code) || error.field === "path")
       alertOn(error.message, "Place the path in front of this robot", placeInFront);
