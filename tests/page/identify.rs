@@ -92,8 +92,8 @@ fn the_measured_example_becomes_the_job_and_undo_takes_it_back() -> Result {
             .await?;
         current(page).await?;
         assert_eq!(job(page).await?["uncertainty"].get("compliance_covariance"), None);
-        page.click("#undo").await?;
-        page.click("#undo").await?;
+        click(page, "#undo").await?;
+        click(page, "#undo").await?;
         current(page).await?;
         page.wait_for(&format!("document.getElementById('fingerprint').textContent === {before}"), 30.0).await
     })

@@ -217,6 +217,7 @@ export class Form {
   }
 
   #setError(row, message, input) {
+    row.line = undefined;
     row.mistake = false;
     row.error.textContent = message;
     for (const each of row.editor.inputs) {
