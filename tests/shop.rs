@@ -568,3 +568,55 @@ fn dwells_are_counted_as_the_control_counts_them() {
     let holes = "G0 X0 Y0 Z10\nG82 X0 Y0 Z-5 R2 P500 F300\nX10\nG80\nM30";
     assert!((time(holes) - 1.0).abs() < 1e-9);
 }
+
+/// What machinists write, and where it leads [mm]: kinds that were misread while these were new.
+#[test]
+fn programs_of_hands_lead_where_the_control_goes() {
+    let head = "G21 G90 G17\nG0 X0 Y0 Z0\nG1 F600\n";
+    for (text, end) in [
+        // A slash divides and a star multiplies, behind a variable.
+        ("#2=10\n#10=#2/2\nX#10", [5.0, 0.0, 0.0]),
+        ("#1 = 360 / 6\nX#1", [60.0, 0.0, 0.0]),
+        ("#1=20\n#3=#1*2\nX#3", [40.0, 0.0, 0.0]),
+        ("X[6/2]\nY[[2+4]/2]", [3.0, 3.0, 0.0]),
+        ("#1=SIN[30]*10\nX#1", [5.0, 0.0, 0.0]),
+        // What else stands in the line of a call comes before it.
+        ("X10 M98 P100\nX20\nM30\nO100\nY5\nM99", [20.0, 5.0, 0.0]),
+        ("G91 M98 P1000 L3\nM30\nO1000\nX10\nM99", [30.0, 0.0, 0.0]),
+        ("M98 P1000\nX20\nM30\nO1000\nG91 X10\nG90 M99", [20.0, 0.0, 0.0]),
+        ("M98 P1000\nX40\nM30\nO1000\nX10\nG4 P500 M99", [40.0, 0.0, 0.0]),
+        // Block delete holds for calls as well.
+        ("/M98 P1000\nX20\nM98 P1000\nM30\nO1000\nY50\nM99", [20.0, 50.0, 0.0]),
+        // A variable of LinuxCNC is a subprogram's own, and its value holds from the next line.
+        ("o<a> sub\n#<x>=5\no<a> endsub\n#<x>=9\no<a> call\nX#<x>", [9.0, 0.0, 0.0]),
+        ("o<a> sub\no<a> endsub\n#1=5\n#1=10 G1 X#1", [5.0, 0.0, 0.0]),
+        ("#1=5\n#1=10 G1 X#1", [10.0, 0.0, 0.0]),
+        ("X[FIX[-2.8]] Y[FUP[-2.1]]", [-2.0, -3.0, 0.0]),
+        ("#1=0\nWHILE [#1 LT 3] DO1\n#1=[#1+1]\nG91 X10\nEND1\nG90", [30.0, 0.0, 0.0]),
+        ("#1=0\nN10 #1=#1+1\nG91 X5\nIF [#1 LT 4] GOTO 10\nG90", [20.0, 0.0, 0.0]),
+        ("G25 X-100 Y-100\nX3", [3.0, 0.0, 0.0]),
+        ("MSG()\nR1=20/2\nX=R1/2 F600", [5.0, 0.0, 0.0]),
+        ("MSG()\nTRANS X10\nX0\nROT\nX1", [1.0, 0.0, 0.0]),
+    ] {
+        let program = read(&format!("{head}{text}")).unwrap_or_else(|error| panic!("{text}: {error}"));
+        let (_, _, found) = figures(&program);
+        assert!(found.iter().zip(end).all(|(a, b)| (a - b).abs() < 1e-9), "{text}: {found:?}");
+    }
+    // Holes at the positions that G0 and G1 lead to.
+    let called = "MSG()\nG0 X0 Y0 Z10 F100\nMCALL CYCLE81(10,0,2,-5)\nG0 X10 Y10\nG0 X20\nMCALL\nX30";
+    let program = read(called).unwrap();
+    let (_, [lowest, _], end) = figures(&program);
+    assert!((lowest[2] + 5.0).abs() < 1e-9 && (end[0] - 30.0).abs() < 1e-9, "{lowest:?} {end:?}");
+    for (text, line, part) in [
+        ("G10 L20 P1 X0", 4, "G10"),
+        ("G53 G0 Z0 A90", 4, "rotary"),
+        ("Z5\nZ-1\nG91 G28 X0 Y0", 6, "lift the tool"),
+        ("M198 P1000", 4, "sub-program"),
+        ("M70", 4, "restored"),
+        ("X50 ,R5", 4, "chamfered"),
+    ] {
+        let error = read(&format!("{head}{text}")).unwrap_err().to_string();
+        assert!(error.contains(&format!("line {line},")) && error.contains(part), "{text}: {error}");
+    }
+    assert!(read(&format!("MSG()\n{}", "TRANS ".repeat(100_000))).is_err());
+}

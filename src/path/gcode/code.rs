@@ -81,7 +81,9 @@ pub(super) fn g(tenths: u32) -> Meaning {
         // Where the controller keeps its accuracy: smoothing, look-ahead, exact stop, speed watch.
         51 => Harmless(&['Q', 'R', 'P', 'X', 'Y', 'Z']),
         80 => Harmless(&['P']),
-        90 | 250 | 600 | 6010 | 6020 | 6030 | 6410 | 6420 | 6430 | 6440 | 6450 => Harmless(&[]),
+        250 | 260 => Harmless(&['X', 'Y', 'Z', 'S', 'P', 'Q', 'L']),
+        1030 => Harmless(&['P']),
+        90 | 600 | 620 | 6010 | 6020 | 6030 | 6410 | 6420 | 6430 | 6440 | 6450 => Harmless(&[]),
         542 => Harmless(&['P']),
         1870 => Harmless(&['P', 'E']),
         // They store where the reference position is.
@@ -122,11 +124,15 @@ pub(super) fn m(tenths: u32) -> Meaning {
         30 | 50 => Acts(Group::Spindle),
         60 => Acts(Group::ToolChange),
         40 => Refused("the cutting model is for a clockwise spindle: use a right-hand tool and M3"),
-        970..=989 => {
+        960..=989 | 1980 => {
             Refused("sub-program calls are not followed: have the CAM system post one whole program")
         }
         // LinuxCNC's switch of the kinematics.
         4280 | 4290 | 4300 => Refused("the kinematics is switched here: post for three axes, or use APT"),
+        700..=730 => {
+            Refused("modes that are saved and restored (M70 to M73) are not followed: post plain moves")
+        }
+        610 | 620 | 630 | 640 | 650 | 660 | 670 | 680 => Harmless(&['P', 'E', 'L', 'Q']),
         // Fans and heaters take S, an oriented spindle R; P is the number or the time of a function.
         1040 | 1060 | 1090 | 1400 => Harmless(&['S', 'P']),
         190 => Harmless(&['P', 'R', 'S', 'Q']),

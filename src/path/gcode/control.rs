@@ -60,7 +60,7 @@ pub(super) fn control(line: &str) -> Option<Control> {
     let mut at = line.len() - line.trim_start().len();
     if line[at..].starts_with(['N', 'n']) {
         at += 1;
-        at += line[at..].bytes().take_while(|sign| sign.is_ascii_digit() || *sign == b' ').count();
+        at += line[at..].bytes().take_while(|sign| sign.is_ascii_digit() || b" \t".contains(sign)).count();
     }
     let rest = &line[at..];
     match rest.chars().next()?.to_ascii_uppercase() {
@@ -128,26 +128,69 @@ fn spelled(rest: &str, at: usize) -> Option<Control> {
     follows("GOTO").map(|_| Control::GoTo(at + 4))
 }
 
-/// M97, M98, M99 with their words.
+/// M97, M98, M99 with their words, which follow them.
 fn called(line: &str, from: usize) -> Option<Control> {
+    let call = call_in(line, from)?;
+    match (call.code, call.number) {
+        (99, None) => Some(Control::Back),
+        // Whether a line's P is its number or its repeats, controls do not agree on.
+        (99, Some(_)) | (_, None) => None,
+        (code, Some(number)) => {
+            Some(Control::CallNumber { number, repeats: call.repeats, is_line: code == 97 })
+        }
+    }
+}
+
+/// A call or return in a line, and the bytes of its words.
+struct CallWords {
+    code: u32,
+    number: Option<u32>,
+    repeats: Option<u32>,
+    places: Vec<(usize, usize)>,
+    others: bool,
+}
+
+fn call_in(line: &str, from: usize) -> Option<CallWords> {
     if !line.contains("M9") && !line.contains("m9") {
         return None;
     }
-    let (mut code, mut number, mut repeats) = (None, None, None);
+    let mut found: Option<CallWords> = None;
+    let mut others = false;
     for token in tokens(line, from).filter(|token| token.kind == Kind::Word) {
         let value = token.text.get(1..).and_then(|number| number.trim().parse::<f64>().ok());
-        match (token.text.as_bytes()[0].to_ascii_uppercase(), value) {
-            (b'M', Some(value)) if [97.0, 98.0, 99.0].contains(&value) => code = Some(value as u32),
-            (b'P', Some(value)) => number = Some(value as u32),
-            (b'L', Some(value)) => repeats = Some(value as u32),
-            // Any other word: not a call alone.
-            _ if code.is_some() => return None,
-            _ => {}
+        let letter = token.text.as_bytes()[0].to_ascii_uppercase();
+        let place = (token.start, token.end());
+        match (letter, value, &mut found) {
+            (b'M', Some(value), None) if [97.0, 98.0, 99.0].contains(&value) => {
+                let places = vec![place];
+                found = Some(CallWords { code: value as u32, number: None, repeats: None, places, others });
+            }
+            (b'P', Some(value), Some(call)) if call.number.is_none() => {
+                call.number = Some(value as u32);
+                call.places.push(place);
+            }
+            (b'L', Some(value), Some(call)) if call.repeats.is_none() && value >= 0.0 => {
+                call.repeats = Some(value as u32);
+                call.places.push(place);
+            }
+            (b'N', ..) => {}
+            (.., Some(call)) => call.others = true,
+            _ => others = true,
         }
     }
-    match (code?, number) {
-        (99, None) => Some(Control::Back),
-        (99, Some(_)) | (_, None) => None,
-        (code, Some(number)) => Some(Control::CallNumber { number, repeats, is_line: code == 97 }),
-    }
+    found
+}
+
+/// A line in the pieces that run one after the other: what else stands in the line of a call or return
+/// comes before it.
+pub(super) fn pieces(line: &str) -> Vec<String> {
+    let call = call_in(line, 0).filter(|call| call.others && called(line, 0).is_some());
+    let Some(call) = call else { return vec![line.to_owned()] };
+    let is_call = |at: usize| call.places.iter().any(|(start, end)| (*start..*end).contains(&at));
+    let kept = |wanted: bool| {
+        let signs = line.char_indices();
+        signs.map(|(at, sign)| if is_call(at) == wanted { sign } else { ' ' }).collect::<String>()
+    };
+    // Blanks in place of the others keep the columns.
+    if line.is_ascii() { vec![kept(false), kept(true)] } else { vec![line.to_owned()] }
 }

@@ -18,6 +18,8 @@ pub(super) struct Cycle {
     pub(super) peck: Option<f64>,
     /// P: dwell at the bottom [s].
     pub(super) dwell: Option<f64>,
+    /// Whether it is called at each position, however the tool gets there (Siemens MCALL).
+    pub(super) is_called: bool,
     /// Level from which pecks count, if not the clearance plane [m].
     pub(super) surface: Option<f64>,
 }
@@ -34,7 +36,16 @@ pub(super) struct Level {
 impl Cycle {
     /// A cycle that starts a series.
     pub(super) fn new(tenths: u32) -> Self {
-        Self { tenths, start: None, clearance: None, bottom: None, peck: None, dwell: None, surface: None }
+        Self {
+            tenths,
+            start: None,
+            clearance: None,
+            bottom: None,
+            peck: None,
+            dwell: None,
+            surface: None,
+            is_called: false,
+        }
     }
 
     /// The cycle for this code. A repeated code keeps its words; another code continues the series

@@ -1,5 +1,6 @@
 //! The controller that a program is written for. It decides what several would read differently.
 
+use super::control::{Control, control};
 use crate::path::builder::LONGEST_WAIT;
 
 /// A controller's way of writing programs.
@@ -20,14 +21,16 @@ pub enum GcodeDialect {
 }
 
 /// Words in comments and program names by which a controller is known.
-const NAMES: [(&str, GcodeDialect); 12] = [
+const NAMES: [(&str, GcodeDialect); 14] = [
     ("haas", GcodeDialect::Fanuc),
     ("fanuc", GcodeDialect::Fanuc),
     ("mpfan", GcodeDialect::Fanuc),
     ("linuxcnc", GcodeDialect::LinuxCnc),
     ("emc2", GcodeDialect::LinuxCnc),
     ("grbl", GcodeDialect::Grbl),
-    ("carbide", GcodeDialect::Grbl),
+    ("carbide create", GcodeDialect::Grbl),
+    ("carbide motion", GcodeDialect::Grbl),
+    ("carbide 3d", GcodeDialect::Grbl),
     ("openbuilds", GcodeDialect::Grbl),
     ("siemens", GcodeDialect::Siemens),
     ("sinumerik", GcodeDialect::Siemens),
@@ -35,7 +38,7 @@ const NAMES: [(&str, GcodeDialect); 12] = [
     ("mach4", GcodeDialect::Mach),
 ];
 /// Pieces of lines, without blanks, that only one of them writes.
-const SIGNS: [(&str, GcodeDialect); 17] = [
+const SIGNS: [(&str, GcodeDialect); 15] = [
     ("%_N_", GcodeDialect::Siemens),
     ("G710", GcodeDialect::Siemens),
     ("CR=", GcodeDialect::Siemens),
@@ -47,8 +50,6 @@ const SIGNS: [(&str, GcodeDialect); 17] = [
     ("T=\"", GcodeDialect::Siemens),
     ("#<", GcodeDialect::LinuxCnc),
     ("O<", GcodeDialect::LinuxCnc),
-    ("G28G91", GcodeDialect::Fanuc),
-    ("G91G28", GcodeDialect::Fanuc),
     ("G187", GcodeDialect::Fanuc),
     ("G05.1", GcodeDialect::Fanuc),
     ("G05P", GcodeDialect::Fanuc),
@@ -67,11 +68,11 @@ impl GcodeDialect {
         for line in text.lines().take(LOOKED_AT) {
             let code: String = line.chars().filter(|sign| !sign.is_whitespace()).collect();
             let (upper, lower) = (code.to_ascii_uppercase(), line.to_ascii_lowercase());
-            if let Some((_, dialect)) = NAMES
-                .iter()
-                .find(|(name, _)| lower.find(name).is_some_and(|at| lower[..at].contains(['(', ';', '%'])))
-            {
+            if let Some((_, dialect)) = NAMES.iter().find(|(name, _)| is_named(&lower, name)) {
                 return *dialect;
+            }
+            if matches!(control(line), Some(Control::Sub(_) | Control::Call(..))) {
+                return Self::LinuxCnc;
             }
             let open = upper.split(['(', ';']).next().unwrap_or_default();
             let sign = SIGNS
@@ -112,4 +113,14 @@ impl GcodeDialect {
             Self::Mach | Self::Unknown => value > LONGEST_WAIT || whole && value >= MANY,
         }
     }
+}
+
+/// Whether a line, lower case, has a name as a word of its own in a comment or behind a percent sign.
+fn is_named(line: &str, name: &str) -> bool {
+    line.match_indices(name).any(|(at, _)| {
+        let (before, after) = (&line[..at], &line[at + name.len()..]);
+        before.contains(['(', ';', '%'])
+            && !before.ends_with(char::is_alphanumeric)
+            && !after.starts_with(char::is_alphabetic)
+    })
 }

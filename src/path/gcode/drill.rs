@@ -42,6 +42,13 @@ impl Interpreter<'_> {
                 "a canned cycle needs a feed a minute (G94) or a revolution (G95)",
             ));
         }
+        if cycle.is_called
+            && let Some(word) = block.peek(letter)
+        {
+            return Err(
+                word.fault(block.text, "between MCALL and its end the tool moves across the holes only")
+            );
+        }
         cycle.update(block, letter, self.modal.unit, self.modal.incremental)?;
         if let Some(word) = block.take('P') {
             cycle.dwell = Some(self.dwell_time(word, block)?);
@@ -55,6 +62,7 @@ impl Interpreter<'_> {
         if let Some(given) = block.cycle {
             let absolute = |value: f64| value * self.modal.unit + self.origin()[normal];
             (cycle.start, cycle.surface) = (Some(absolute(given.level)), Some(absolute(given.surface)));
+            cycle.is_called = given.stays;
         }
         let start = *cycle.start.get_or_insert(level);
         self.modal.motion = Some(Motion::Cycle(cycle));

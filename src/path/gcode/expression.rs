@@ -21,6 +21,10 @@ pub(super) struct Variables {
     named: BTreeMap<String, f64>,
     /// `R` and a number (Siemens).
     arithmetic: BTreeMap<u32, f64>,
+    /// Whether LinuxCNC's rules hold.
+    pub(super) is_linuxcnc: bool,
+    /// Values set in the line being read.
+    pending: Vec<(Variable, f64)>,
 }
 
 /// A variable.
@@ -32,7 +36,19 @@ pub(super) enum Variable {
 }
 
 impl Variables {
+    /// Sets a variable; on LinuxCNC its value holds from the next line on.
     pub(super) fn set(&mut self, variable: Variable, value: f64) {
+        if self.is_linuxcnc { self.pending.push((variable, value)) } else { self.put(variable, value) }
+    }
+
+    /// The values set in the line just read hold from here on.
+    pub(super) fn settle(&mut self) {
+        for (variable, value) in std::mem::take(&mut self.pending) {
+            self.put(variable, value);
+        }
+    }
+
+    fn put(&mut self, variable: Variable, value: f64) {
         match variable {
             Variable::Numbered(number) => self.numbered.insert(number, value),
             Variable::Named(name) => self.named.insert(name, value),
@@ -49,15 +65,35 @@ impl Variables {
         .copied()
     }
 
-    /// The local variables #1 to #30, for a subprogram of its own.
-    pub(super) fn locals(&self) -> BTreeMap<u32, f64> {
-        self.numbered.range(1..=30).map(|(number, value)| (*number, *value)).collect()
+    /// The local variables.
+    pub(super) fn locals(&self) -> Locals {
+        let numbered = self.numbered.range(1..=30).map(|(number, value)| (*number, *value)).collect();
+        let named = self.named.iter().filter(|(name, _)| !name.starts_with('_'));
+        Locals { numbered, named: named.map(|(name, value)| (name.clone(), *value)).collect() }
     }
 
     /// Puts local variables in place of those in force.
-    pub(super) fn set_locals(&mut self, locals: BTreeMap<u32, f64>) {
+    pub(super) fn set_locals(&mut self, locals: Locals) {
         self.numbered.retain(|number, _| !(1..=30).contains(number));
-        self.numbered.extend(locals);
+        self.numbered.extend(locals.numbered);
+        self.named.retain(|name, _| name.starts_with('_'));
+        self.named.extend(locals.named);
+    }
+}
+
+/// Variables that a subprogram of LinuxCNC has for itself: #1 to #30, and names that do not start with
+/// an underscore.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Locals {
+    numbered: BTreeMap<u32, f64>,
+    named: BTreeMap<String, f64>,
+}
+
+impl Locals {
+    /// Those of a call with these values.
+    pub(super) fn of(given: &[f64]) -> Self {
+        let numbered = (1..).zip(given.iter().copied()).collect();
+        Self { numbered, named: BTreeMap::new() }
     }
 }
 
@@ -249,7 +285,12 @@ impl<'a> ExpressionReader<'a> {
                     return Err(self.fault("the value of a function stands in brackets"));
                 }
                 let value = self.bracketed(close)?;
-                return Ok(function(value));
+                // LinuxCNC rounds down and up, the others toward zero and away from it.
+                return Ok(match (name, self.variables.is_linuxcnc) {
+                    ("FIX", false) => value.trunc(),
+                    ("FUP", false) => value.abs().ceil().copysign(value),
+                    _ => function(value),
+                });
             }
         }
         if self.take("ATAN") {
@@ -317,7 +358,7 @@ const LEVELS: [&[(&str, Operator)]; 5] = [
 ];
 
 /// Functions of one value; angles in degrees.
-const FUNCTIONS: [(&str, Function); 11] = [
+const FUNCTIONS: [(&str, Function); 12] = [
     ("ABS", f64::abs),
     ("SQRT", f64::sqrt),
     ("SIN", |a| math::sin(a * DEG)),
@@ -329,6 +370,7 @@ const FUNCTIONS: [(&str, Function); 11] = [
     ("FIX", f64::floor),
     ("FUP", f64::ceil),
     ("EXP", math::exp),
+    ("LN", math::ln),
 ];
 
 #[cfg(test)]
@@ -370,7 +412,8 @@ mod tests {
             ("ATAN2(-1, 0)", -90.0),
             ("SQRT[#1*#1+16]", 5.0),
             ("FUP[2.1]", 3.0),
-            ("FIX[-2.1]", -3.0),
+            ("FIX[-2.1]", -2.0),
+            ("FUP[-2.1]", -3.0),
             ("[#1 GT 2 AND #3 LE 7]", 1.0),
             ("[#1 EQ 2 OR 0]", 0.0),
             ("[2*(1+2)]", 6.0),

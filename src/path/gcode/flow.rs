@@ -4,11 +4,11 @@
 //! Only what stands in the same text is followed. Steps and calls are bounded, so that a loop without
 //! an end is an error at its line.
 
-use super::control::{Control, control, do_number, line_number};
-use super::expression::{ExpressionReader, Variables};
+use super::after_slash;
+use super::control::{Control, control, do_number, line_number, pieces};
+use super::expression::{ExpressionReader, Locals, Variables};
 use super::word::{self, WordFault};
 use std::cell::Cell;
-use std::collections::BTreeMap;
 
 /// Most lines that are run.
 const MOST_STEPS: usize = 3_000_000;
@@ -24,7 +24,7 @@ struct Call {
     back: usize,
     start: usize,
     repeats: u32,
-    locals: Option<BTreeMap<u32, f64>>,
+    locals: Option<Locals>,
 }
 
 /// A fault and the line, from 0, in which it is.
@@ -33,6 +33,8 @@ pub(super) type LineFault = (usize, WordFault);
 /// A program and the place in it.
 pub(super) struct Flow<'t> {
     pub(super) lines: Vec<&'t str>,
+    /// The line of the text, from 0, that each is (a part of).
+    pub(super) sources: Vec<usize>,
     controls: Vec<Option<Control>>,
     at: usize,
     calls: Vec<Call>,
@@ -44,17 +46,28 @@ pub(super) struct Flow<'t> {
     started: bool,
 }
 
+/// The lines of a text in the pieces that run one after the other, each with its line from 0.
+pub(super) fn parts(text: &str) -> Vec<(usize, String)> {
+    let lines = text.lines().enumerate();
+    lines.flat_map(|(index, line)| pieces(line).into_iter().map(move |piece| (index, piece))).collect()
+}
+
 /// Whether a text has lines that decide which line is next.
 pub(super) fn decides(text: &str) -> bool {
     text.lines().any(|line| !matches!(control(line), None | Some(Control::Label(_) | Control::Back)))
 }
 
 impl<'t> Flow<'t> {
-    pub(super) fn new(text: &'t str) -> Self {
-        let lines: Vec<&str> = text.lines().collect();
-        let controls = lines.iter().map(|line| control(line)).collect();
+    /// A program of these pieces of lines, each with its line of the text; `block_delete` leaves out
+    /// those with a slash.
+    pub(super) fn new(pieces: &'t [(usize, String)], block_delete: bool) -> Self {
+        let lines: Vec<&str> = pieces.iter().map(|(_, line)| line.as_str()).collect();
+        let sources = pieces.iter().map(|(source, _)| *source).collect();
+        let left_out = |line: &str| block_delete && after_slash(line) > 0;
+        let controls = lines.iter().map(|line| if left_out(line) { None } else { control(line) }).collect();
         Self {
             lines,
+            sources,
             controls,
             at: 0,
             calls: Vec::new(),
@@ -302,17 +315,19 @@ impl<'t> Flow<'t> {
         let Some(start) = self.controls.iter().position(is_sub) else {
             return Err(self.fault(here, "a sub-program that stands in this text"));
         };
-        let mut given = BTreeMap::new();
+        // What is not given is 0.
+        let mut given: Vec<f64> = Vec::new();
         let mut reader = ExpressionReader::new(self.lines[here], from, variables);
-        for number in 1..=30 {
+        for _ in 1..=30 {
             reader.skip_blanks();
             if !self.lines[here][reader.at..].starts_with('[') {
                 break;
             }
-            given.insert(number, reader.value().map_err(|fault| (here, fault))?);
+            given.push(reader.value().map_err(|fault| (here, fault))?);
         }
+        given.resize(30, 0.0);
         let locals = variables.locals();
-        variables.set_locals(given);
+        variables.set_locals(Locals::of(&given));
         self.enter(here, start + 1, 1, Some(locals))
     }
 
@@ -321,7 +336,7 @@ impl<'t> Flow<'t> {
         here: usize,
         start: usize,
         repeats: u32,
-        locals: Option<BTreeMap<u32, f64>>,
+        locals: Option<Locals>,
     ) -> Result<(), LineFault> {
         if self.calls.len() >= DEEPEST {
             return Err(self.fault(here, "calls within each other, a hundred at most"));

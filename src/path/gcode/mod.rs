@@ -48,6 +48,7 @@ mod motion;
 mod offset;
 mod options;
 mod siemens;
+mod siemens_word;
 pub(crate) mod token;
 mod word;
 
@@ -74,12 +75,16 @@ use word::WordFault;
 /// change the path in a way that is not modelled.
 pub fn program(text: &str, options: &Options, mut on_line: impl FnMut(usize)) -> Result<Program, Error> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text).trim_end_matches(['\0', '\u{1a}']);
-    foreign::check(text, &options.field)?;
     let dialect = options.dialect.unwrap_or_else(|| GcodeDialect::of(text));
+    if dialect != GcodeDialect::Siemens {
+        foreign::check(text, &options.field)?;
+    }
     let mut interpreter = Interpreter::new(options, dialect);
     let mut block = Block::default();
     let mut opened = false;
+    let is_linuxcnc = dialect == GcodeDialect::LinuxCnc;
     let mut variables = Variables::default();
+    variables.is_linuxcnc = is_linuxcnc;
     let place = |index: usize, line: &str, fault: WordFault| Error::Text {
         field: options.field.clone(),
         line: index + 1,
@@ -89,14 +94,16 @@ pub fn program(text: &str, options: &Options, mut on_line: impl FnMut(usize)) ->
     };
     let jumps = flow::decides(text);
     if jumps {
-        let mut flow = Flow::new(text);
+        let parts = flow::parts(text);
+        let mut block = Block::default();
+        let mut flow = Flow::new(&parts, options.block_delete);
         let mut furthest = 0;
         while !interpreter.ended() {
             let next = flow.next(&mut variables);
-            let next = next.map_err(|(index, fault)| place(index, flow.lines[index], fault))?;
-            let Some(index) = next else { break };
+            let next = next.map_err(|(index, fault)| place(flow.sources[index], flow.lines[index], fault))?;
+            let Some(piece) = next else { break };
+            let (index, line) = (flow.sources[piece], flow.lines[piece]);
             interpreter.line = index + 1;
-            let line = flow.lines[index];
             run_line(line, &mut interpreter, &mut block, &mut variables, &mut opened)
                 .map_err(|fault| place(index, line, fault))?;
             if index + 1 > furthest {
@@ -170,25 +177,32 @@ fn run_line<'t>(
 /// checksum of a line, and what a slash in it leaves to the operator.
 fn without_tail<'t>(line: &'t str, interpreter: &mut Interpreter) -> &'t str {
     let mut end = line.len();
-    let mut depth = 0;
+    let computed = line.find(['#', '=', '[']).unwrap_or(line.len());
+    let mut stopped = false;
     for token in token::tokens(line, after_slash(line)) {
-        let (is_word, text) = (token.kind == token::Kind::Word, token.text);
-        depth += i32::from(text == "[") - i32::from(text == "]");
-        // Within an expression, a slash divides and a star multiplies.
-        if !is_word || depth > 0 {
+        let text = token.text;
+        // Behind a variable or an equals sign, a slash divides and a star multiplies.
+        if token.start > computed {
+            break;
+        }
+        if token.kind != token::Kind::Word {
             continue;
         }
         let skipped = match text.as_bytes()[0] {
-            b'$' => true,
+            b'$' => interpreter.dialect != GcodeDialect::Siemens,
             b'*' => {
                 line[token.end()..].trim().is_empty() && text[1..].bytes().all(|sign| sign.is_ascii_digit())
             }
             b'/' => interpreter.options.block_delete,
             b'M' | b'm' if text[1..].trim_ascii_start() == "117" => true,
             // A stop may tell the operator what to do.
-            b'M' | b'm' if ["0", "00", "1", "01"].contains(&text[1..].trim_ascii_start()) => {
+            b'M' | b'm' if !stopped && ["0", "00", "1", "01"].contains(&text[1..].trim_ascii_start()) => {
+                stopped = true;
                 let rest = line[token.end()..].split(['(', ';']).next().unwrap_or_default();
-                if rest.trim().len() > 1 && !rest.bytes().any(|sign| sign.is_ascii_digit()) {
+                let is_note = rest.trim().len() > 1
+                    && !rest.contains(['#', '[', '='])
+                    && !rest.bytes().any(|sign| sign.is_ascii_digit());
+                if is_note {
                     interpreter.ignore(rest.trim());
                     end = token.end();
                     break;

@@ -158,12 +158,16 @@ impl Modal {
             return Err(cycle.word.fault(block.text, expected));
         }
         if let Some(motion) = motion {
-            self.motion = Some(match motion.tenths {
+            let given = match motion.tenths {
                 0 => Motion::Rapid,
                 10 => Motion::Line,
                 tenths => Motion::Arc { counter_clockwise: tenths == 30 },
-            });
-            self.before_cycle = self.motion;
+            };
+            self.before_cycle = Some(given);
+            // One that is called at each position stays.
+            if !matches!(self.motion, Some(Motion::Cycle(cycle)) if cycle.is_called) {
+                self.motion = Some(given);
+            }
         } else if let Some(code) = cycle {
             self.motion = match self.motion {
                 // Cycles are a group of their own on most controllers; LinuxCNC has no motion then.

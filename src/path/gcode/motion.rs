@@ -119,7 +119,21 @@ impl Interpreter<'_> {
         let code = block.code(Group::NonModal);
         let axes: Vec<Word> =
             ['X', 'Y', 'Z', 'A', 'B', 'C'].iter().filter_map(|&axis| block.take(axis)).collect();
+        if let Some(word) = axes.iter().find(|word| word.letter < 'X' && word.value != 0.0) {
+            return Err(word.fault(block.text, "rotary axes are not read from G-code: post for three axes"));
+        }
+        // G30 P2 is the second of them.
+        block.take('P');
         let up = axes.is_empty() || axes.iter().any(|word| word.letter == 'Z');
+        if !up && self.known[2] && self.tip.z < self.highest {
+            let at = axes.first().map_or(block.start(), |word| word.start);
+            return Err(WordFault {
+                at,
+                found: "a move to a position of the machine with the tool down".into(),
+                expected: "lift the tool before, in a line of its own: where this move leads is not known"
+                    .into(),
+            });
+        }
         for word in &axes {
             self.ignore(word.text(block.text));
         }

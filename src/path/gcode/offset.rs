@@ -4,6 +4,7 @@
 use super::block::Block;
 use super::block::Code;
 use super::code::{EXTENDED_OFFSET, Group, HAAS_OFFSET};
+use super::dialect::GcodeDialect;
 use super::interpreter::{AXES, Interpreter};
 use super::word::{Word, WordFault};
 use nalgebra::Vector3;
@@ -52,6 +53,11 @@ impl Interpreter<'_> {
     /// G54 to G59.3 from the job's table; G54.1 P and G154 P, which it has no row for, at zero.
     fn set_work_offset(&mut self, code: Code, block: &mut Block) -> Result<(), WordFault> {
         let mut name = code.word.text(block.text).to_ascii_uppercase();
+        if self.dialect == GcodeDialect::Siemens && matches!(code.tenths, 580 | 590) {
+            return Err(code
+                .word
+                .fault(block.text, "the programmable offsets G58 and G59 are not read: use TRANS"));
+        }
         let given = if matches!(code.tenths, EXTENDED_OFFSET | HAAS_OFFSET) {
             let Some(number) = block.take('P') else {
                 return Err(code.word.fault(block.text, "an extended work offset needs its number P"));
@@ -85,10 +91,14 @@ impl Interpreter<'_> {
             .iter()
             .filter_map(|&letter| block.take(letter))
             .collect();
-        for letter in ['L', 'P'] {
-            block.take(letter);
-        }
+        let sets_position = block.take('L').is_some_and(|word| word.value == 20.0);
+        block.take('P');
+        let given = self.options.work_offsets.iter().any(Option::is_some);
         match (values.iter().find(|word| word.value != 0.0), at) {
+            (_, Some(code)) if sets_position || given => Err(code.fault(
+                block.text,
+                "offsets are not set from within a program: give them as the job's work and tool offsets",
+            )),
             (Some(_), Some(code)) => Err(code.fault(
                 block.text,
                 "offsets other than 0 are not set from within a program: give them as the job's work and tool offsets",

@@ -1,7 +1,8 @@
 //! Words of Siemens Sinumerik programs for three axes: `X=10`, `CR=`, `I=AC(5)`, `TRANS`, `SUPA`,
 //! `CYCLE81`. They become the words that the interpreter knows, at their places in the line.
 
-use super::expression::{ExpressionReader, Variable, Variables};
+use super::expression::Variables;
+use super::siemens_word::{arguments, assigned, closing, named, plain};
 use super::word::{Word, WordFault, WordMode};
 
 /// What a line asks of a canned cycle besides its words.
@@ -23,73 +24,6 @@ pub(super) struct Siemens {
     /// The cycle of the line just read.
     pub(super) cycle: Option<SiemensCycle>,
 }
-
-/// Names without effect on the path of a milling program.
-const HARMLESS: [&str; 37] = [
-    "WORKPIECE",
-    "MSG",
-    "CYCLE832",
-    "GROUP_BEGIN",
-    "GROUP_END",
-    "STOPRE",
-    "TRAFOOF",
-    "SOFT",
-    "BRISK",
-    "DRIVE",
-    "FFWON",
-    "FFWOF",
-    "COMPOF",
-    "COMPON",
-    "COMPCAD",
-    "COMPCURV",
-    "CFC",
-    "CFTCP",
-    "CFIN",
-    "DIAMOF",
-    "CUT2D",
-    "UPATH",
-    "SPATH",
-    "FGROUP",
-    "FIFOCTRL",
-    "KONT",
-    "NORM",
-    "CDOF",
-    "DYNROUGH",
-    "DYNFINISH",
-    "DYNSEMIFIN",
-    "DYNNORM",
-    "DYNPOS",
-    "FNORM",
-    "WALIMOF",
-    "SPOS",
-    "FGREF",
-];
-/// Names that would change the path, and what to do.
-const REFUSED: [(&str, &str); 18] = [
-    ("TRAORI", FIVE_AXES),
-    ("TRACYL", "a wrapped path is not read: post it in X, Y and Z"),
-    ("ROT", FRAME),
-    ("AROT", FRAME),
-    ("RPL", FRAME),
-    ("SCALE", FRAME),
-    ("ASCALE", FRAME),
-    ("MIRROR", FRAME),
-    ("AMIRROR", FRAME),
-    ("GOTOF", CONTROL),
-    ("GOTOB", CONTROL),
-    ("GOTO", CONTROL),
-    ("WHILE", CONTROL),
-    ("FOR", CONTROL),
-    ("REPEAT", CONTROL),
-    ("IF", CONTROL),
-    ("CALL", CONTROL),
-    ("BSPLINE", "splines are not read: post lines and arcs"),
-];
-const FIVE_AXES: &str =
-    "Siemens TRAORI turns the tool: post for three axes, or use APT or CSV with tool axes";
-const FRAME: &str = "rotated, scaled and mirrored frames are not read: post the coordinates as they are cut";
-const CONTROL: &str = "jumps and loops of Siemens programs are not followed: post plain moves";
-const CORNER: &str = "chamfers, roundings, angles and polar words are not read: post lines and arcs";
 
 impl Siemens {
     /// Collects the words of a line from the byte `from` on.
@@ -133,12 +67,31 @@ impl Siemens {
                     words.push(Word { letter: 'G', value: 53.0, start, end: after, mode: WordMode::Modal });
                     at = after;
                 }
+                (1, _) if name == "G" && ["153", "500"].contains(&&line[start + 1..after]) => {
+                    // Without the offset, or all of them: a position of the machine, or its zero from here on.
+                    if &line[start + 1..after] == "153" {
+                        words.push(Word {
+                            letter: 'G',
+                            value: 53.0,
+                            start,
+                            end: after,
+                            mode: WordMode::Modal,
+                        });
+                    }
+                    at = after;
+                }
                 (2.., _) if name == "TRANS" || name == "ATRANS" => {
                     at = self.translate(line, (start, after), words, variables)?;
                 }
                 // An addressed value: X=10, CR=5, S1=3000, R10=3, T="NAME".
                 (_, Some('=')) => at = assigned(line, (start, after), &name, words, variables)?,
-                (2.., _) => at = named(line, (start, after), &name)?,
+                (2.., _) => {
+                    at = named(line, (start, after), &name)?;
+                    if ["ROT", "SCALE", "MIRROR"].contains(&name.as_str()) {
+                        // Without words, each takes back every programmable frame.
+                        self.clear(words, (start, after));
+                    }
+                }
                 _ => at = plain(line, start, words, variables)?,
             }
         }
@@ -155,6 +108,13 @@ impl Siemens {
         Ok(())
     }
 
+    fn clear(&mut self, words: &mut Vec<Word>, (start, end): (usize, usize)) {
+        self.shift = [0.0; 3];
+        for (letter, value) in [('G', 52.0), ('X', 0.0), ('Y', 0.0), ('Z', 0.0)] {
+            words.push(Word { letter, value, start, end, mode: WordMode::Modal });
+        }
+    }
+
     /// TRANS replaces the shift, ATRANS adds to it: both as G52 of all axes.
     fn translate(
         &mut self,
@@ -167,8 +127,24 @@ impl Siemens {
             self.shift = [0.0; 3];
         }
         let mut given = Vec::new();
-        let mut inner = Siemens::default();
-        inner.words(line, after, &mut given, variables)?;
+        let mut at = after;
+        loop {
+            at = line.len() - line[at..].trim_start().len();
+            if !line[at..].starts_with(|sign: char| sign.is_ascii_alphabetic()) {
+                break;
+            }
+            let equals = line[at + 1..].trim_start().starts_with('=');
+            let name = line[at..=at].to_ascii_uppercase();
+            at = if equals {
+                assigned(line, (at, at + 1), &name, &mut given, variables)?
+            } else {
+                plain(line, at, &mut given, variables)?
+            };
+        }
+        if !matches!(line[at..].chars().next(), None | Some(';')) {
+            let found = format!("\"{}\"", line[at..].trim_end());
+            return Err(WordFault { at, found, expected: "TRANS takes X, Y and Z".into() });
+        }
         for word in &given {
             let Some(axis) = ['X', 'Y', 'Z'].iter().position(|&axis| axis == word.letter) else {
                 return Err(word.fault(line, "TRANS takes X, Y and Z"));
@@ -198,10 +174,13 @@ impl Siemens {
             found: format!("\"{}\"", line[start..].trim_end()),
             expected: expected.into(),
         };
+        let number = &line[start + "CYCLE".len()..after];
+        if number == "832" {
+            return Ok(closing(line, after));
+        }
         let (values, end) = arguments(line, after, variables)?;
         let value = |index: usize| values.get(index).copied().flatten();
-        let number = &line[start + "CYCLE".len()..after];
-        if number == "832" || number == "800" && values.iter().flatten().all(|value| *value == 0.0) {
+        if number == "800" && values.iter().flatten().all(|value| *value == 0.0) {
             return Ok(end);
         }
         if !["81", "82", "83"].contains(&number) {
@@ -217,7 +196,8 @@ impl Siemens {
         };
         let clearance = surface + value(2).unwrap_or(0.0);
         // DPR is a depth from the reference plane, whatever its sign.
-        let Some(bottom) = value(3).or(value(4).map(|depth| surface - depth.abs())) else {
+        let relative = value(4).filter(|depth| *depth != 0.0).map(|depth| surface - depth.abs());
+        let Some(bottom) = relative.or(value(3)) else {
             return Err(fault("a drilling cycle needs a depth, DP or DPR"));
         };
         let place = |letter, value| Word { letter, value, start, end, mode: WordMode::Absolute };
@@ -250,161 +230,5 @@ impl Siemens {
         }
         self.cycle = Some(SiemensCycle { level, surface, stays });
         Ok(end)
-    }
-}
-
-/// A word of one letter and a number or expression.
-fn plain(line: &str, start: usize, words: &mut Vec<Word>, variables: &Variables) -> Result<usize, WordFault> {
-    let mut reader = ExpressionReader::new(line, start + 1, variables);
-    let value = reader.value()?;
-    let letter = char::from(line.as_bytes()[start].to_ascii_uppercase());
-    words.push(Word { letter, value, start, end: reader.at, mode: WordMode::Modal });
-    Ok(reader.at)
-}
-
-/// A word with an equals sign.
-fn assigned(
-    line: &str,
-    (start, after): (usize, usize),
-    name: &str,
-    words: &mut Vec<Word>,
-    variables: &mut Variables,
-) -> Result<usize, WordFault> {
-    let equals = line[after..].find('=').map_or(after, |at| after + at + 1);
-    let digits = &line[start + name.len()..after];
-    let refuse = |expected: &str| {
-        Err(WordFault {
-            at: start,
-            found: format!("\"{}\"", line[start..].trim_end()),
-            expected: expected.into(),
-        })
-    };
-    let text = line[equals..].trim_start();
-    if let Some(quoted) = text.strip_prefix('"') {
-        // The name of a tool.
-        let Some(length) = quoted.find('"') else { return refuse("a name closes with \"") };
-        let end = line.len() - text.len() + length + 2;
-        let value = quoted[..length].bytes().fold(0.0, |sum, byte| (sum * 31.0 + f64::from(byte)) % 1e8);
-        if name == "T" {
-            words.push(Word { letter: 'T', value, start, end, mode: WordMode::Modal });
-        }
-        return Ok(end);
-    }
-    let mut reader = ExpressionReader::new(line, equals, variables);
-    let mode = if reader.take("AC") {
-        WordMode::Absolute
-    } else if reader.take("IC") {
-        WordMode::Incremental
-    } else {
-        WordMode::Modal
-    };
-    let value = if mode != WordMode::Modal && reader.take("(") {
-        let value = reader.expression()?;
-        if !reader.take(")") {
-            return refuse("AC and IC close with )");
-        }
-        value
-    } else {
-        reader.expression()?
-    };
-    let end = reader.at;
-    let letter = match name {
-        "R" if !digits.is_empty() => {
-            if let Ok(number) = digits.parse() {
-                variables.set(Variable::Arithmetic(number), value);
-            }
-            return Ok(end);
-        }
-        "CR" => 'R',
-        // Full turns beyond the arc itself.
-        "TURN" => {
-            words.push(Word { letter: 'P', value: value + 1.0, start, end, mode });
-            return Ok(end);
-        }
-        "RND" | "RNDM" | "CHF" | "CHR" | "ANG" | "AR" | "AP" | "RP" => return refuse(CORNER),
-        // S1=, M1= address the first spindle.
-        "S" | "M" if digits == "1" => char::from(name.as_bytes()[0]),
-        _ if name.len() == 1 && digits.is_empty() => char::from(name.as_bytes()[0]),
-        _ if ["A", "B", "C"].contains(&name) => return refuse(FIVE_AXES),
-        _ => return refuse("no word of three-axis milling"),
-    };
-    words.push(Word { letter, value, start, end, mode });
-    Ok(end)
-}
-
-/// A name, which has no effect or is refused; returns the byte after its brackets.
-fn named(line: &str, (start, after): (usize, usize), name: &str) -> Result<usize, WordFault> {
-    let refuse = |expected: &str| {
-        Err(WordFault { at: start, found: format!("\"{}\"", &line[start..after]), expected: expected.into() })
-    };
-    if let Some((_, expected)) = REFUSED.iter().find(|(refused, _)| *refused == name) {
-        // Without words, a frame is taken back.
-        let alone = line[after..].split(';').next().is_none_or(|rest| rest.trim().is_empty());
-        return if alone && *expected == FRAME { Ok(after) } else { refuse(expected) };
-    }
-    let full = line[start..after].to_ascii_uppercase();
-    if !HARMLESS.iter().any(|known| *known == name || *known == full) {
-        return refuse(
-            "no word of three-axis milling that is known; known names are listed in the reader's source",
-        );
-    }
-    Ok(closing(line, after))
-}
-
-/// The byte after the brackets that open next, or `from`.
-fn closing(line: &str, from: usize) -> usize {
-    let rest = line[from..].trim_start();
-    if !rest.starts_with('(') {
-        return from;
-    }
-    let opened = line.len() - rest.len();
-    let (mut depth, mut quoted) = (0, false);
-    for (at, sign) in rest.char_indices() {
-        match sign {
-            '"' => quoted = !quoted,
-            '(' if !quoted => depth += 1,
-            ')' if !quoted => {
-                depth -= 1;
-                if depth == 0 {
-                    return opened + at + 1;
-                }
-            }
-            _ => {}
-        }
-    }
-    line.len()
-}
-
-/// The values in the brackets after a name, where they are given, and the byte after them; a text counts
-/// as none.
-fn arguments(line: &str, from: usize, variables: &Variables) -> Result<(Vec<Option<f64>>, usize), WordFault> {
-    let mut reader = ExpressionReader::new(line, from, variables);
-    let mut values = Vec::new();
-    if !reader.take("(") {
-        return Ok((values, from));
-    }
-    loop {
-        if reader.take(")") {
-            return Ok((values, reader.at));
-        }
-        if reader.take(",") {
-            values.push(None);
-            continue;
-        }
-        if reader.take("\"") {
-            let end = line[reader.at..].find('"').map_or(line.len(), |end| reader.at + end + 1);
-            reader.at = end;
-            values.push(None);
-        } else {
-            values.push(Some(reader.expression()?));
-        }
-        if !reader.take(",") && !line[reader.at..].trim_start().starts_with(')') {
-            let found = format!("\"{}\"", line[reader.at..].trim_end());
-            return Err(WordFault {
-                at: reader.at,
-                found,
-                expected: "values are separated by commas".into(),
-            });
-        }
     }
 }

@@ -106,6 +106,7 @@ pub(super) fn words(
             Kind::Word => words.push(word(line, &token)?),
         }
     }
+    variables.settle();
     Ok(())
 }
 
@@ -198,6 +199,9 @@ fn stray(line: &str, at: usize) -> WordFault {
         "[" | "]" => EXPRESSION,
         "/" => "a slash (block delete) stands at the start of a line or after its N word",
         "%" => "a percent sign stands alone on its line, before and after the program",
+        "," if line[at + 1..].trim_start().starts_with(['R', 'C', 'r', 'c', 'A', 'a']) => {
+            "rounded and chamfered corners (,R ,C) are not read: post lines and arcs"
+        }
         "," => "numbers are written with a decimal point",
         ")" => "a comment opens with ( before it closes",
         _ => "a word is a letter and a number, such as X12.5; comments stand in ( ) or after ;",
