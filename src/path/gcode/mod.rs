@@ -176,6 +176,9 @@ fn run_line<'t>(
 /// A line without what no motion hangs on: a command to the sender (`$H`), the text of M117, the
 /// checksum of a line, and what a slash in it leaves to the operator.
 fn without_tail<'t>(line: &'t str, interpreter: &mut Interpreter) -> &'t str {
+    if !line.contains(['$', '*', '/', 'M', 'm']) {
+        return line;
+    }
     let mut end = line.len();
     let computed = line.find(['#', '=', '[']).unwrap_or(line.len());
     let mut stopped = false;
