@@ -54,7 +54,8 @@ let shown = null; // the shown result: { json, summary, preview } and its job
 let slow; // timer that shows the progress
 let silent; // timer that says that there is none
 const previews = new Set(); // JSON texts of jobs with fewer samples that were asked for since the last full result
-const TAKEN_AWAY = ["download-compensated", "download-columns", "download-program", "export-format", "share", "pin"];
+const FILES = ["download-compensated", "download-columns", "download-program", "export-format"];
+const TAKEN_AWAY = [...FILES, "share", "pin"];
 
 const state = (name) => (results.dataset.state = name);
 const say = (text) => (byId("status").textContent = text);
@@ -103,12 +104,12 @@ function edited(stepped = false) {
   else compute();
 }
 
-/** Whether the shown result may be taken away: one of other inputs than those on the page may not. */
-const takeAway = (may) => TAKEN_AWAY.forEach((id) => (byId(id).disabled = !may));
+/** A result of other inputs than those on the page is shared with its own, but not milled. */
+const withholdFiles = () => FILES.forEach((id) => (byId(id).disabled = true));
 
 function stale() {
   state("stale");
-  takeAway(false);
+  withholdFiles();
   const problem = form.problem;
   if (problem) alertOn(problem.message, "Show the field", () => (foldInputs(false), problem.go()));
   say(lastValid().trim() || "No result yet.");
@@ -165,7 +166,7 @@ const events = {
     judgeAsProgram(shown, took);
     identify.look();
     placement.look();
-    takeAway(!shown.preview);
+    for (const id of TAKEN_AWAY) byId(id).disabled = shown.preview;
     if (form.flawed) return stale();
     if (shown.preview) say(`A preview of ${formatNumber(summary.samples, 1)} samples`);
     if (!current) return; // shown, but of an earlier edit
@@ -176,7 +177,7 @@ const events = {
     idle();
     if (form.showError(error)) return stale();
     state("stale");
-    takeAway(false);
+    withholdFiles();
     const where = error.line ? ` (line ${error.line}, column ${error.column})` : "";
     if (["unreachable", "branch-ends"].includes(error.code) || error.field === "path")
       alertOn(error.message, "Place the path in front of this robot", placeInFront);
