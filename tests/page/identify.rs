@@ -90,8 +90,9 @@ fn the_measured_example_becomes_the_job_and_undo_takes_it_back() -> Result {
         page.js("const arm = document.getElementById('robot-preset'); arm.value = 'kuka-kr-210-2'; \
              arm.dispatchEvent(new Event('change', { bubbles: true }))")
             .await?;
+        page.wait_for("!document.getElementById('expected').textContent.includes('covariance')", 20.0)
+            .await?;
         current(page).await?;
-        assert_eq!(job(page).await?["uncertainty"].get("compliance_covariance"), None);
         click(page, "#undo").await?;
         click(page, "#undo").await?;
         current(page).await?;
