@@ -63,9 +63,10 @@ pub(super) fn control(line: &str) -> Option<Control> {
         at += line[at..].bytes().take_while(|sign| sign.is_ascii_digit() || b" \t".contains(sign)).count();
     }
     let rest = &line[at..];
-    match rest.chars().next()?.to_ascii_uppercase() {
-        'O' | ':' => named(line, at),
-        'I' | 'W' | 'E' | 'G' => spelled(rest, at).or_else(|| called(line, at)),
+    let start = [0, 1].map(|at| rest.as_bytes().get(at).map_or(b' ', u8::to_ascii_uppercase));
+    match &start {
+        [b'O' | b':', _] => named(line, at),
+        b"IF" | b"WH" | b"EN" | b"GO" => spelled(rest, at).or_else(|| called(line, at)),
         _ => called(line, at),
     }
 }
