@@ -582,6 +582,7 @@ fn programs_of_hands_lead_where_the_control_goes() {
         ("#1=SIN[30]*10\nX#1", [5.0, 0.0, 0.0]),
         // What else stands in the line of a call comes before it.
         ("X10 M98 P100\nX20\nM30\nO100\nY5\nM99", [20.0, 5.0, 0.0]),
+        ("X10 M98 P100 (B\u{fc}chse)\nX20\nM30\nO100\nY5\nM99", [20.0, 5.0, 0.0]),
         ("G91 M98 P1000 L3\nM30\nO1000\nX10\nM99", [30.0, 0.0, 0.0]),
         ("M98 P1000\nX20\nM30\nO1000\nG91 X10\nG90 M99", [20.0, 0.0, 0.0]),
         ("M98 P1000\nX40\nM30\nO1000\nX10\nG4 P500 M99", [40.0, 0.0, 0.0]),

@@ -152,7 +152,7 @@ struct CallWords {
 }
 
 fn call_in(line: &str, from: usize) -> Option<CallWords> {
-    if !line.contains("M9") && !line.contains("m9") {
+    if !line.bytes().any(|sign| matches!(sign, b'M' | b'm')) {
         return None;
     }
     let mut found: Option<CallWords> = None;
@@ -193,5 +193,5 @@ pub(super) fn pieces(line: &str) -> Vec<String> {
         signs.map(|(at, sign)| if is_call(at) == wanted { sign } else { ' ' }).collect::<String>()
     };
     // Blanks in place of the others keep the columns.
-    if line.is_ascii() { vec![kept(false), kept(true)] } else { vec![line.to_owned()] }
+    vec![kept(false), kept(true)]
 }
