@@ -52,22 +52,17 @@ impl InputSpread {
     /// The 95 % range in words.
     pub fn words(&self) -> String {
         match self {
-            Self::Normal(deviation) => format!("±{} %", two_digits(100.0 * COVERAGE * deviation)),
+            Self::Normal(deviation) => format!("±{} %", shortest(100.0 * COVERAGE * deviation, 1)),
             Self::Lognormal(deviation) => {
-                format!("a factor of {}", three_digits(math::exp(COVERAGE * deviation)))
+                format!("a factor of {}", shortest(math::exp(COVERAGE * deviation), 2))
             }
         }
     }
 }
 
-/// A number to a tenth, without a zero behind the point.
-fn two_digits(value: f64) -> String {
-    format!("{value:.1}").trim_end_matches(".0").to_owned()
-}
-
-/// A number to a hundredth, without zeros at the end.
-fn three_digits(value: f64) -> String {
-    format!("{value:.2}").trim_end_matches('0').trim_end_matches('.').to_owned()
+/// A number with at most `decimals` decimal places.
+fn shortest(value: f64, decimals: usize) -> String {
+    format!("{value:.decimals$}").trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// How the joint compliances vary.

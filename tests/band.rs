@@ -1,7 +1,9 @@
 //! The band: against full reruns of the kept commands, closed forms and laws.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-use armill::cutting::{Coefficients, Cut};
+#[path = "common/plant.rs"]
+mod plant;
+
 use armill::deviation::{Reference, Sources, simulate};
 use armill::job::Job;
 use armill::plan::Plan;
@@ -11,6 +13,7 @@ use armill::spread::{InputSpread, Stiffness};
 use armill::uncertainty::draw::deviates;
 use armill::uncertainty::{BreakEven, Draw};
 use armill::{Progress, run, run_json};
+use plant::drawn_cut;
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -31,17 +34,7 @@ fn rerun(report: &Report, draw: &Draw) -> Vec<f64> {
     let robot =
         armill::robot::Robot::new(setup.robot.name(), *setup.robot.links(), limits, compliance).unwrap();
     let robot = robot.with_tool(*setup.robot.tool());
-    let k = setup.cut.coefficients;
-    let [t, r, a] = draw.force;
-    let coefficients = Coefficients {
-        ktc: k.ktc * t,
-        kte: k.kte * t,
-        krc: k.krc * r,
-        kre: k.kre * r,
-        kac: k.kac * a,
-        kae: k.kae * a,
-    };
-    let cut = Cut { coefficients, ..setup.cut };
+    let cut = drawn_cut(&setup.cut, draw);
     let drawn = Setup { robot: robot.clone(), mean_force: cut.mean_force(), cut, ..setup.clone() };
     let plan = Plan { setup: Arc::new(drawn), robot, ..report.plan.clone() };
     let reference = Reference::along(&plan, Sources::ALL);

@@ -266,7 +266,11 @@ fn offsets() {
         ("an axis without word does not jump", "G55 G1 Z1", Ends(&[[0., 0., 1.]])),
         ("G53 is no point of the workpiece", "G53 G0 X10\nX10", Ends(&[[110., 0., 0.]])),
         ("nor is G28", "G28 X5\nG91 G28 Z0\nG90 G0 X10", Ends(&[[110., 0., 0.]])),
-        ("one that moves Z goes up to where the tool has been", "G1 Z5\nZ-1\nG53 G0 Z0\nX10", Ends(&[[0., 0., 5.], [0., 0., -1.], [0., 0., 5.], [110., 0., 5.]])),
+        (
+            "one that moves Z goes up to where the tool has been",
+            "G1 Z5\nZ-1\nG53 G0 Z0\nX10",
+            Ends(&[[0., 0., 5.], [0., 0., -1.], [0., 0., 5.], [110., 0., 5.]]),
+        ),
         ("as G30 does", "G0 Z5\nG1 Z-1\nG91 G30 Z0 M5\nX1", Ends(&[[0., 0., 5.], [0., 0., -1.], [0., 0., 5.], [1., 0., 5.]])),
         ("tool length", "G43 H1 G0 Z10\nG49 Z10", Ends(&[[0., 0., 15.], [0., 0., 10.]])),
         ("tool length of another tool, subtracted", "G43 H7 G0 Z10\nG44 H1 Z10", Ends(&[[0., 0., 9.], [0., 0., 5.]])),
@@ -349,7 +353,14 @@ fn canned_cycles() {
         ("in G19 the drill points along X", "G19 G81 Y2 X-3 R0", Ends(&[[0., 2., 0.], [-3., 2., 0.], [0., 2., 0.]])),
         ("a cycle without R starts at the level before", "G81 X1 Z-1", Ends(&[[1., 0., 0.], [1., 0., -1.], [1., 0., 0.]])),
         ("with a remark", "G81 X1 Z-1", Remark("cycle-clearance", 2)),
-        ("K repeats as L does", "G91 G81 X5 Z-1 R0 K2", Ends(&[[5., 0., 0.], [5., 0., -1.], [5., 0., 0.], [10., 0., 0.], [10., 0., -1.], [10., 0., 0.]])),
+        (
+            "K repeats as L does",
+            "G91 G81 X5 Z-1 R0 K2",
+            Ends(&[
+                [5., 0., 0.], [5., 0., -1.], [5., 0., 0.],
+                [10., 0., 0.], [10., 0., -1.], [10., 0., 0.],
+            ]),
+        ),
         ("a peck of 0 drills in one go", "G83 Z-2 R1 Q0", Ends(&[[0., 0., 1.], [0., 0., -2.], [0., 0., 1.]])),
         ("another cycle needs its own words", "G81 Z-1 R1\nG82 X1", Gives::Error(3, 1, "depth")),
         ("G82 without P", "G82 Z-1 R1", Gives::Error(2, 1, "seconds")),
@@ -358,7 +369,11 @@ fn canned_cycles() {
         ("bottom above R", "G81 Z5 R1", Gives::Error(2, 1, "above")),
         ("half a repeat", "G81 Z-1 R1 L1.5", Gives::Error(2, 12, "whole")),
         ("a cycle at inverse time", "G93 G81 Z-1 R1 F1", Gives::Error(2, 5, "G94")),
-        ("after G80 the motion before the cycle is in force", "G1 X1\nG81 Z-1 R0\nG80\nX3", Ends(&[[1., 0., 0.], [1., 0., -1.], [1., 0., 0.], [3., 0., 0.]])),
+        (
+            "after G80 the motion before the cycle is in force",
+            "G1 X1\nG81 Z-1 R0\nG80\nX3",
+            Ends(&[[1., 0., 0.], [1., 0., -1.], [1., 0., 0.], [3., 0., 0.]]),
+        ),
     ] {
         check(name, &format!("{HEAD}\n{text}"), &gives, &Options::default());
     }

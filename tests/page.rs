@@ -525,7 +525,7 @@ fn programs_come_in_and_go_out() -> Result {
         stale(page).await?;
         assert!(self::text(page, "path-text-error").await?.to_lowercase().contains("line 3, column 1"));
         assert!(page.value("#path-text").await?.contains("G41 D1"));
-        // What is shown is of the program before: it is not to be had under the new one's name.
+        // The result on the page is that of the program before, so its file cannot be downloaded.
         assert_eq!(page.js("return document.querySelector('#download-program').disabled").await?, true);
         page.click("#alert button").await?;
         let selected = "const area = document.querySelector('#path-text'); \

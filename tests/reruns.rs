@@ -3,8 +3,9 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
+#[path = "common/plant.rs"]
+mod plant;
 
-use armill::cutting::{Coefficients, Cut};
 use armill::deviation::{Reference, Sources, simulate};
 use armill::plan::Plan;
 use armill::setup::Setup;
@@ -12,6 +13,7 @@ use armill::uncertainty::Draw;
 use armill::uncertainty::draw::deviates;
 use armill::{Job, Progress, Report};
 use common::job_text;
+use plant::drawn_cut;
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -36,17 +38,7 @@ fn softened(report: &Report, changes: &[(&'static str, Value)], draw: &Draw) -> 
 fn rerun(report: &Report, changes: &[(&'static str, Value)], draw: &Draw) -> Vec<f64> {
     let text = job_text(&softened(report, changes, draw));
     let setup = Setup::of(&Job::from_json(&text).unwrap(), &mut Progress::none()).unwrap();
-    let k = setup.cut.coefficients;
-    let [t, r, a] = draw.force;
-    let coefficients = Coefficients {
-        ktc: k.ktc * t,
-        kte: k.kte * t,
-        krc: k.krc * r,
-        kre: k.kre * r,
-        kac: k.kac * a,
-        kae: k.kae * a,
-    };
-    let cut = Cut { coefficients, ..setup.cut };
+    let cut = drawn_cut(&setup.cut, draw);
     let shaper = setup.shaper.tuned(draw.frequency);
     let robot = setup.robot.clone().touched_off_at(&report.q[0]);
     let drawn = Setup { mean_force: cut.mean_force(), cut, shaper, ..setup };

@@ -15,6 +15,7 @@ use crate::identify::eigen::eigen;
 use crate::identify::measurement::Measurement;
 use crate::identify::{nnls, student};
 use crate::robot::{Robot, jacobian::spring_jacobian};
+use crate::spread::COVERAGE;
 use nalgebra::{Matrix6, Vector6};
 
 /// JSON path of the measurements, for errors.
@@ -61,9 +62,6 @@ impl Verdict {
         }
     }
 }
-
-/// 97.5 % quantile of the standard normal distribution.
-const NORMAL_975: f64 = 1.959_963_984_540_054;
 
 /// The result for one joint.
 #[derive(Debug, Clone, PartialEq)]
@@ -357,7 +355,7 @@ impl Poses {
         }
         let free: [bool; 6] = std::array::from_fn(|i| solution.free[i] && !self.unloaded[i]);
         let inverse = self.inverse(&free)?;
-        let deviation = reach / NORMAL_975;
+        let deviation = reach / COVERAGE;
         let scaled = |i: usize| if free[i] { deviation / self.length[i] } else { 0.0 };
         // Each pair from the same element, so that rows and columns agree to the last bit.
         Some(std::array::from_fn(|i| {

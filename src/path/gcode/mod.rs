@@ -29,8 +29,11 @@
 //!   machine. It is listed, like G codes that only smooth, look ahead or end a mode.
 //!
 //! Everything else is an error whose message says what to do: above all cutter compensation (G41,
-//! G42), scaling, rotation, polar coordinates, tapping, macros, subprograms, expressions, rotary axes
-//! other than 0 and M4. A lone `O` number in the first line names the program and is skipped.
+//! G42), scaling, rotation, polar coordinates, tapping, macro calls (G65), rotary axes other than 0 and
+//! M4. A lone `O` number in the first line names the program and is skipped.
+//!
+//! Variables and expressions (`expression.rs`), subprograms, loops and jumps of LinuxCNC and Fanuc in the
+//! same text (`flow.rs`) and the words of Siemens (`siemens.rs`) are followed.
 
 mod arc;
 mod block;
@@ -176,7 +179,7 @@ fn run_line<'t>(
 /// A line without what no motion hangs on: a command to the sender (`$H`), the text of M117, the
 /// checksum of a line, and what a slash in it leaves to the operator.
 fn without_tail<'t>(line: &'t str, interpreter: &mut Interpreter) -> &'t str {
-    if !line.contains(['$', '*', '/', 'M', 'm']) {
+    if !line.bytes().any(|sign| matches!(sign, b'$' | b'*' | b'/' | b'M' | b'm')) {
         return line;
     }
     let mut end = line.len();

@@ -114,7 +114,7 @@ impl Interpreter<'_> {
 
     /// A move to a position of the machine: G53, G28, G30. Where that lies from the workpiece is not
     /// known, and an arm has no such position. The tool stays where it is, or goes up to the highest
-    /// level so far: what it is meant for is to be out of the way.
+    /// level so far, because such a move takes it out of the way.
     fn leave_out(&mut self, block: &mut Block) -> Result<(), WordFault> {
         let code = block.code(Group::NonModal);
         let axes: Vec<Word> =
@@ -140,7 +140,10 @@ impl Interpreter<'_> {
         let name = code.map_or_else(String::new, |code| code.word.text(block.text).to_ascii_uppercase());
         self.ignore(&name);
         self.remark("machine-zero", || {
-            format!("{name} goes to a position of the machine, which a workpiece does not know: such moves are left out, the tool stays clear where it is")
+            format!(
+                "{name} goes to a position of the machine, which a workpiece does not know: such moves are left out, \
+                 the tool stays clear where it is"
+            )
         });
         // The codes of the line stay in force.
         if up && !self.known.contains(&false) && self.tip.z < self.highest {

@@ -132,8 +132,8 @@ fn assignment(line: &str, start: usize, variables: &mut Variables) -> Result<usi
 }
 
 /// What to do about an O word.
-pub(super) const SUBPROGRAM: &str =
-    "sub-programs and loops (O words) are not followed; have the CAM system post the program without them";
+pub(super) const SUBPROGRAM: &str = "an O number stands alone in its line, and sub-programs follow the end of the \
+     program that calls them (M98, or call)";
 const MACRO: &str = "a variable is set at the start of a word, such as #1=5, or stands for the number of a letter, such as X#1";
 const EXPRESSION: &str =
     "an expression in square brackets follows a letter, such as X[#1+2]; comments stand in round brackets";
