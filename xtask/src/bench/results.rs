@@ -87,17 +87,12 @@ pub(crate) struct Results {
 }
 
 /// The stages in order of execution, as `benches/src/stages.rs` names them.
-const STAGES: [&str; 9] = [
-    "reading the job",
-    "path: sampling",
-    "motion: joint commands",
-    "motion: shaper",
-    "cutting: force",
-    "deviation: contour error",
-    "deviation: whole",
-    "compensation: all passes",
-    "report: summary",
-];
+fn stages() -> impl Iterator<Item = &'static str> {
+    let source = include_str!("../../../benches/src/stages.rs");
+    source
+        .lines()
+        .filter_map(|line| line.strip_prefix("    (\"")?.split_once("\", |s|").map(|(name, _)| name))
+}
 
 const POSES: [&str; 3] = ["forward", "inverse, every solution", "Jacobian"];
 
@@ -138,7 +133,7 @@ impl Results {
             "| {samples} samples | native ms | least | Chromium ms | least | ratio | native ns a sample |"
         )?;
         writeln!(f, "| --- | ---: | ---: | ---: | ---: | ---: | ---: |")?;
-        for stage in STAGES {
+        for stage in stages() {
             let browser = self.chromium(size, &format!("/stages/{stage}"));
             line(f, stage, native(stage), browser, 1e6, samples as f64)?;
         }
