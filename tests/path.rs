@@ -169,6 +169,7 @@ fn a_sharp_corner_is_a_stop_and_a_blunt_one_is_not() {
             acceleration: 0.5,
             sample_time: 1e-3,
             corner_angle: 5.0_f64.to_radians(),
+            rounded: false,
             corner_dwell: 0.2,
             settle: 0.0,
         };
@@ -198,6 +199,7 @@ fn speed_and_acceleration_stay_within_what_was_asked() {
             acceleration: between(&mut random, 0.05, 2.0),
             sample_time: 2e-3,
             corner_angle: between(&mut random, 0.01, PI),
+            rounded: false,
             corner_dwell: between(&mut random, 0.0, 0.1),
             settle: 0.05,
         };
@@ -242,6 +244,7 @@ fn feeds_change_without_a_stop_and_within_the_acceleration() {
         acceleration: 0.4,
         sample_time: 1e-3,
         corner_angle: 0.1,
+        rounded: false,
         corner_dwell: 0.1,
         settle: 0.0,
     };
@@ -302,6 +305,7 @@ fn rapids_do_not_cut_and_waits_are_waited() {
         acceleration: 1.0,
         sample_time: 1e-3,
         corner_angle: 0.1,
+        rounded: false,
         corner_dwell: 0.0,
         settle: 0.0,
     };

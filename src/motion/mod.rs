@@ -1,6 +1,7 @@
 //! Motion in time: speed along the path, trajectory, joint trajectory and input shaper.
 
 pub mod profile;
+pub mod course;
 pub mod trajectory;
 pub mod shaper;
 pub mod joints;

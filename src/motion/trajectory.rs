@@ -1,6 +1,7 @@
 //! The desired motion: arc length and position at each sample (thesis section 5.2, Figs. 5.2, 5.3).
 
-use crate::motion::{Profile, Shaper};
+use crate::math::PI;
+use crate::motion::{Profile, Shaper, course};
 use crate::path::{Axes, Corner, Move, MovePace, Path};
 use nalgebra::Vector3;
 
@@ -17,6 +18,9 @@ pub struct MotionLimits {
     pub sample_time: f64,
     /// A corner sharper than this is a full stop [rad].
     pub corner_angle: f64,
+    /// Whether the path's points may be those of a smooth course, dense or rounded; see
+    /// [`course`]. Points that Armill writes are exact.
+    pub rounded: bool,
     /// Time at rest at such a corner [s].
     pub corner_dwell: f64,
     /// Time at rest after the end, for a shaped command to settle [s].
@@ -118,8 +122,19 @@ pub struct Trajectory {
 impl Trajectory {
     /// The number of samples that [`Trajectory::new`] would give.
     pub fn count(path: &Path, limits: &MotionLimits) -> f64 {
-        let moving: f64 = stretches(path, limits).iter().map(Stretch::duration).sum();
-        (moving + limits.settle) / limits.sample_time + 2.0
+        (Self::moving_time(path, limits) + limits.settle) / limits.sample_time + 2.0
+    }
+
+    /// Time from the start to the end of the path [s].
+    fn moving_time(path: &Path, limits: &MotionLimits) -> f64 {
+        stretches(path, limits).iter().map(Stretch::duration).sum()
+    }
+
+    /// Time that the corners with a full stop take [s]: braking, rest and starting again, compared
+    /// with passing them.
+    pub fn time_of_stops(path: &Path, limits: &MotionLimits) -> f64 {
+        let passing = MotionLimits { corner_angle: PI, ..*limits };
+        Self::moving_time(path, limits) - Self::moving_time(path, &passing)
     }
 
     /// Travels the path with trapezoidal profiles, from rest to rest between full stops: sharp
@@ -238,12 +253,14 @@ fn stretches(path: &Path, limits: &MotionLimits) -> Vec<Stretch> {
     let mut waits = path.waits().iter().peekable();
     // Waits before the first move are not part of the motion.
     while waits.next_if(|wait| wait.s <= 0.0).is_some() {}
+    let corners = if limits.rounded { course::corners } else { course::of_moves };
+    let mut corners = corners(path, limits.corner_angle).into_iter().peekable();
     for (index, corner) in path.corners().enumerate() {
         let mut dwell = 0.0;
         while let Some(wait) = waits.next_if(|wait| wait.s <= corner.s) {
             dwell += wait.time;
         }
-        let sharp = corner.angle > limits.corner_angle;
+        let sharp = corners.next_if(|(sharp, _)| *sharp == index).is_some();
         if sharp || dwell > 0.0 {
             let time = if sharp { dwell.max(limits.corner_dwell) } else { dwell };
             let profiles = profiles(path, limits, first..index + 1);

@@ -7,7 +7,7 @@ use crate::model::MODEL;
 use crate::path::gcode::GcodeDialect;
 use crate::path::{MovePace, Path, SourceProgram};
 use crate::report::expected::{ExpectedError, HowSure};
-use crate::report::{Budget, CutFigures, Report, RollGain, VerdictState, WallFigures, Warning};
+use crate::report::{Budget, CutFigures, Report, RollGain, Stops, VerdictState, WallFigures, Warning};
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -78,6 +78,8 @@ pub struct Summary {
     pub duration_s: f64,
     /// Length of the desired path [mm].
     pub path_length_mm: f64,
+    /// Full stops along the path.
+    pub stops: Stops,
     /// Mean milling force in {T} at the programmed feed [N], z from tip to spindle; of a program,
     /// at that of its move with the largest feed per tooth.
     pub mean_force_n: [f64; 3],
@@ -250,6 +252,7 @@ impl Report {
             samples: self.samples(),
             duration_s: self.duration(),
             path_length_mm: self.plan.path.length() / MM,
+            stops: Stops::of(self),
             mean_force_n: self.mean_force().into(),
             material: material.map_or("Own numbers", |material| material.name).to_owned(),
             material_note: material.map_or(String::new(), Material::note),

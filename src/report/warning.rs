@@ -7,7 +7,7 @@ use crate::math;
 use crate::path::{Move, MovePace, Tool};
 use crate::plan::Plan;
 use crate::report::span::{MOST_SPANS, Span, joined, spans};
-use crate::report::{Remedy, Report, Severity, drives, limit, millimetres, onset, payload, reference};
+use crate::report::{Remedy, Report, Severity, Stops, drives, limit, millimetres, onset, payload, reference};
 use crate::robot::equilibrium::equilibrium;
 use crate::setup::Setup;
 use crate::units::{DEG, HZ, KILOWATT, MM};
@@ -124,6 +124,7 @@ pub(crate) fn warnings(report: &Report) -> Vec<Warning> {
     warnings.extend(payload::warning(report));
     warnings.extend(sampling(setup));
     corners(setup, plan, &report.shaping_only, &mut warnings);
+    warnings.extend(Stops::warning(report));
     program(setup, &mut warnings);
     if let Some(error) = &compensation.stopped {
         let message =

@@ -19,6 +19,7 @@ pub(super) fn limits(motion: &job::Motion, shaper: &Shaper) -> MotionLimits {
         acceleration: motion.acceleration_mm_s2 * MM,
         sample_time: motion.sample_time_s,
         corner_angle: motion.corner_angle_deg * DEG,
+        rounded: true,
         corner_dwell: match motion.corner_dwell {
             Choice::Value(dwell, _) => dwell,
             Choice::Word if shaper.duration() > 0.0 => shaper.duration() + 2.0 * motion.sample_time_s,

@@ -12,7 +12,8 @@ use crate::error::Error;
 use crate::export::commanded_path::CommandedPath;
 use crate::export::{Export, ExportOptions};
 use crate::motion::joints::{Targets, joint_trajectory_from};
-use crate::motion::{Shaper, TimingLaw, Trajectory, trajectory};
+use crate::motion::trajectory::{self, MotionLimits};
+use crate::motion::{Shaper, TimingLaw, Trajectory};
 use crate::path::unit::{FeedUnit, LengthUnit};
 use crate::path::{self, Axes, Path, Program, Segment};
 use crate::plan::Plan;
@@ -113,7 +114,7 @@ pub fn run_under(
     // A program of points does not define the roll: the report's own is used, at the same fraction
     // of the path.
     let commanded = commanded.rolled_as(&report.plan.path);
-    let own = Trajectory::new(&commanded, &report.setup().limits);
+    let own = Trajectory::new(&commanded, &MotionLimits { rounded: false, ..report.setup().limits });
     let targets = Targets::desired(&commanded, &own);
     let start = &report.q[0];
     let q = joint_trajectory_from(&report.plan.robot, &targets, start, &mut Progress::none())?.q;

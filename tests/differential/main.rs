@@ -67,6 +67,9 @@ fn judge(number: u64, robots: &[Preset]) -> Verdict {
         (Ok(report), Ok(answer)) => match differences(&report, &question, &answer) {
             Ok(all) => Verdict::Compared(all, question.cut.corner > 0.0),
             Err(_) if answer.close_call(&question) => Verdict::Agreed("two passes are as good as each other"),
+            Err(_) if question.way.doubtful(&question.tempo) => {
+                Verdict::Agreed("a corner at a move of less than 1.25 mm, see tests/stops.rs")
+            }
             Err(why) => Verdict::Disagreed(why),
         },
         (

@@ -260,6 +260,16 @@ impl Way {
         *clock += duration;
     }
 
+    /// Whether a sharp corner ends a move so short that Armill looks at more of the course.
+    pub(crate) fn doubtful(&self, tempo: &Tempo) -> bool {
+        self.pieces.windows(2).any(|pair| {
+            let [before, after] = [pair[0].curve, pair[1].curve];
+            let (arriving, leaving) = (before.tangent(before.length()), after.tangent(0.0));
+            let turn = arriving.cross(&leaving).norm().atan2(arriving.dot(&leaving));
+            turn > tempo.corner_angle && before.length().min(after.length()) < 1.25e-3
+        })
+    }
+
     /// The motion at uniform times, the exact end, and rest until the shaper has settled; the
     /// number of samples until the end.
     pub(crate) fn travel(&self, tempo: &Tempo) -> (Vec<Instant>, usize) {

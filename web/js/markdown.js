@@ -27,8 +27,8 @@ export function markdown({ summary, job, standard, link }) {
     ...rows.map(([name, { mean, max }]) => `| ${name} | ${formatError(mean)} | ${formatError(max)} |`),
     "",
     `Mean force ${formatNumber(Math.hypot(...summary.mean_force_n))} N, path length ` +
-      `${formatNumber(summary.path_length_mm, 4)} mm, duration ${formatNumber(summary.duration_s)} s, warnings: ` +
-      `${summary.warnings.length}.`,
+      `${formatNumber(summary.path_length_mm, 4)} mm, duration ${formatNumber(summary.duration_s)} s, stops: ` +
+      `${summary.stops.count}, warnings: ${summary.warnings.length}.`,
     "",
     changed.length ? "Inputs that differ from the default job:" : "Inputs: the default job.",
     ...changed.map(

@@ -33,7 +33,7 @@ export function showSummary(summary, apply) {
   put("force", Math.hypot(...summary.mean_force_n), forceText);
   put("duration", summary.duration_s);
   byId("force-parts").textContent = summary.mean_force_n.map((part, i) => `${"xyz"[i]} ${forceText(part)}`).join(", ");
-  byId("length").textContent = `path length ${lengthText(summary.path_length_mm, 4)} ${lengthUnit()}`;
+  byId("length").textContent = `path length ${lengthText(summary.path_length_mm, 4)} ${lengthUnit()}${stopsText(summary)}`;
   showTolerance(summary);
   showErrors(before, after);
   showBudget(summary.budget);
@@ -47,6 +47,9 @@ export function showSummary(summary, apply) {
   byId("fingerprint").textContent = summary.fingerprint;
   showWarnings(summary.warnings, apply);
 }
+
+/** How often the path stops, if it does. */
+const stopsText = ({ stops: { count } }) => (count ? `, ${count} ${count === 1 ? "stop" : "stops"}` : "");
 
 /** The tolerance as it was typed; in another unit, to three digits. */
 const toleranceText = ({ tolerance_mm }) =>
