@@ -245,9 +245,9 @@ fn the_parts_frame_is_counted_as_the_controller_counts() {
     let beside = at([1500.0, 0.0, 0.0], [0.0; 3]);
     let report = line_of(fanuc, zero.clone(), beside.clone());
     for (id, frame) in [
-        ("krl", "$BASE={FRAME: X 1500.0,Y 0.0,Z -670.0,A 0.0,B 0.0,C 0.0}"),
+        ("krl", "BASE_DATA[1]={X 1500.0,Y 0.0,Z -670.0,A 0.0,B 0.0,C 0.0}"),
         ("rapid", "[1500.0,0.0,-670.0]"),
-        ("val3", "fPart.trsf={1500.0,0.0,-670.0,0.0,0.0,0.0}"),
+        ("val3", "from axis 2, 670 mm above the foot"),
         ("gcode", "from axis 2, 670 mm above the foot"),
         ("apt", "from axis 2, 670 mm above the foot"),
         ("path-csv", "from axis 2, 670 mm above the foot"),
@@ -256,12 +256,15 @@ fn the_parts_frame_is_counted_as_the_controller_counts() {
         assert!(text.contains(frame), "{id}: {text}");
     }
     let staubli = line_of(json!({"preset":"staubli-tx2-90"}), zero.clone(), at([500.0, 0.0, 0.0], [0.0; 3]));
-    let text = written(&staubli, "val3").text;
-    assert!(text.contains("fPart.trsf={500.0,0.0,-478.0,0.0,0.0,0.0}"), "{text}");
+    let package = armill::verification::Programs::default().package(&staubli, None).unwrap();
+    let data = &package.files.iter().find(|file| file.path.ends_with(".dtx")).unwrap().text;
+    let part = "type=\"frame\" size=\"1\">\n      \
+                <Value key=\"0\" x=\"500.0\" y=\"0.0\" z=\"-478.0\" rx=\"0.0\" ry=\"0.0\" rz=\"0.0\" fatherId=\"world[0]\"";
+    assert!(data.contains(part), "{data}");
 
     let kuka = line_of(json!({"preset":"kuka-kr-210-2"}), zero.clone(), beside.clone());
     let text = written(&kuka, "krl").text;
-    assert!(text.contains("$BASE={FRAME: X 1500.0,Y 0.0,Z 0.0,"), "{text}");
+    assert!(text.contains("BASE_DATA[1]={X 1500.0,Y 0.0,Z 0.0,"), "{text}");
     assert!(text.contains("The controller counts from the foot of the arm\n"), "{text}");
     let mut own = json!({"joint_compliance_rad_per_nm":[0,0,0,0,0,0]});
     let links = armill::job::presets::presets().robots.into_iter().find(|robot| robot.id == "kuka-kr-210-2");
@@ -288,7 +291,7 @@ fn every_program_says_where_it_comes_from_and_what_it_does_not_promise() {
             "model 2, run",
             &fingerprint,
             "Tolerance asked 0.01 mm, largest contour error reached",
-            "controller's own blending or absolute-accuracy option adds its own error",
+            "absolute-accuracy option adds its own error",
             "commands before the input shaper, 18 rad/s, damping 0.1",
         ] {
             assert!(text.contains(piece), "{}: {piece}\n{text}", format.id);
@@ -301,10 +304,18 @@ fn every_program_says_where_it_comes_from_and_what_it_does_not_promise() {
                 "{}",
                 format.id
             );
-            assert!(export.deviation > 0.0 && export.deviation <= 1e-6, "{}", format.id);
+            let robot = ["krl", "rapid", "val3", "fanuc"].contains(&format.id);
+            // A robot's points are 0.1 mm apart at least, also where the correction sets in.
+            let allowed = if robot { 1e-5 } else { 1e-6 };
+            assert!(
+                export.deviation > 0.0 && export.deviation <= allowed,
+                "{}: {}",
+                format.id,
+                export.deviation
+            );
             assert!(
                 // An arc of 200 deg: few arcs replace many chords.
-                export.points > if format.id == "gcode" { 20 } else { 50 }
+                export.points > if robot || format.id == "gcode" { 20 } else { 50 }
                     && export.points < report.samples() / 4,
                 "{}: {}",
                 format.id,

@@ -24,13 +24,13 @@ fn a_wait_in_a_corner_is_written() {
         ("krl", "WAIT SEC "),
         ("rapid", "WaitTime \\InPos,"),
         ("val3", "delay("),
-        ("fanuc", "WAIT   "),
+        ("fanuc", "WAIT "),
     ] {
         let text = written(&report, id).text;
         let waits: Vec<f64> = text
             .lines()
             .filter_map(|line| line.split_once(word))
-            .map(|(_, rest)| rest.split([' ', '(', ')', ';']).next().unwrap().parse().unwrap())
+            .map(|(_, rest)| rest.trim_start().split([' ', '(', ')', ';']).next().unwrap().parse().unwrap())
             .collect();
         assert_eq!(waits.len(), 3, "{id}: a rectangle has three corners between its ends");
         assert!(waits.iter().all(|w| (w - wait).abs() < 0.006), "{id}: {waits:?} for {wait}");

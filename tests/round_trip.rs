@@ -62,8 +62,12 @@ fn is_the_compensated_path(name: &str, report: &Report, id: &str, thinning: f64)
     let (export, program) = read_back(report, id, &ExportOptions { thinning: Some(thinning) });
     let name = format!("{name} as {id}, thinned to {thinning}");
     assert!(export.deviation <= thinning, "{name}: {}", export.deviation);
-    let style =
-        PostStyle { arcs: id == "gcode", inch: program.unit == "inch", points_only: id == "path-csv" };
+    let style = PostStyle {
+        arcs: id == "gcode",
+        inch: program.unit == "inch",
+        points_only: id == "path-csv",
+        ..PostStyle::default()
+    };
     let command = Command::new(report, &export.commanded_path, Some(thinning), style).unwrap();
     assert_eq!(program.moves.len() + 1, command.points(), "{name}");
     let mut moves = program.moves.as_slice();

@@ -9,8 +9,10 @@
 
 use crate::error::Error;
 use crate::export::arc::{self, Step, rounded};
+use crate::export::chain;
 use crate::export::commanded_path::CommandedPath;
 use crate::export::fillet;
+use crate::export::sampled::{MoveSamples, sampled_moves};
 use crate::export::style::PostStyle;
 use crate::export::thin::{self, Point};
 use crate::math::{self, Pose};
@@ -24,8 +26,6 @@ use nalgebra::Vector3;
 pub const FINEST: f64 = 1e-7;
 /// Coarsest thinning tolerance [m].
 pub const COARSEST: f64 = 1e-2;
-/// A commanded move's feed is at most this many times the desired one's.
-const STRETCH: f64 = 2.0;
 /// A smooth move is written in straight moves that turn by at most this share of the angle at which
 /// the tool would stop.
 const SMOOTH: f64 = 0.8;
@@ -45,14 +45,28 @@ pub struct Command {
     pub samples: usize,
     /// How it is to be written.
     pub style: PostStyle,
-    /// Largest contour error when it runs with its own timing [m], once it has been
+    /// Where its moves are blended: the distance before the end of a move [m], or the share of the
+    /// speed, by [`PostStyle::junctions`]; 0 is an exact stop.
+    pub blend: f64,
+    /// How it runs with its own timing, once it has been
     /// [rehearsed](crate::verification::rehearsal).
-    pub reached: Option<f64>,
+    pub run: Option<ProgramRun>,
     /// The desired path in the workpiece frame.
-    path: Path,
+    pub(crate) path: Path,
 }
 
-/// One move of the path, as commanded.
+/// How a program runs with its own timing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProgramRun {
+    /// Largest contour error [m].
+    pub reached: f64,
+    /// Time from the start to the end of the path [s].
+    pub duration: f64,
+    /// Number of full stops in between.
+    pub stops: usize,
+}
+
+/// One move of the path, as commanded, or several that are written as one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CommandedMove {
     /// Line of the original program, from 1; 0 if there is none.
@@ -70,6 +84,8 @@ pub struct CommandedMove {
     pub stops: bool,
     /// The steps written for it, in order; none if it is too short to be written.
     pub steps: Vec<Step>,
+    /// Part of a robot's program that it belongs to, from 0.
+    pub part: usize,
 }
 
 impl Command {
@@ -89,24 +105,34 @@ impl Command {
         let back = report.setup().workpiece.inverse();
         let path = report.plan.path.placed(&back);
         let turn = SMOOTH * report.setup().limits.corner_angle;
+        let rests = |s: f64| report.plan.trajectory.stops.iter().any(|corner| corner.s == s);
         let mut start = None;
         let mut end: Option<Point> = None;
         let mut deviation = 0.0_f64;
         let mut moves = Vec::with_capacity(path.moves().len());
-        for (step, mut sampled) in
-            path.moves().iter().zip(sampled_moves(report, commanded_path, &path, &back))
-        {
+        let mut sampled = sampled_moves(report, commanded_path, &path, &back).into_iter();
+        for chain in if style.is_robot() { chain::all(&path, rests) } else { chain::single(&path) } {
+            let step = path.moves()[chain.start];
+            let Some(mut sampled) = sampled.by_ref().take(chain.len()).reduce(MoveSamples::followed_by)
+            else {
+                break;
+            };
             // A move starts where the previous one ends as written.
             let first = end.unwrap_or_else(|| rounded(&sampled.points[0], style.resolution()));
             sampled.points[0] = first;
             start.get_or_insert(first);
-            let (steps, strayed) = steps(&sampled, &step.segment, (thinning, turn), style);
+            let (steps, strayed) = if style.is_robot() {
+                let normal = path.moves()[chain.clone()].iter().find_map(|step| turning_about(&step.segment));
+                chain::steps(&sampled.points, normal, (thinning, report.setup().output.least_step), style)
+            } else {
+                steps(&sampled, &step.segment, (thinning, turn), style)
+            };
             end = Some(steps.last().map_or(first, |last| last.to));
             deviation = deviation.max(strayed);
             let feed = match step.pace {
                 MovePace::Rapid => report.setup().limits.rapid,
-                MovePace::Feed(feed) => feed * sampled.stretch,
-                MovePace::JobFeed => report.setup().limits.feed * sampled.stretch,
+                MovePace::Feed(feed) => feed * sampled.stretch(),
+                MovePace::JobFeed => report.setup().limits.feed * sampled.stretch(),
             };
             moves.push(CommandedMove {
                 line: step.line,
@@ -116,16 +142,16 @@ impl Command {
                     .spindle
                     .unwrap_or(report.setup().teeth_per_second / f64::from(report.setup().cut.flutes)),
                 wait: sampled.wait,
-                stops: true,
+                stops: chain.end == path.moves().len() || rests(path.start(chain.end)),
                 steps,
+                part: 0,
             });
         }
-        let ends = path.moves().len();
-        for (index, commanded) in moves.iter_mut().enumerate().take(ends - 1) {
-            let end = path.start(index + 1);
-            commanded.stops = report.plan.trajectory.stops.iter().any(|corner| corner.s == end);
+        if style.is_robot() {
+            moves = chain::in_files(moves, report.setup().output.lines);
         }
-        if deviation > thinning {
+        // Points that are merged may stray further; that is measured and said.
+        if deviation > thinning && !style.is_robot() {
             return Err(Error::invalid(
                 "thinning_mm",
                 millimetres(thinning),
@@ -134,7 +160,17 @@ impl Command {
         }
         let on_path = |s: f64| Point { position: path.point(s), axis: path.axis(s), spin: path.roll(s), s };
         let start = start.unwrap_or_else(|| on_path(0.0));
-        Ok(Self { start, moves, thinning, deviation, samples: report.samples(), style, reached: None, path })
+        Ok(Self {
+            start,
+            moves,
+            thinning,
+            deviation,
+            samples: report.samples(),
+            style,
+            blend: 0.0,
+            run: None,
+            path,
+        })
     }
 
     /// The program as a reader would read it.
@@ -213,85 +249,6 @@ fn checked(stated: Option<f64>, report: &Report) -> Result<f64, Error> {
         });
     }
     Ok(thinning)
-}
-
-/// The commanded samples of one move, from its start to its end, and the rest before it [s].
-struct MoveSamples {
-    points: Vec<Point>,
-    wait: f64,
-    /// Number of points at rest in a corner.
-    resting: usize,
-    /// Length of the commanded move divided by that of the desired one.
-    stretch: f64,
-}
-
-fn sampled_moves(
-    report: &Report,
-    commanded_path: &CommandedPath,
-    path: &Path,
-    back: &Pose,
-) -> Vec<MoveSamples> {
-    let trajectory = &report.plan.trajectory;
-    let arc_length = &trajectory.timing.arc_length;
-    let correction = &commanded_path.correction;
-    let sample = |k: usize| Point {
-        position: back.point(&(trajectory.position[k] + correction[k])),
-        axis: back.direction(commanded_path.axis.at(k)),
-        spin: path.roll(arc_length[k]),
-        s: arc_length[k],
-    };
-    let last = arc_length.len() - 1;
-    let mut k = 0;
-    let mut previous_end = None;
-    let mut sampled_moves = Vec::with_capacity(path.moves().len());
-    for index in 0..path.moves().len() {
-        let (start, end) = (path.start(index), path.start(index + 1));
-        let is_last = index + 1 == path.moves().len();
-        let mut points: Vec<Point> = previous_end.into_iter().collect();
-        let mut desired: Vec<_> = previous_end.iter().map(|_| path.point(start)).collect();
-        let mut resting = 0;
-        while k <= last && (is_last || arc_length[k] < end) {
-            if index > 0 && arc_length[k] == start && trajectory.timing.speed[k] == 0.0 {
-                resting += 1;
-            }
-            points.push(sample(k));
-            desired.push(back.point(&trajectory.position[k]));
-            k += 1;
-        }
-        if !is_last && k > 0 && k <= last {
-            // Samples seldom fall on the end of a move: the correction there is interpolated
-            // between its neighbours.
-            let (before, after) = (arc_length[k - 1], arc_length[k]);
-            let t = ((end - before) / (after - before)).clamp(0.0, 1.0);
-            let turned = sample(k - 1).axis * (1.0 - t) + sample(k).axis * t;
-            points.push(Point {
-                position: path.point(end)
-                    + back.direction(&(correction[k - 1] * (1.0 - t) + correction[k] * t)),
-                axis: turned.normalize(),
-                spin: path.roll(end),
-                s: end,
-            });
-            desired.push(path.point(end));
-        }
-        previous_end = points.last().copied();
-        // A single sample that happens to fall on a corner is not a wait.
-        let wait = if resting > 1 { resting as f64 * trajectory.sample_time } else { 0.0 };
-        let travelled = resting.min(points.len() - 1);
-        let commanded = length(points[travelled..].iter().map(|point| point.position));
-        // Measured over the same samples, so that a move without a correction keeps its feed to the
-        // last digit.
-        let desired = length(desired[travelled..].iter().copied()).max(f64::MIN_POSITIVE);
-        // On a move shorter than the change of its correction, the ratio says nothing about speed.
-        let stretch = (commanded / desired).clamp(1.0 / STRETCH, STRETCH);
-        sampled_moves.push(MoveSamples { points, wait, resting: travelled, stretch });
-    }
-    sampled_moves
-}
-
-/// Length of the straight moves between points [m].
-fn length(mut points: impl Iterator<Item = Vector3<f64>>) -> f64 {
-    let Some(mut last) = points.next() else { return 0.0 };
-    points.map(|point| (point - std::mem::replace(&mut last, point)).norm()).sum()
 }
 
 /// A move's samples as few moves that avoid turns of more than `turn` [rad], and the largest

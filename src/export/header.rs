@@ -1,7 +1,8 @@
 //! The header of every program: its origin, its simulated accuracy, and its limits.
 
-use crate::export::command::Command;
+use crate::export::command::{Command, ProgramRun};
 use crate::export::orientation::roll_pitch_yaw;
+use crate::export::style::Junctions;
 use crate::job::CompensateAt;
 use crate::math::Pose;
 use crate::model;
@@ -45,12 +46,15 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
             "These are commands before the input shaper, {frequency} rad/s, damping {damping}: it must act on them"
         ));
     }
-    if let Some(reached) = command.and_then(|command| command.reached) {
-        lines.extend(rehearsed(report, reached));
+    if let Some((command, run)) = command.and_then(|command| Some((command, command.run?))) {
+        lines.extend(rehearsed(report, command, &run));
     }
-    lines.push(
-        "Warning: a controller's own blending or absolute-accuracy option adds its own error to these figures".into(),
-    );
+    lines.push(match command {
+        Some(command) if command.style.is_robot() => {
+            "Warning: a controller's absolute-accuracy option adds its own error to these figures".into()
+        }
+        _ => "Warning: a controller's own blending or absolute-accuracy option adds its own error to these figures".into(),
+    });
     lines
 }
 
@@ -74,8 +78,10 @@ fn points(report: &Report, command: &Command) -> Vec<String> {
     lines
 }
 
-/// The largest contour error `reached` [m] by the file itself, compared with the tolerance.
-fn rehearsed(report: &Report, reached: f64) -> Vec<String> {
+/// How the file itself runs: its largest contour error compared with the tolerance, its time, its
+/// stops and its blending.
+fn rehearsed(report: &Report, command: &Command, run: &ProgramRun) -> Vec<String> {
+    let ProgramRun { reached, duration, stops } = *run;
     let tolerance = report.setup().goal.tolerance;
     let met = match report.verdict_state_at(reached) {
         VerdictState::CannotRun => "the arm cannot run it",
@@ -89,12 +95,34 @@ fn rehearsed(report: &Report, reached: f64) -> Vec<String> {
         millimetres(reached),
         millimetres(report.p95_at(reached))
     )];
+    if command.style.is_robot() {
+        lines.push(format!(
+            "It takes {} s with {stops} stops on the way; {}",
+            number(duration, 1),
+            blending(command)
+        ));
+    }
     if reached > tolerance && report.after_max() <= tolerance {
         lines.push(
             "The joint commands at the sample time keep the run's timing and reach the figure above".into(),
         );
     }
     lines
+}
+
+/// How moves are blended, in words.
+fn blending(command: &Command) -> String {
+    match command.style.junctions {
+        _ if command.blend == 0.0 => "every point is an exact stop".into(),
+        Junctions::Share => format!(
+            "blended by CNT{:.0}, which cuts corners by its speed: simulated as overlapping ramps, which is good to a factor of 2",
+            command.blend * 100.0
+        ),
+        _ => format!(
+            "blended from {} mm before each point, half a move at most, which is simulated as a parabola",
+            number(command.blend / MM, 3)
+        ),
+    }
 }
 
 /// A frame in words: mm, and roll, pitch, yaw about the fixed axes in degrees.

@@ -7,10 +7,14 @@ pub mod arc;
 pub mod orientation;
 pub mod style;
 pub mod commanded_path;
+mod sampled;
+pub mod chain;
 pub mod command;
 pub mod header;
+pub mod posture;
 pub mod csv;
 pub mod post;
+pub mod archive;
 pub mod format;
 
 pub use format::{FORMATS, Format};

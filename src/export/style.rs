@@ -4,6 +4,18 @@ use crate::export::Format;
 use crate::report::Report;
 use crate::units::{INCH, MM};
 
+/// What happens between two moves of a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Junctions {
+    /// A stop at a sharp corner; else the moves follow each other as written.
+    #[default]
+    AsWritten,
+    /// The path leaves one for the next at a distance.
+    Distance,
+    /// The speed of one falls while that of the next rises, by a share.
+    Share,
+}
+
 /// How a language writes a path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PostStyle {
@@ -13,11 +25,13 @@ pub struct PostStyle {
     pub inch: bool,
     /// Whether it holds only points and feeds: no waits, no rapids.
     pub points_only: bool,
+    /// What happens between two moves.
+    pub junctions: Junctions,
 }
 
 impl PostStyle {
     /// Number of values of [`PostStyle::index`].
-    pub const COUNT: usize = 8;
+    pub const COUNT: usize = 24;
 
     /// How a format writes the path of a report; `None` for a table of samples.
     pub fn of(format: &Format, report: &Report) -> Option<Self> {
@@ -25,16 +39,30 @@ impl PostStyle {
         match format.id {
             "columns-csv" | "compensated-csv" | "joints-csv" => None,
             id => Some(Self {
-                arcs: id == "gcode",
+                arcs: ["gcode", "krl", "rapid", "val3", "fanuc"].contains(&id),
                 inch: inches && ["gcode", "apt"].contains(&id),
                 points_only: id == "path-csv",
+                junctions: match id {
+                    "krl" | "rapid" | "val3" => Junctions::Distance,
+                    "fanuc" => Junctions::Share,
+                    _ => Junctions::AsWritten,
+                },
             }),
         }
     }
 
+    /// Whether a robot's controller runs it: consecutive moves may be written as one, and nearby
+    /// points are merged.
+    pub fn is_robot(self) -> bool {
+        self.junctions != Junctions::AsWritten
+    }
+
     /// Its number among all styles.
     pub fn index(self) -> usize {
-        usize::from(self.arcs) + 2 * usize::from(self.inch) + 4 * usize::from(self.points_only)
+        usize::from(self.arcs)
+            + 2 * usize::from(self.inch)
+            + 4 * usize::from(self.points_only)
+            + 8 * self.junctions as usize
     }
 
     /// Positions are written in steps of this size [m].

@@ -84,6 +84,25 @@ pub fn thin(points: &[Point], tolerance: f64) -> Vec<usize> {
     kept
 }
 
+/// Those of `kept` that are at least `least` [m] from the one before and from the last; the first and
+/// the last are among them, unless they are nearer to each other than that: then the first alone.
+pub fn spaced(points: &[Point], kept: &[usize], least: f64) -> Vec<usize> {
+    let (Some(&first), Some(&last)) = (kept.first(), kept.last()) else { return Vec::new() };
+    let apart = |a: usize, b: usize| (points[a].position - points[b].position).norm() >= least;
+    let mut spaced = vec![first];
+    let mut from = first;
+    for &index in &kept[1..kept.len() - 1] {
+        if apart(from, index) && apart(index, last) {
+            spaced.push(index);
+            from = index;
+        }
+    }
+    if spaced.len() > 1 || apart(first, last) {
+        spaced.push(last);
+    }
+    spaced
+}
+
 /// As [`thin`], with enough extra points that no straight move turns from the previous one by more
 /// than `limit` [rad] where the points themselves do not: a controller would stop there. Turns
 /// among the first `resting` points are allowed.

@@ -45,7 +45,7 @@ impl Keyword for Mean {
     const WORD: &'static str = "mean";
 }
 
-/// `"unknown"`: not checked.
+/// `"unknown"`: not known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Unknown;
 impl Keyword for Unknown {
@@ -59,6 +59,13 @@ impl Keyword for Library {
     const WORD: &'static str = "library";
 }
 
+/// `"tolerance"`: as large as the tolerance allows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ByTolerance;
+impl Keyword for ByTolerance {
+    const WORD: &'static str = "tolerance";
+}
+
 /// Time at rest in a corner [s], or `"settle"`.
 pub type CornerDwell = Choice<Settle>;
 /// Feed per tooth [mm], or `"from_feed"`.
@@ -68,6 +75,10 @@ pub type FeedPerTooth = Choice<FromFeed>;
 pub type CornerRadius = Choice<Ball>;
 /// Spindle power [kW], or `"unknown"`.
 pub type SpindlePower = Choice<Unknown>;
+/// Mass of a load [kg], or `"unknown"`.
+pub type LoadMass = Choice<Unknown>;
+/// Blending distance [mm], or `"tolerance"`.
+pub type BlendingDistance = Choice<ByTolerance>;
 /// 95 % range to each side [%], or `"library"`.
 pub type SpreadPercent = Choice<Library>;
 /// Chip thickness [mm], or `"mean"`.

@@ -5,6 +5,7 @@ use crate::job::choice::{Choice, CornerDwell, choice};
 use crate::job::cutting::{Cutting, Material, Tool};
 use crate::job::json::{Node, Read, keys};
 use crate::job::path::{Path, PathKind};
+use crate::job::program::RobotProgram;
 use crate::job::source::Source;
 use crate::job::spin::Spin;
 use crate::job::uncertainty::Uncertainty;
@@ -48,6 +49,8 @@ pub struct Job {
     pub compensation: Compensation,
     /// How well the inputs are known.
     pub uncertainty: Uncertainty,
+    /// What leaves.
+    pub program: RobotProgram,
 }
 
 impl Default for Job {
@@ -79,6 +82,7 @@ impl Default for Job {
             }),
             compensation: Compensation::default(),
             uncertainty: Uncertainty::default(),
+            program: RobotProgram::default(),
         }
     }
 }
@@ -388,7 +392,8 @@ keys!(Job {
     cutting,
     shaper,
     compensation,
-    uncertainty
+    uncertainty,
+    program
 });
 keys!(new Robot {
     preset, name, modified_dh, opw, joint_3, joint_limits_deg, joint_compliance_rad_per_nm,

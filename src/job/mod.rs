@@ -11,13 +11,15 @@ mod spin;
 mod input;
 mod cutting;
 mod path;
+mod program;
 mod uncertainty;
 mod read;
 pub mod presets;
 pub mod fields;
 
 pub use choice::{
-    ChipThickness, Choice, CornerDwell, CornerRadius, FeedPerTooth, SpindlePower, SpreadPercent,
+    BlendingDistance, ChipThickness, Choice, CornerDwell, CornerRadius, FeedPerTooth, LoadMass, SpindlePower,
+    SpreadPercent,
 };
 pub use cutting::{Cutting, Engaged, HelixHand, Line, Material, Tool, ToolBending};
 pub use input::{
@@ -25,6 +27,7 @@ pub use input::{
     Shaper, ShaperKind, ShaperSpec, Shoulder, Wrist,
 };
 pub use path::{FeedUnit, Path, PathKind, ProgramDialect, Unit};
+pub use program::{ControllerWord, FrameValues, RobotProgram};
 pub use source::{Source, Sources};
 pub use spin::{Spin, SpinGoal, SpinMode, SpinReference};
 pub use uncertainty::Uncertainty;

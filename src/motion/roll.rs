@@ -284,7 +284,6 @@ mod tests {
     use crate::path::Segment;
     use crate::robot::library;
     use nalgebra::Vector3;
-
     /// A line under an RX-90 with its tool at an angle, so that the roll moves all joints.
     fn case() -> (Robot, Path, MotionLimits) {
         let preset = library::robot("staubli-rx90").unwrap();
@@ -296,6 +295,7 @@ mod tests {
             rapid: 0.2,
             acceleration: 0.2,
             sample_time: 0.01,
+            rounded: false,
             corner_angle: 0.1,
             corner_dwell: 0.0,
             settle: 0.0,

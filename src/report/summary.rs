@@ -139,6 +139,8 @@ pub struct Summary {
     pub robot: String,
     /// Source of the joint compliances, and how far to trust them.
     pub stiffness: String,
+    /// Controller that its program is for.
+    pub controller: &'static str,
     /// How the inverse kinematics is solved: `closed form` or `numerically`.
     pub inverse: &'static str,
     /// The arm's branch at the start, in words.
@@ -281,6 +283,7 @@ impl Report {
             program: self.setup().program.as_ref().map(|source| ProgramSummary::of(source, &self.plan.path)),
             spin: self.roll.clone(),
             robot: self.plan.robot.name().to_owned(),
+            controller: self.setup().output.controller.id(),
             inverse: if self.plan.robot.closed_form().is_ok() { "closed form" } else { "numerically" },
             stiffness: self.setup().stiffness_note.clone(),
             branch,

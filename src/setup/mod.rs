@@ -6,8 +6,10 @@ mod cutting;
 mod statics;
 mod motion;
 mod uncertainty;
+pub mod program;
 
 pub use cutting::ResolvedMaterial;
+pub use program::{Controller, ProgramOptions};
 pub use robot::robot;
 
 use crate::cutting::{Bending, Cut, LinearForce, Loading};
@@ -91,6 +93,8 @@ pub struct Setup {
     pub spreads: Spreads,
     /// What of the tool is brought onto its desired place.
     pub compensate_at: CompensateAt,
+    /// What leaves.
+    pub output: ProgramOptions,
 }
 
 /// Stopping criterion of the compensation.
@@ -118,8 +122,16 @@ impl Setup {
             return Err(Error::invalid("model", model, format!("1 to {MODEL}, the model of this Armill")));
         }
         fields::check_ranges(job)?;
-        let robot::BareArm { robot, world, joint_speeds, payload, stiffness_note, stiffness_assumed, spread } =
-            robot::arm(&job.robot)?;
+        let robot::BareArm {
+            robot,
+            world,
+            joint_speeds,
+            maker,
+            payload,
+            stiffness_note,
+            stiffness_assumed,
+            spread,
+        } = robot::arm(&job.robot)?;
         let robot = robot.with_tool(frame(&job.tool_frame));
         let base = frame(&job.base_frame);
         let statics = statics::of(&job.robot, robot.compliance(), &base)?;
@@ -175,6 +187,7 @@ impl Setup {
             sources,
             spreads,
             compensate_at: job.compensation.at.unwrap_or_default(),
+            output: program::options(&job.program, maker)?,
         })
     }
 

@@ -14,6 +14,8 @@ pub(super) struct BareArm {
     pub(super) world: World,
     /// Largest speeds of the joints' drives [rad/s], if known.
     pub(super) joint_speeds: Option<Joints>,
+    /// Its maker, if it is in the library.
+    pub(super) maker: Option<&'static str>,
     /// Mass that it is rated to carry [kg], if known.
     pub(super) payload: Option<f64>,
     /// Source of its compliance, and how far to trust it.
@@ -48,12 +50,14 @@ pub(super) fn arm(given: &job::Robot) -> Result<BareArm, Error> {
     let mut world = World::default();
     let mut joint_speeds = None;
     let mut payload = None;
+    let mut maker = None;
     let (name, links, limits, compliance) = if let Some(id) = &given.preset {
         let preset = library::robot(id)?;
         elbow = preset.elbow;
         world = preset.world();
         joint_speeds = preset.joint_speed_deg_s.map(|speeds| Joints::from(speeds) * DEG);
         payload = Some(preset.payload_kg);
+        maker = Some(preset.maker);
         library_note =
             Some((preset.stiffness_note.clone(), preset.stiffness_assumed, preset.stiffness_spread));
         (preset.name(), preset.links(), preset.limits(), Some(preset.joint_compliance))
@@ -89,7 +93,7 @@ pub(super) fn arm(given: &job::Robot) -> Result<BareArm, Error> {
         None => elbow,
     };
     let robot = robot.with_elbow(elbow)?;
-    Ok(BareArm { robot, world, joint_speeds, payload, stiffness_note, stiffness_assumed, spread })
+    Ok(BareArm { robot, world, joint_speeds, maker, payload, stiffness_note, stiffness_assumed, spread })
 }
 
 /// The parameters, checked for errors that a table of links could not name.

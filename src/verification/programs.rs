@@ -1,10 +1,13 @@
 //! The programs of a report. One rehearsal of each serves its accuracy, its header and its file.
 
 use crate::error::Error;
+use crate::export::command::ProgramRun;
 use crate::export::post;
-use crate::export::style::PostStyle;
+use crate::export::post::robot::PackageFile;
+use crate::export::style::{Junctions, PostStyle};
 use crate::export::{self, Export, ExportOptions, Format};
 use crate::report::{Report, VerdictState, millimetres};
+use crate::setup::Controller;
 use crate::units::MM;
 use crate::verification::rehearsal::{Rehearsal, rehearse};
 use serde::Serialize;
@@ -30,6 +33,36 @@ pub struct ProgramAccuracy {
     /// 95 % quantile of the largest contour error [mm].
     pub p95_mm: f64,
     /// The accuracy in words.
+    pub sentence: String,
+}
+
+/// The files that a controller loads, and how they run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Package {
+    /// Its controller.
+    pub controller: &'static str,
+    /// Name of the program.
+    pub name: String,
+    /// The files; the main program first.
+    pub files: Vec<PackageFile>,
+    /// Largest contour error when it runs, if every number is exact [mm].
+    pub max_mm: f64,
+    /// 95 % quantile of the largest contour error [mm].
+    pub p95_mm: f64,
+    /// Whether the job's tolerance is met at 95 %.
+    pub met: bool,
+    /// Time from the start to the end of the path [s].
+    pub duration_s: f64,
+    /// Number of points, the start included.
+    pub points: usize,
+    /// Number of full stops on the way.
+    pub stops: usize,
+    /// Distance before a point at which the path leaves for the next [mm], or, of a FANUC program, the
+    /// number after CNT; 0 is an exact stop at every point.
+    pub blending: f64,
+    /// What to look out for before running it.
+    pub remarks: Vec<String>,
+    /// How it runs, in words.
     pub sentence: String,
 }
 
@@ -69,22 +102,10 @@ impl Programs {
         let format = export::format(id)?;
         let style = PostStyle::of(format, report)
             .ok_or_else(|| Error::invalid("format", format!("\"{id}\""), "a program, not a table"))?;
-        let Rehearsal { command, reached, .. } = self.rehearsal(report, style)?;
+        let Rehearsal { command, run: ProgramRun { reached, .. }, .. } = self.rehearsal(report, style)?;
         post::expressible(report, command, id)?;
         let (state, p95) = (report.verdict_state_at(*reached), report.p95_at(*reached));
-        let figures =
-            format!("up to {} mm at 95 %, nominally {} mm", millimetres(p95), millimetres(*reached));
-        let tolerance = report.setup().goal.tolerance;
-        let tolerance_text = millimetres(tolerance);
-        let judged = match state {
-            VerdictState::CannotRun => format!("cannot run; if it could, {figures}."),
-            _ if p95 > tolerance => format!("{figures}; beyond the tolerance of {tolerance_text} mm."),
-            _ => match report.decisive(state, *reached) {
-                Some(but) => format!("{figures}, but {but}; beyond the tolerance of {tolerance_text} mm."),
-                None => format!("{figures}; within the tolerance of {tolerance_text} mm."),
-            },
-        };
-        let sentence = format!("As {}: {judged}", in_words(format));
+        let sentence = format!("As {}: {}", in_words(format), judged(report, *reached));
         let met = state == VerdictState::Met;
         Ok(ProgramAccuracy { max_mm: reached / MM, met, verdict_state: state, p95_mm: p95 / MM, sentence })
     }
@@ -98,9 +119,107 @@ impl Programs {
         self.accuracy(report, "gcode").or_else(|_| self.accuracy(report, "apt"))
     }
 
+    /// The path as a package for a controller; by default the job's.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for G-code if the tool axis differs from +Z anywhere, and for a name that the
+    /// controller does not take; otherwise see [`rehearse`].
+    pub fn package(&self, report: &Report, controller: Option<Controller>) -> Result<Package, Error> {
+        let options = &report.setup().output;
+        let controller = controller.unwrap_or(options.controller);
+        let format = export::format(format_of(controller))?;
+        let style = PostStyle::of(format, report)
+            .ok_or_else(|| Error::invalid("controller", controller.id(), "one that runs programs"))?;
+        let Rehearsal { commanded_path, command, run } = self.rehearsal(report, style)?;
+        let files = if style.is_robot() {
+            post::robot::package(report, command, controller, false)?
+        } else {
+            let text = export::program(report, format, commanded_path, command)?.text;
+            vec![PackageFile { path: format!("{}.{}", options.name, format.extension), text }]
+        };
+        let blending = match style.junctions {
+            Junctions::Share => (command.blend * 100.0).round(),
+            _ => command.blend / MM,
+        };
+        Ok(Package {
+            controller: controller.id(),
+            name: options.name.clone(),
+            files,
+            max_mm: run.reached / MM,
+            p95_mm: report.p95_at(run.reached) / MM,
+            met: report.verdict_state_at(run.reached) == VerdictState::Met,
+            duration_s: run.duration,
+            points: command.points(),
+            stops: run.stops,
+            blending,
+            remarks: remarks(report, style),
+            sentence: format!(
+                "As {}: {:.1} s with {} {}, {}",
+                in_words(format),
+                run.duration,
+                run.stops,
+                if run.stops == 1 { "stop" } else { "stops" },
+                judged(report, run.reached)
+            ),
+        })
+    }
+
     fn rehearsal(&self, report: &Report, style: PostStyle) -> Result<&Rehearsal, Error> {
         let rehearsed = self.rehearsed[style.index()].get_or_init(|| rehearse(report, None, style));
         rehearsed.as_ref().map_err(Clone::clone)
+    }
+}
+
+/// Id of the format in which a controller takes a program.
+fn format_of(controller: Controller) -> &'static str {
+    match controller {
+        Controller::Kuka => "krl",
+        Controller::Abb => "rapid",
+        Controller::Staubli => "val3",
+        Controller::Fanuc => "fanuc",
+        Controller::Gcode => "gcode",
+        Controller::Apt => "apt",
+        Controller::Csv => "path-csv",
+    }
+}
+
+/// What to look out for before a program runs.
+fn remarks(report: &Report, style: PostStyle) -> Vec<String> {
+    let setup = report.setup();
+    let mut remarks = Vec::new();
+    if setup.mode.is_some() {
+        remarks.push(
+            "These are commands before the input shaper, which must act on them. A controller without one needs a job with \
+             the shaper \"none\"."
+                .into(),
+        );
+    }
+    if style.is_robot() && setup.output.load.is_none() {
+        remarks.push(
+            "The load of the flange is not known (program.load_kg): set it in the controller before running, or it follows \
+             less accurately."
+                .into(),
+        );
+    }
+    if style.is_robot() {
+        remarks.push("Not tried on a controller: run it slowly and without the part first.".into());
+    }
+    remarks
+}
+
+/// A program's largest contour error `reached` [m] in words, compared with the tolerance.
+fn judged(report: &Report, reached: f64) -> String {
+    let (state, p95) = (report.verdict_state_at(reached), report.p95_at(reached));
+    let figures = format!("up to {} mm at 95 %, nominally {} mm", millimetres(p95), millimetres(reached));
+    let tolerance = report.setup().goal.tolerance;
+    let tolerance_text = millimetres(tolerance);
+    match state {
+        VerdictState::CannotRun => format!("cannot run; if it could, {figures}."),
+        _ if p95 > tolerance => format!("{figures}; beyond the tolerance of {tolerance_text} mm."),
+        _ => match report.decisive(state, reached) {
+            Some(but) => format!("{figures}, but {but}; beyond the tolerance of {tolerance_text} mm."),
+            None => format!("{figures}; within the tolerance of {tolerance_text} mm."),
+        },
     }
 }
 

@@ -12,11 +12,15 @@
 use crate::compensation;
 use crate::deviation::Sources;
 use crate::error::Error;
-use crate::export::command::Command;
+use crate::export::command::{Command, ProgramRun};
 use crate::export::commanded_path::CommandedPath;
-use crate::export::style::PostStyle;
+use crate::export::style::{Junctions, PostStyle};
 use crate::motion::Trajectory;
+use crate::motion::trajectory::MotionLimits;
+use crate::path::Program;
 use crate::report::Report;
+use crate::setup::program::Blending;
+use crate::verification::as_run::as_run;
 use crate::verification::replay::{self, Replay};
 use nalgebra::Vector3;
 
@@ -28,6 +32,14 @@ const IMPROVEMENT: f64 = 0.99;
 /// half of it the error grows, with twice of it hardly anything is corrected.
 const SMOOTHING: f64 = 0.01;
 
+/// Blending distances that are tried, the least first [m].
+const DISTANCES: [f64; 4] = [0.1e-3, 0.3e-3, 1e-3, 3e-3];
+/// Shares of the speed that are tried, the least first.
+const SHARES: [f64; 4] = [0.05, 0.2, 0.5, 1.0];
+/// A longer blending may not add more than this share of the error where the tolerance is not met
+/// anyway.
+const WORSE: f64 = 1.02;
+
 /// A rehearsed program: the commanded path, and the moves written for it.
 #[derive(Debug, Clone)]
 pub struct Rehearsal {
@@ -35,8 +47,8 @@ pub struct Rehearsal {
     pub commanded_path: CommandedPath,
     /// The moves as written.
     pub command: Command,
-    /// Largest contour error when they run with their own timing, every source acting [m].
-    pub reached: f64,
+    /// How they run with their own timing, every source acting.
+    pub run: ProgramRun,
 }
 
 /// An attempt at a program: its path, its moves, and its outcome under the sources to compensate.
@@ -46,13 +58,53 @@ type Attempt = (CommandedPath, Command, Replay);
 /// job's tolerance as a program, under the sources to compensate, or if nothing was compensated.
 /// Otherwise the result is the best of as many passes as the job allows.
 ///
+/// A robot's moves are blended as the job says, or as far before their ends as the tolerance allows.
+///
 /// # Errors
 /// See [`Command::new`] and [`replay::run_under`].
 pub fn rehearse(report: &Report, thinning: Option<f64>, style: PostStyle) -> Result<Rehearsal, Error> {
+    match (style.junctions, report.setup().output.blending) {
+        (Junctions::AsWritten, _) => blended(report, thinning, style, 0.0),
+        (Junctions::Distance, Blending::At(distance)) => blended(report, thinning, style, distance),
+        (Junctions::Distance, Blending::Sought) => longest(report, thinning, style, &DISTANCES),
+        (Junctions::Share, Blending::At(distance)) => {
+            // The share whose ramps take this distance at the job's feed; the whole speed at most.
+            let MotionLimits { feed, acceleration, .. } = report.setup().limits;
+            let share = (distance * 2.0 * acceleration / (feed * feed)).min(1.0);
+            blended(report, thinning, style, share)
+        }
+        (Junctions::Share, Blending::Sought) => longest(report, thinning, style, &SHARES),
+    }
+}
+
+/// The longest of the blendings `tried` that keeps the tolerance at 95 %, or, where none does, that
+/// adds next to nothing to the error.
+fn longest(
+    report: &Report,
+    thinning: Option<f64>,
+    style: PostStyle,
+    tried: &[f64],
+) -> Result<Rehearsal, Error> {
+    let mut best = blended(report, thinning, style, tried[0])?;
+    let (tolerance, next_to_nothing) = (report.setup().goal.tolerance, best.run.reached * WORSE);
+    let within = |reached: f64| report.p95_at(reached) <= tolerance || reached <= next_to_nothing;
+    for &blend in &tried[1..] {
+        let command = Command { blend, ..best.command.clone() };
+        let next = run(report, best.commanded_path.clone(), command)?;
+        if !within(next.run.reached) {
+            break;
+        }
+        best = next;
+    }
+    Ok(best)
+}
+
+/// The program blended by `blend`, with the best of as many passes as the job allows.
+fn blended(report: &Report, thinning: Option<f64>, style: PostStyle, blend: f64) -> Result<Rehearsal, Error> {
     let sought = report.plan.sought();
     let attempt = |commanded_path: CommandedPath| {
-        let command = Command::new(report, &commanded_path, thinning, style)?;
-        let outcome = replay::run_under(report, &commanded_path, &command.program(), sought)?;
+        let command = Command { blend, ..Command::new(report, &commanded_path, thinning, style)? };
+        let outcome = replay::run_under(report, &commanded_path, &as_it_runs(report, &command), sought)?;
         Ok::<Attempt, Error>((commanded_path, command, outcome))
     };
     let mut best = attempt(CommandedPath::of(report))?;
@@ -71,13 +123,29 @@ pub fn rehearse(report: &Report, thinning: Option<f64>, style: PostStyle) -> Res
         }
         best = next;
     }
-    let (commanded_path, mut command, outcome) = best;
-    let reached = match sought {
-        Sources::ALL => outcome.largest(),
-        _ => replay::run(report, &commanded_path, &command.program())?.largest(),
-    };
-    command.reached = Some(reached);
-    Ok(Rehearsal { commanded_path, command, reached })
+    let (commanded_path, command, outcome) = best;
+    match sought {
+        Sources::ALL => Ok(rehearsed(commanded_path, command, &outcome)),
+        _ => run(report, commanded_path, command),
+    }
+}
+
+/// The program as its controller runs it.
+fn as_it_runs(report: &Report, command: &Command) -> Program {
+    if command.style.is_robot() { as_run(command, &report.setup().limits) } else { command.program() }
+}
+
+/// A command, run with every source acting.
+fn run(report: &Report, commanded_path: CommandedPath, command: Command) -> Result<Rehearsal, Error> {
+    let outcome = replay::run(report, &commanded_path, &as_it_runs(report, &command))?;
+    Ok(rehearsed(commanded_path, command, &outcome))
+}
+
+fn rehearsed(commanded_path: CommandedPath, command: Command, outcome: &Replay) -> Rehearsal {
+    let Trajectory { moving, sample_time, ref stops, .. } = *outcome.trajectory;
+    let duration = (moving - 1) as f64 * sample_time;
+    let run = ProgramRun { reached: outcome.largest(), duration, stops: stops.len() };
+    Rehearsal { commanded_path, command: Command { run: Some(run), ..command }, run }
 }
 
 /// The commanded path with the correction that was missing when its program ran.

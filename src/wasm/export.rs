@@ -1,8 +1,9 @@
 //! Files of a run, and how accurate its programs are.
 
-use crate::export::{self, ExportOptions};
+use crate::export::{self, ExportOptions, archive};
+use crate::setup::Controller;
 use crate::units::MM;
-use crate::verification;
+use crate::verification::{self, Package};
 use crate::wasm::error::thrown;
 use crate::wasm::{Run, object};
 use wasm_bindgen::JsValue;
@@ -13,6 +14,12 @@ const TYPES: &'static str = r#"
 export interface Promised {
   max_mm: number; met: boolean; p95_mm: number; sentence: string;
   verdict_state: "cannot-run" | "met" | "met-if-nominal" | "not-met";
+}
+export type Controller = "kuka" | "abb" | "staubli" | "fanuc" | "gcode" | "apt" | "csv";
+export interface Package {
+  controller: Controller; name: string; files: { path: string; text: string }[];
+  max_mm: number; p95_mm: number; met: boolean; duration_s: number; points: number; stops: number;
+  blending: number; remarks: string[]; sentence: string;
 }
 "#;
 
@@ -45,6 +52,18 @@ impl Run {
         object(&accuracy.map_err(|error| thrown(&error))?)
     }
 
+    /// The path as the files that a controller loads (by default the job's), and how they run.
+    #[wasm_bindgen(unchecked_return_type = "Package")]
+    pub fn package(&self, controller: Option<String>) -> Result<JsValue, JsValue> {
+        object(&self.packaged(controller)?)
+    }
+
+    /// The same files as one zip archive.
+    pub fn package_zip(&self, controller: Option<String>) -> Result<Vec<u8>, JsValue> {
+        let package = self.packaged(controller)?;
+        archive::zip(&package.name, &package.files).map_err(|error| thrown(&error))
+    }
+
     /// Contour error [mm] of a program (`gcode`, `apt` or `path-csv`), read back and simulated.
     #[wasm_bindgen(unchecked_return_type = "Statistics")]
     pub fn replay(&self, format: &str) -> Result<JsValue, JsValue> {
@@ -59,6 +78,13 @@ impl Run {
 const REHEARSAL_BYTES: usize = 2048;
 
 impl Run {
+    fn packaged(&self, controller: Option<String>) -> Result<Package, JsValue> {
+        self.reserve();
+        let controller = controller.map(|id| Controller::named(&id)).transpose();
+        let package = controller.and_then(|controller| self.programs.package(&self.report, controller));
+        package.map_err(|error| thrown(&error))
+    }
+
     /// Grows the WebAssembly memory once for a rehearsal. Its many small allocations would grow it in
     /// hundreds of steps, and after each the JavaScript engine may collect garbage: a first export of
     /// 180,000 moves took five times as long.

@@ -52,7 +52,7 @@ export interface WallFigures {
 export interface WorstPlace { max: number; at_arc_length_mm: number }
 export interface Summary {
   fingerprint: string; model: number; samples: number; duration_s: number; path_length_mm: number;
-  stops: { count: number; corners_s: number };
+  stops: { count: number; corners_s: number }; controller: Controller;
   mean_force_n: [number, number, number];
   material: string; material_note: string; cut: CutFigures; walls: WallFigures[];
   before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics };

@@ -41,7 +41,8 @@ const answers = {
   data: (name, units) => run.chart_data(name, units),
   export: (format) => (format === "columns-csv" ? columnsFile() : run.export(format)),
   replay: (format) => run.replay(format),
-  promise: (format) => run.promise(format),
+  packaged: (controller) => outlineOf(run.package(controller)),
+  package: packageFile,
   release,
   thesis: () => armill.thesis_recomputed(),
   identify(kind, ...args) {
@@ -66,6 +67,21 @@ function columnsFile() {
   const parts = [];
   for (let from = 0; from < samples; from += ROWS) parts.push(new Blob([run.columns_csv(from, from + ROWS)]));
   return new Blob(parts);
+}
+
+/** A package with the names of its files instead of their texts. */
+const outlineOf = ({ files, ...rest }) => ({ ...rest, files: files.map(({ path }) => path) });
+
+/** What to save of a package: its only file, or all of them as a zip archive; and how it runs. */
+function packageFile(controller) {
+  const made = run.package(controller);
+  const { name, files } = made;
+  const [{ path, text }] = files;
+  const file =
+    files.length > 1
+      ? { name: `${name}.zip`, type: "application/zip", content: run.package_zip(controller) }
+      : { name: path, type: "text/plain", content: text };
+  return { file, outline: outlineOf(made) };
 }
 
 /** Frees the memory of the run. */

@@ -118,14 +118,14 @@ export const track = (most) => askShown("track", most);
 /** The shown result as text; "columns-csv" as a Blob of it. */
 export const exported = (format) => askShown("export", format);
 
-/** Mean and largest contour error [mm] of the shown result's program, read back and run. */
-export const replayed = (format) => askShown("replay", format);
-
 /**
- * The accuracy of the shown result's path as a program, of G-code unless another format is given:
- * `{ max_mm, met, sentence }`.
+ * How the shown result's path runs as a package for a controller, by default the job's, with the names
+ * of its files.
  */
-export const promised = (format) => askShown("promise", format);
+export const packaged = (controller) => askShown("packaged", controller);
+
+/** The package to save, `{ file: { name, type, content }, outline }`. */
+export const packageOf = (controller) => askShown("package", controller);
 
 /** Smallest and largest x, y, z [mm] of places for the part that are worth a look. */
 export const extent = (json) => (spare ??= spawn()).ask("extent", json);

@@ -16,6 +16,7 @@ const GROUPS = {
   shaper: "Vibration",
   compensation: "Compensation",
   uncertainty: "How sure",
+  program: "Program",
 };
 const OPEN = ["path", "motion"]; // the groups that most visits change
 

@@ -5,14 +5,13 @@ import { setCharts, showPanel } from "./charts.js";
 import { setCursor } from "./cursor.js";
 import { pin, pinnedResult, restorePin, showCompared, unpin } from "./compare.js";
 import { makeArmView } from "./arm-view.js";
-import { judgeAsProgram } from "./as-program.js";
 import { byId, debounced, make, sentence } from "./dom.js";
 import { download } from "./download.js";
 import { Form } from "./form.js";
 import { Job, merged } from "./job.js";
 import { makeIdentify } from "./identify/panel.js";
 import { makePlacement } from "./placement/panel.js";
-import { formatLength, formatNumber } from "./number.js";
+import { formatNumber } from "./number.js";
 import { openPanels, rememberPanels, restoreGroups } from "./panels.js";
 import { followCaret, openProgram, programTools, setLines, showProgram, textIn } from "./program.js";
 import { showSummary, showThesis, showUnits } from "./results.js";
@@ -23,13 +22,13 @@ import { settingsPanel } from "./settings-panel.js";
 import { shareDialog } from "./share.js";
 import { begun } from "./start.js";
 import { makeTabs } from "./tabs.js";
+import { judgeTakeAway, makeTakeAway } from "./take-away.js";
 import { followTheme } from "./theme.js";
 
 const TYPING_MS = 150; // results follow this long after the last key
 const PUSHED = 4000; // samples of a run that follows a number while it is pushed
 const COARSE_S = 0.005; // but no further apart than this
 const PATIENCE_MS = 150; // a run that takes longer shows its progress
-const READ_BACK = ["gcode", "apt", "path-csv"]; // programs that Armill reads itself
 // Warn after this long without progress; browsers do not report a killed Worker.
 const SILENCE_MS = 30_000;
 
@@ -49,7 +48,6 @@ let job;
 let form;
 let session;
 let standard; // the default job
-let formats = []; // programs that a run can be exported to
 let shown = null; // the shown result: { json, summary, preview } and its job
 let slow; // timer that shows the progress
 let silent; // timer that says that there is none
@@ -163,7 +161,7 @@ const events = {
     if (first) performance.mark("first result"); // for whoever measures
     if (first) restorePin(() => shown);
     scene.show(summary);
-    judgeAsProgram(shown, took);
+    judgeTakeAway(shown, took);
     identify.look();
     placement.look();
     for (const id of TAKEN_AWAY) byId(id).disabled = shown.preview;
@@ -237,9 +235,14 @@ async function takeLines({ program, duration_s, samples }) {
   }
 }
 
-/** Makes a program the path of the job, whatever the job was before. */
+/**
+ * Makes a program the path of the job, whatever the job was before. The example's shaper goes: hardly
+ * any controller has one, and commands for it are wrong without.
+ */
 function useProgram(kind, text) {
-  session.load({ ...JSON.parse(job.json), path: { kind, text } });
+  const { shaper, ...rest } = JSON.parse(job.json);
+  const own = JSON.stringify(shaper) !== JSON.stringify(standard.shaper);
+  session.load({ ...rest, path: { kind, text }, shaper: own ? shaper : "none" });
   byId("group-path").open = true;
 }
 
@@ -322,25 +325,6 @@ async function save(format, name) {
   }
 }
 
-/**
- * Says what the downloaded program is worth: read back and run where Armill reads its language,
- * else as it was rehearsed.
- */
-async function tryProgram(id) {
-  if (id === "joints-csv") return;
-  try {
-    if (!READ_BACK.includes(id)) return say((await core.promised(id)).sentence);
-    const { max } = await core.replayed(id);
-    const { tolerance_mm } = shown.summary;
-    const met = max <= tolerance_mm ? "within" : "beyond";
-    say(
-      `Read back and run, the program errs by at most ${formatLength(max)} mm: ${met} the tolerance of ${formatLength(tolerance_mm)} mm`,
-    );
-  } catch (error) {
-    if (!error.fatal && error.code !== "cancelled") alertOn(`The program could not be tried: ${error.message}`);
-  }
-}
-
 /** Fills the panel "Thesis, recomputed" when it is first looked at: its rows stay the same. */
 async function recomputeThesis() {
   if (byId("thesis").tBodies[0].rows.length) return;
@@ -362,10 +346,6 @@ function wire() {
   );
   byId("download-columns").addEventListener("click", () => save("columns-csv", "armill-columns.csv"));
   byId("download-compensated").addEventListener("click", () => save("compensated-csv", "armill-compensated-path.csv"));
-  byId("download-program").addEventListener("click", () => {
-    const { id, extension } = formats[byId("export-format").selectedIndex];
-    save(id, `armill-${id}.${extension}`).then(() => tryProgram(id));
-  });
   byId("inputs-toggle").addEventListener("click", () => foldInputs(byId("inputs").classList.contains("open")));
   byId("form").addEventListener("submit", (event) => event.preventDefault());
   wireResultTools();
@@ -402,10 +382,7 @@ async function open() {
   byId("group-path").querySelector("legend").after(programTools(useProgram, alertOn));
   followCaret((time) => setCursor(time, "program"));
   wireDrop();
-  formats = hello.formats.filter(({ id }) => !["columns-csv", "compensated-csv"].includes(id));
-  byId("export-format").append(
-    ...formats.map(({ id, name, note }) => make("option", { value: id, title: note }, name)),
-  );
+  makeTakeAway(hello.fields, say, alertOn);
   restoreGroups();
   session = new Session({ job, form, standard, core, changed: edited, warn: alertOn });
   await session.open();

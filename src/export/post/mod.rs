@@ -1,9 +1,9 @@
-//! Programs for machines and robots: one driver, one `Dialect` for each controller.
+//! Programs for machines and robots.
 //!
-//! The driver walks the moves of a [`Command`] once and tracks what changes from one to the next:
-//! the line of the original program, the spindle, the feed, a wait. A dialect provides the words
-//! for each of these. To support another controller, add a file with its dialect here, a line in
-//! [`program`], and a row in [`FORMATS`](crate::export::FORMATS).
+//! For machines there is one driver, and one `Dialect` for each language. The driver walks the moves
+//! of a [`Command`] once and tracks what changes from one to the next: the line of the original
+//! program, the spindle, the feed, a wait. A dialect provides the words for each of these. Robots'
+//! controllers take packages of files: see [`robot`].
 //!
 //! A program that was read from G-code is not written from scratch but `rewritten`: it keeps its
 //! lines.
@@ -14,14 +14,15 @@ mod gcode;
 mod krl;
 mod rapid;
 mod rewritten;
+pub mod robot;
 mod val3;
 
 use crate::error::Error;
 use crate::export::arc::Step;
 use crate::export::command::{Command, CommandedMove};
 use crate::export::header::{self, number};
-use crate::math::Pose;
 use crate::report::Report;
+use crate::setup::Controller;
 
 /// Writes the program of the format `id`.
 ///
@@ -35,12 +36,24 @@ pub fn program(report: &Report, command: &Command, id: &str) -> Result<String, E
             None => write(report, command, &mut gcode::Gcode::new(report, command)?),
         },
         "apt" => write(report, command, &mut apt::Apt::new(command)),
-        "krl" => write(report, command, &mut krl::Krl),
-        "rapid" => write(report, command, &mut rapid::Rapid::default()),
-        "val3" => write(report, command, &mut val3::Val3),
-        "fanuc" => write(report, command, &mut fanuc::Fanuc::default()),
+        "krl" => main_file(report, command, Controller::Kuka, "src")?,
+        "rapid" => main_file(report, command, Controller::Abb, "mod")?,
+        "val3" => main_file(report, command, Controller::Staubli, "pgx")?,
+        "fanuc" => main_file(report, command, Controller::Fanuc, "LS")?,
         _ => return Err(super::unknown_format(id)),
     })
+}
+
+/// The main program of a package, with all moves in it.
+fn main_file(
+    report: &Report,
+    command: &Command,
+    controller: Controller,
+    extension: &str,
+) -> Result<String, Error> {
+    let files = robot::package(report, command, controller, true)?;
+    let main = files.into_iter().find(|file| file.path.ends_with(extension));
+    Ok(main.map_or_else(String::new, |file| file.text))
 }
 
 /// Whether the format `id` can express a command.
@@ -93,10 +106,6 @@ struct PostedStep<'a> {
     step: &'a Step,
     /// The move that it belongs to.
     commanded: &'a CommandedMove,
-    /// The TCP at its end, in the workpiece frame.
-    pose: Pose,
-    /// Whether the tool comes to rest there.
-    stops: bool,
 }
 
 /// Writes the command in a dialect.
@@ -121,10 +130,7 @@ fn write(report: &Report, command: &Command, dialect: &mut dyn Dialect) -> Strin
             feed = Some(commanded.feed);
             lines.push(text);
         }
-        for (index, step) in commanded.steps.iter().enumerate() {
-            let stops = commanded.stops && index + 1 == commanded.steps.len();
-            lines.push(dialect.step(&PostedStep { step, commanded, pose: command.pose(&step.to), stops }));
-        }
+        lines.extend(commanded.steps.iter().map(|step| dialect.step(&PostedStep { step, commanded })));
     }
     lines.extend(dialect.closing());
     dialect.file(&lines)

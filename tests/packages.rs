@@ -1,0 +1,271 @@
+//! Packages for robots' controllers, read back by readers that know nothing of Armill.
+#![allow(clippy::disallowed_methods, reason = "compared within a tolerance, not bit by bit")]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+mod common;
+mod controllers;
+
+use armill::Report;
+use armill::robot::forward;
+use armill::setup::Controller;
+use armill::verification::{Package, Programs};
+use common::run;
+use controllers::{Blend, ControllerProgram, File, Motion, Target};
+use nalgebra::{Matrix3, Vector3};
+use serde_json::{Value, json};
+
+const ROBOTS: [(Controller, &str, [f64; 3]); 4] = [
+    (Controller::Kuka, "kuka-kr-210-2", [1500.0, 100.0, 700.0]),
+    (Controller::Abb, "abb-irb-6700-155-285", [1500.0, 100.0, 900.0]),
+    (Controller::Staubli, "staubli-tx2-90", [550.0, 60.0, 300.0]),
+    (Controller::Fanuc, "fanuc-r-2000ic-165f", [1500.0, 100.0, 700.0]),
+];
+
+/// A pocket's outline with arcs, and the ways in and out.
+const POCKET: &str = "G21 G90 G17 S4000 M3\nG0 X0 Y0 Z20\nG0 X10 Y10\nG1 Z-2 F600\nG1 X80 F1800\nG3 X90 Y20 I0 J10\n\
+                      G1 Y60\nG3 X80 Y70 I-10 J0\nG1 X10\nG3 X0 Y60 I0 J-10\nG1 Y20\nG3 X10 Y10 I10 J0\nG4 P0.5\nG0 Z20\nM30";
+
+/// A job for a robot: its path in a workpiece frame that is turned.
+fn job(robot: &str, place: [f64; 3], path: &Value, more: &[(&'static str, Value)]) -> Report {
+    let mut changes = vec![
+        ("robot", json!({"preset":robot})),
+        ("workpiece_frame", json!({"xyz_mm":place,"rpy_deg":[2,-3,25]})),
+        ("tool_frame", json!({"xyz_mm":[10,-20,150],"rpy_deg":[0,20,10]})),
+        ("path", path.clone()),
+        ("shaper", json!("none")),
+        ("cutting.axial_depth_mm", json!(1)),
+        ("motion.sample_time_s", json!(0.004)),
+        ("compensation.tolerance_mm", json!(0.1)),
+    ];
+    changes.extend(more.iter().cloned());
+    run(&changes)
+}
+
+fn paths() -> Vec<(&'static str, Value)> {
+    let dome: String = (0..=40)
+        .map(|k| {
+            let t = (f64::from(k) - 20.0) * 1.5_f64.to_radians();
+            format!("{},{},{},{},0,{}\n", 80.0 * t.sin(), f64::from(k), 80.0 * t.cos(), t.sin(), t.cos())
+        })
+        .collect();
+    vec![
+        ("pocket", json!({"kind":"gcode","text":POCKET})),
+        ("tilted", json!({"kind":"csv","text":format!("x,y,z,i,j,k\n{dome}")})),
+        ("circle", json!({"kind":"circle","center_mm":[0,0,0],"radius_mm":60,"normal":[0,0,1]})),
+    ]
+}
+
+fn package(report: &Report, controller: Controller) -> (Package, ControllerProgram) {
+    let package = Programs::default().package(report, Some(controller)).unwrap();
+    let program = read(&package, controller);
+    (package, program)
+}
+
+fn read(package: &Package, controller: Controller) -> ControllerProgram {
+    let of = |file: &armill::export::post::robot::PackageFile| File { path: file.path.clone(), text: file.text.clone() };
+    let files: Vec<File> = package.files.iter().map(of).collect();
+    let read = match controller {
+        Controller::Kuka => controllers::krl(&files),
+        Controller::Abb => controllers::rapid(&files),
+        Controller::Staubli => controllers::val3(&files),
+        _ => controllers::fanuc(&files),
+    };
+    read.unwrap_or_else(|error| panic!("{error}\n{}", package.files[0].text))
+}
+
+/// The base of a program in the robot's own base, at the foot of the arm [mm].
+fn base(report: &Report, program: &ControllerProgram) -> (Vector3<f64>, Matrix3<f64>) {
+    let height = report.setup().world.height() * 1e3;
+    (program.base.0 + Vector3::z() * height, program.base.1)
+}
+
+/// Points along a target from the one before, in the base frame [mm], and the share of the way.
+fn along(from: &Vector3<f64>, target: &Target, count: usize) -> Vec<Vector3<f64>> {
+    let share = |k: usize| k as f64 / count as f64;
+    match target.motion {
+        Motion::Arc { via } => {
+            // The circle through three points, by its centre in their plane.
+            let (a, b) = (via - from, target.position - from);
+            let normal = a.cross(&b);
+            let centre = (normal.cross(&a) * b.norm_squared() + b.cross(&normal) * a.norm_squared()) / (2.0 * normal.norm_squared());
+            let (x, n) = (-centre, normal.normalize());
+            let y = n.cross(&x);
+            let angle = |p: Vector3<f64>| {
+                let v = p - centre;
+                v.dot(&y).atan2(v.dot(&x)).rem_euclid(std::f64::consts::TAU)
+            };
+            let end = angle(b);
+            (0..=count).map(|k| from + centre + x * (end * share(k)).cos() + y * (end * share(k)).sin()).collect()
+        }
+        _ => (0..=count).map(|k| from + (target.position - from) * share(k)).collect(),
+    }
+}
+
+/// The polyline that a program describes, from its start on, in the base frame [mm].
+fn course(program: &ControllerProgram, start: Vector3<f64>) -> Vec<Vector3<f64>> {
+    let mut at = start;
+    let mut points = vec![at];
+    for target in &program.targets[1..] {
+        points.extend(along(&at, target, 24).into_iter().skip(1));
+        at = target.position;
+    }
+    points
+}
+
+fn distance(p: &Vector3<f64>, course: &[Vector3<f64>]) -> f64 {
+    let to_chord = |pair: &[Vector3<f64>]| {
+        let along = pair[1] - pair[0];
+        let t = ((p - pair[0]).dot(&along) / along.norm_squared().max(1e-18)).clamp(0.0, 1.0);
+        (p - pair[0] - along * t).norm()
+    };
+    course.windows(2).map(to_chord).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn a_package_is_the_compensated_path_in_the_controllers_world() {
+    for (controller, robot, place) in ROBOTS {
+        for (name, path) in paths() {
+            let name = format!("{name} on {robot}");
+            let report = job(robot, place, &path, &[]);
+            let programs = Programs::default();
+            let id = ["krl", "rapid", "val3", "fanuc"][ROBOTS.iter().position(|r| r.0 == controller).unwrap()];
+            let export = programs.export(&report, id, &Default::default()).unwrap();
+            let (package, program) = package(&report, controller);
+            assert_eq!(program.targets.len(), package.points, "{name}: one motion for each point, the first by axes");
+            let (origin, turned) = base(&report, &program);
+            let in_base = |p: Vector3<f64>| turned.transpose() * (p * 1e3 - origin);
+            // FANUC lists three decimals.
+            let rounding = if controller == Controller::Fanuc { 1e-3 } else { 2e-5 };
+            // Where the tool starts, it arrives by axes.
+            let Motion::Joints(axes) = program.targets[0].motion else { panic!("{name}: starts by axes") };
+            let q = axes.map(f64::to_radians).into();
+            let tcp = forward::forward(&report.plan.robot, &q);
+            let start = in_base(tcp.position);
+            assert_eq!(program.targets[0].blend, Blend::Stop, "{name}");
+            // The tool of the program is that of the job.
+            let tool = report.plan.robot.tool();
+            assert!((program.tool.0 - tool.position * 1e3).norm() < 2.0 * rounding, "{name}");
+            assert!((program.tool.1 - tool.rotation).norm() < 1e-4, "{name}");
+            // Every commanded sample lies beside the program by no more than what was measured.
+            let course = course(&program, start);
+            let allowed = export.deviation * 1e3 + 2.0 * rounding + 2e-3;
+            let commanded = export.commanded_path.positions(&report);
+            for (k, p) in commanded.iter().enumerate().step_by(3) {
+                let off = distance(&in_base(*p), &course);
+                assert!(off <= allowed, "{name}, sample {k}: {off} mm, allowed {allowed}");
+            }
+            // And the tool's axis, at each point of the program, is that of the nearest sample.
+            for target in &program.targets[1..] {
+                let nearest = (0..commanded.len())
+                    .min_by(|&a, &b| {
+                        let off = |k: usize| (in_base(commanded[k]) - target.position).norm();
+                        off(a).total_cmp(&off(b))
+                    })
+                    .unwrap();
+                let axis = turned * -target.rotation.column(2);
+                let off = (axis - export.commanded_path.axis.at(nearest)).norm();
+                // Samples are up to 1 mm apart, over which the tilted axis turns by 0.7 deg.
+                assert!(off < 0.02, "{name}: {off}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_package_stops_waits_and_blends_as_it_says() {
+    for (controller, robot, place) in ROBOTS {
+        let blending = [("program.blending_mm", json!(0.5))];
+        let report = job(robot, place, &json!({"kind":"gcode","text":POCKET}), &blending);
+        let (package, program) = package(&report, controller);
+        let stops = program.targets[1..].iter().filter(|target| target.blend == Blend::Stop).count();
+        assert_eq!(stops, package.stops + 1, "{robot}: stops on the way, and the end");
+        for target in &program.targets[1..] {
+            match target.blend {
+                Blend::Stop => {}
+                Blend::Distance(mm) => assert!((mm - 0.5).abs() < 1e-9, "{robot}: {mm}"),
+                // d = share v^2 / (2 a) at the job's feed of 100 mm/s and 200 mm/s^2: 25 mm at 100 %.
+                Blend::Percent(share) => assert_eq!(share, 2.0, "{robot}"),
+            }
+        }
+        let waits: Vec<f64> = program.targets.iter().map(|target| target.wait_before_s).filter(|wait| *wait > 0.0).collect();
+        assert!(waits.len() == 1 && (waits[0] - 0.5).abs() < 0.01, "{robot}: {waits:?}");
+        let speeds: Vec<f64> = program.targets[1..].iter().map(|target| target.speed.unwrap()).collect();
+        // Rapids at 250 mm/s, the way down at 10, the cut at 30 mm/s, as F says, but for what the
+        // correction adds.
+        for (speed, target) in speeds.iter().zip(&program.targets[1..]) {
+            let known = [250.0, 10.0, 30.0].iter().any(|known| (speed / known - 1.0).abs() < 0.05);
+            assert!(known, "{robot}: {speed} to {}", target.position);
+        }
+        assert!(speeds.iter().filter(|speed| (*speed / 30.0 - 1.0).abs() < 0.05).count() > 10, "{robot}");
+        // Exact stops, on demand.
+        let exact = job(robot, place, &json!({"kind":"gcode","text":POCKET}), &[("program.blending_mm", json!(0))]);
+        let (package, program) = self::package(&exact, controller);
+        assert!(program.targets.iter().all(|target| target.blend == Blend::Stop), "{robot}");
+        assert_eq!(package.stops + 1, package.points - 1, "{robot}");
+    }
+}
+
+#[test]
+fn a_long_package_comes_in_parts_that_say_the_same() {
+    for (controller, robot, place) in ROBOTS {
+        // Points too far apart to be thinned: 700 corners of a fine saw.
+        let saw: String = (0..700).map(|k| format!("{},{},0\n", f64::from(k) * 0.2, f64::from(k % 2) * 0.3)).collect();
+        let path = json!({"kind":"csv","text":format!("x,y,z\n{saw}")});
+        let lines = [("program.lines_per_file", json!(150)), ("motion.corner_angle_deg", json!(170))];
+        let report = job(robot, place, &path, &lines);
+        let (package, program) = package(&report, controller);
+        assert_eq!(program.targets.len(), package.points, "{robot}");
+        let parts = package.files.iter().filter(|file| file.path.contains("00")).count();
+        assert!(parts >= 5, "{robot}: {parts} parts");
+        let longest = package.files.iter().filter(|file| !file.path.ends_with(".dtx") && !file.path.ends_with(".LS"));
+        assert!(longest.map(|file| file.text.lines().count()).max().unwrap() <= 150, "{robot}");
+        let whole = job(robot, place, &path, &[lines[1].clone()]);
+        let (_, whole) = self::package(&whole, controller);
+        assert_eq!(whole.targets.len(), program.targets.len(), "{robot}");
+        for (a, b) in whole.targets.iter().zip(&program.targets).skip(1) {
+            // A part ends with a stop, which the correction may feel.
+            assert!((a.position - b.position).norm() < 0.02, "{robot}: {} and {}", a.position, b.position);
+        }
+    }
+}
+
+#[test]
+fn the_job_names_numbers_loads_and_procedures() {
+    for (controller, robot, place) in ROBOTS {
+        let more = [(
+            "program",
+            json!({
+                "name":"WING_7","tool_number":3,"base_number":5,"load_kg":18.5,"load_centre_mm":[1,2,120],
+                "spindle_on":"SPIN_UP","spindle_off":"SPIN_OFF","coolant_on":"MIST"
+            }),
+        )];
+        let report = job(robot, place, &json!({"kind":"gcode","text":POCKET}), &more);
+        let (package, program) = package(&report, controller);
+        assert_eq!(program.name, "WING_7", "{robot}");
+        assert_eq!(package.name, "WING_7");
+        assert!(["SPIN_UP", "MIST", "SPIN_OFF"].iter().all(|hook| program.hooks.iter().any(|call| call.contains(hook))), "{robot}: {:?}", program.hooks);
+        let all: String = package.files.iter().map(|file| file.text.as_str()).collect();
+        assert!(all.contains("18.5"), "{robot}");
+        if let Some(load) = program.load_kg {
+            assert_eq!(load, 18.5, "{robot}");
+        }
+        let numbers: &[&str] = match controller {
+            Controller::Kuka => &["BAS (#TOOL,3)", "BAS (#BASE,5)"],
+            Controller::Fanuc => &["UFRAME_NUM=5 ;", "UTOOL_NUM=3 ;", "PAYLOAD[3] ;"],
+            _ => &[],
+        };
+        assert!(numbers.iter().all(|text| all.contains(text)), "{robot}");
+        assert!(package.remarks.iter().all(|remark| !remark.contains("load of the flange")), "{:?}", package.remarks);
+    }
+}
+
+#[test]
+fn names_that_a_controller_does_not_take_are_refused() {
+    let [(_, robot, place), ..] = ROBOTS;
+    for (controller, name) in [("kuka", "1ST"), ("kuka", "A-B"), ("staubli", "A_NAME_OF_16_CHR"), ("kuka", "")] {
+        let job = json!({"version":1,"robot":{"preset":robot},"path":{"kind":"line","from_mm":place,"to_mm":[1500,200,700]},
+                         "program":{"controller":controller,"name":name}});
+        let error = armill::run_json(&job.to_string(), &mut armill::Progress::none()).unwrap_err();
+        assert_eq!((error.code(), error.field()), ("invalid", Some("program.name")), "{name}");
+    }
+}

@@ -1,0 +1,87 @@
+// The program to take away: which controller it is for, what it is worth, and its files.
+
+import * as core from "./core.js";
+import { byId, make } from "./dom.js";
+import { download } from "./download.js";
+
+const QUIET_MS = 400; // inputs that still move are not judged
+const LONG_MS = 3000; // a run that takes longer is judged when it is taken away: several runs are to be made for it
+const JOINTS = "joints-csv"; // a table beside the controllers
+
+let names; // controller -> name
+let wanted; // the controller that was chosen here, if it is not the job's
+let waiting; // timer
+let shown; // the result to judge: { summary, preview } and how long its run took [ms]
+
+/** Fills the menu of controllers; `say` and `warn` show a text. */
+export function makeTakeAway(fields, say, warn) {
+  const { choices } = fields.find(({ path }) => path === "program.controller");
+  names = Object.fromEntries(choices.filter(({ value }) => value !== "brand").map(({ value, label }) => [value, label]));
+  const menu = byId("export-format");
+  menu.append(
+    ...Object.entries(names).map(([value, name]) => make("option", { value }, name)),
+    make("option", { value: JOINTS }, "joint commands as CSV"),
+  );
+  menu.addEventListener("change", () => {
+    wanted = menu.value === shown?.summary.controller ? undefined : menu.value;
+    label();
+    judgeSoon(0);
+  });
+  byId("download-program").addEventListener("click", () => save(say, warn));
+}
+
+/** Judges a new result once it has stood for a while; `took` is how long its run took [ms]. */
+export function judgeTakeAway({ summary, preview }, took) {
+  shown = { summary, preview, took };
+  byId("export-format").value = wanted ?? summary.controller;
+  label();
+  judgeSoon(QUIET_MS);
+}
+
+const label = () => {
+  const { value } = byId("export-format");
+  byId("download-program").textContent = value === JOINTS ? "Export joint commands" : `Export ${names[value]}`;
+};
+
+function judgeSoon(quiet) {
+  const line = byId("as-program");
+  line.textContent = "";
+  line.classList.remove("bad");
+  clearTimeout(waiting);
+  const { value } = byId("export-format");
+  if (!shown || shown.preview || value === JOINTS) return; // nothing is promised
+  if (shown.took > LONG_MS)
+    line.textContent = "Timed by its own moves and feeds, a program may differ: it is run when it is exported.";
+  else waiting = setTimeout(judge, quiet, line, value, core.shownJob());
+}
+
+async function judge(line, controller, json) {
+  const current = () => core.shownJob() === json && byId("export-format").value === controller;
+  try {
+    const outline = await core.packaged(controller);
+    if (current()) showOutline(line, outline);
+  } catch (error) {
+    if (!error.fatal && error.code !== "cancelled" && current())
+      line.textContent = `Not as ${names[controller]}: ${error.message}`;
+  }
+}
+
+/** What a program is worth, and what to look out for. */
+function showOutline(line, { met, sentence, remarks }) {
+  line.replaceChildren(sentence, ...remarks.flatMap((remark) => [" ", make("span", { className: "remark" }, remark)]));
+  line.classList.toggle("bad", !met);
+}
+
+async function save(say, warn) {
+  const { value } = byId("export-format");
+  const json = core.shownJob();
+  try {
+    if (value === JOINTS) return download("armill-joints.csv", "text/csv", await core.exported(JOINTS));
+    const { file, outline } = await core.packageOf(value);
+    download(file.name, file.type, file.content);
+    if (core.shownJob() === json) showOutline(byId("as-program"), outline);
+    say(`Saved ${file.name}${outline.files.length > 1 ? `: ${outline.files.join(", ")}` : ""}`);
+  } catch (error) {
+    if (!error.fatal && error.code !== "cancelled") warn(`The program could not be made: ${error.message}`);
+  }
+}
