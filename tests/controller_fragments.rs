@@ -338,4 +338,3 @@ fn rapid_refuses() {
         ],
     );
 }
-

@@ -39,9 +39,15 @@ fn a_file_leaves_what_the_job_does_not_compensate() {
         for format in ["gcode", "krl", "apt", "path-csv"] {
             let accuracy = programs.accuracy(&report, format).unwrap();
             assert!(!accuracy.met, "{sources}, {format}: {}", accuracy.sentence);
-            // A program has its own timing: it starts and ends a little differently.
-            let off = (accuracy.max_mm - left).abs();
-            assert!(off < 0.1 * left, "{sources}, {format}: {} instead of {left}", accuracy.max_mm);
+            // A program has its own timing: it starts and ends a little differently. A robot's is blended,
+            // and slower where its moves are short.
+            let least = if format == "krl" { 0.5 } else { 0.9 };
+            let of_it = accuracy.max_mm / left;
+            assert!(
+                (least..1.1).contains(&of_it),
+                "{sources}, {format}: {} instead of {left}",
+                accuracy.max_mm
+            );
         }
         // Read back, the file gives the figure that it states.
         let stated = programs.accuracy(&report, "path-csv").unwrap().max_mm;

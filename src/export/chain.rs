@@ -87,7 +87,8 @@ pub(super) fn steps(
     style: PostStyle,
 ) -> (Vec<Step>, f64) {
     let resolution = style.resolution();
-    let kept = thin::spaced(points, &thin::thin(points, tolerance - resolution), least);
+    let kept = thin::thin(points, tolerance - resolution);
+    let kept = thin::spaced(points, &thin::pruned(points, &kept, tolerance - resolution), least);
     let ends: Vec<Vec<Point>> = kept.iter().map(|&k| vec![rounded(&points[k], resolution)]).collect();
     // Of moves too short to be written, only the start is left.
     let from_start = |point: &Point| (point.position - points[0].position).norm();

@@ -97,7 +97,7 @@ fn rehearsed(report: &Report, command: &Command, run: &ProgramRun) -> Vec<String
     )];
     if command.style.is_robot() {
         lines.push(format!(
-            "It takes {} s with {stops} stops on the way; {}",
+            "It takes {} s with {stops} stops on the way, {}",
             number(duration, 1),
             blending(command)
         ));

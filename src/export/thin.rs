@@ -84,6 +84,24 @@ pub fn thin(points: &[Point], tolerance: f64) -> Vec<usize> {
     kept
 }
 
+/// Those of `kept` without the ones whose neighbours alone keep every point within `tolerance` [m]: the
+/// rule of the farthest point leaves some that later ones have made needless.
+pub fn pruned(points: &[Point], kept: &[usize], tolerance: f64) -> Vec<usize> {
+    let mut pruned: Vec<usize> = Vec::with_capacity(kept.len());
+    for (i, &index) in kept.iter().enumerate() {
+        let needless = match (pruned.last(), kept.get(i + 1)) {
+            (Some(&from), Some(&to)) => {
+                (from + 1..to).all(|k| points[k].distance(&points[from], &points[to]) <= tolerance)
+            }
+            _ => false,
+        };
+        if !needless {
+            pruned.push(index);
+        }
+    }
+    pruned
+}
+
 /// Those of `kept` that are at least `least` [m] from the one before and from the last; the first and
 /// the last are among them, unless they are nearer to each other than that: then the first alone.
 pub fn spaced(points: &[Point], kept: &[usize], least: f64) -> Vec<usize> {

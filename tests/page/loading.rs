@@ -79,7 +79,7 @@ fn a_visit_fetches_the_core_once_and_computes_one_run() -> Result {
         shows(page, &program).await?;
         page.choose("#export-format", "gcode").await?;
         page.click("#download-program").await?;
-        page.downloaded("armill-gcode.nc").await?;
+        page.downloaded("ARMILL.nc").await?;
         page.click("#reset").await?;
         shows(page, &run(&[])).await?;
         page.click("#undo").await?;

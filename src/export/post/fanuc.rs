@@ -9,7 +9,7 @@
 //! The layout follows listings that controllers and ROBOGUIDE wrote, the letters of CONFIG 16 public
 //! poses; nothing has been tried on a controller.
 
-use super::robot::{Brief, Language, PackageFile, Target};
+use super::robot::{Brief, Language, PackageFile, PostedMove};
 use crate::export::header::{self, number};
 use crate::export::orientation::roll_pitch_yaw;
 use crate::export::posture::{Posture, turns};
@@ -82,7 +82,8 @@ impl<'r> Fanuc<'r> {
 
 impl Language for Fanuc<'_> {
     fn comment(&self, text: &str) -> String {
-        let text: String = text.chars().take(REMARK).collect();
+        // A semicolon ends the line.
+        let text: String = text.chars().filter(|c| *c != ';').take(REMARK).collect();
         format!("  !{text} ;")
     }
 
@@ -94,7 +95,7 @@ impl Language for Fanuc<'_> {
         self.points.push(Vec::new());
     }
 
-    fn move_to(&mut self, target: &Target) -> String {
+    fn move_to(&mut self, target: &PostedMove) -> String {
         let via = target.via.map(|via| self.point(&via, target.via_joints));
         let to = self.point(&target.pose, target.joints);
         let end =

@@ -9,7 +9,7 @@
 //! `LOAD_DATA` follow published programs of KSS 8 and KUKA's own `bas.src`; nothing has been tried on a
 //! controller.
 
-use super::robot::{Brief, Language, PackageFile, Target};
+use super::robot::{Brief, Language, PackageFile, PostedMove};
 use crate::export::header::number;
 use crate::export::orientation::roll_pitch_yaw;
 use crate::export::posture::Posture;
@@ -138,7 +138,7 @@ impl Language for Krl {
         Some(format!("$VEL.CP={}", number(speed, 7)))
     }
 
-    fn move_to(&mut self, target: &Target) -> String {
+    fn move_to(&mut self, target: &PostedMove) -> String {
         let blended = if target.stops || self.blend == 0.0 { "" } else { " C_DIS" };
         let to = self.point(&target.pose);
         match &target.via {

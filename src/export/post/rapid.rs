@@ -9,7 +9,7 @@
 //! The layout of data types and zones follows ABB's RAPID reference manual, that of the package
 //! published programs; nothing has been tried on a controller.
 
-use super::robot::{Brief, Language, PackageFile, Target};
+use super::robot::{Brief, Language, PackageFile, PostedMove};
 use crate::export::header::number;
 use crate::export::orientation::quaternion;
 use crate::export::posture::Posture;
@@ -112,7 +112,7 @@ impl Language for Rapid<'_> {
         format!("    WaitTime \\InPos,{};", number(time, 4))
     }
 
-    fn move_to(&mut self, target: &Target) -> String {
+    fn move_to(&mut self, target: &PostedMove) -> String {
         let zone = if target.stops || self.zone == 0.0 { "fine" } else { "zMill" };
         let speed = self.speeds.iter().position(|known| *known == target.speed).unwrap_or(0) + 1;
         let to = self.target(&target.pose, target.joints);

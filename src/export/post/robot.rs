@@ -67,7 +67,7 @@ impl Brief<'_> {
 }
 
 /// A move of the tool for a language to write.
-pub(super) struct Target<'a> {
+pub(super) struct PostedMove<'a> {
     /// The TCP at its end, in the workpiece frame.
     pub(super) pose: Pose,
     /// A point in the middle of an arc.
@@ -99,7 +99,7 @@ pub(super) trait Language {
     fn begin(&mut self, _part: usize) {}
 
     /// A straight move or an arc, from where the tool is.
-    fn move_to(&mut self, target: &Target) -> String;
+    fn move_to(&mut self, target: &PostedMove) -> String;
 
     /// The files, from the lines of each part; the main program first.
     fn files(&self, brief: &Brief, parts: &[Vec<String>]) -> Vec<PackageFile>;
@@ -175,7 +175,7 @@ fn parts(command: &Command, joints: &[Joints], whole: bool, language: &mut dyn L
         for (index, step) in commanded.steps.iter().enumerate() {
             let after = joints.next();
             let (Some(via_joints), Some(joints)) = (before, after) else { break };
-            lines.push(language.move_to(&Target {
+            lines.push(language.move_to(&PostedMove {
                 pose: command.pose(&step.to),
                 via: chain::middle(&at, step).map(|point| command.pose(&point)),
                 joints,

@@ -9,7 +9,7 @@
 //! The files follow projects that Staubli's own tools made and published posts; nothing has been tried
 //! on a controller.
 
-use super::robot::{Brief, Language, PackageFile, Target};
+use super::robot::{Brief, Language, PackageFile, PostedMove};
 use crate::export::header::number;
 use crate::export::orientation::about_moving_xyz;
 use crate::math::Pose;
@@ -114,7 +114,7 @@ impl Language for Val3 {
         self.points.push(Vec::new());
     }
 
-    fn move_to(&mut self, target: &Target) -> String {
+    fn move_to(&mut self, target: &PostedMove) -> String {
         let via = target.via.map(|via| self.point(&via));
         let to = self.point(&target.pose);
         let index = self.speeds.iter().position(|known| *known == target.speed).unwrap_or(0);
@@ -171,6 +171,12 @@ impl Language for Val3 {
         lines.push("  waitEndMove()".into());
         let otherwise = "  // Spindle and coolant: switch them off here";
         lines.extend(brief.hooks(&options.after, |name| format!("  call {name}()"), otherwise));
+        // A call must lead to a program of the application: the cell's own go into these.
+        for name in options.before.iter().chain(&options.after) {
+            if programs.iter().all(|(known, _)| known != name) {
+                programs.push((name.clone(), vec![self.comment("Put the cell's own instructions here")]));
+            }
+        }
         programs
             .splice(0..0, [("start".to_owned(), lines), ("stop".to_owned(), vec!["  resetMotion()".into()])]);
         let listed: String =
