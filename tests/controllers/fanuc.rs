@@ -149,10 +149,11 @@ impl Controller<'_> {
         let is_frame = line.clone().take("UFRAME") || stated.take("UTOOL");
         if let (true, Ok(number)) = (is_frame, index(&mut stated, 10)) {
             let register = frames.entry(number).or_default();
-            while let Ok(component) = stated.word() {
-                let Some(place) = "XYZWPR".find(component).filter(|_| component.len() == 1) else { break };
+            while let Some(place) = ["X", "Y", "Z", "W", "P", "R"].iter().position(|name| stated.prefix(name))
+            {
                 stated.take("=");
-                register[place] = Some(stated.number()?);
+                let Ok(number) = stated.number() else { break };
+                register[place] = Some(number);
                 stated.take(",");
             }
         }

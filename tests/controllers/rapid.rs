@@ -1,34 +1,14 @@
 //! ABB's RAPID. Orientations are quaternions, scalar first, whose sum of squares is 1 (RAPID reference manual).
 
+mod argument;
+mod memory;
 mod module;
 
 use super::scan::Scan;
 use super::{Blend, ControllerProgram, File, Frame, Motion, Target, Text, checked, identity, within, xml};
+use memory::last;
 use module::{Data, Module, Value, frame, has_type, module, name, numbers, value};
 use std::collections::BTreeMap;
-
-const SPEEDS: [u32; 25] = [
-    5, 10, 20, 30, 40, 50, 60, 80, 100, 150, 200, 300, 400, 500, 600, 800, 1000, 1500, 2000, 2500, 3000,
-    4000, 5000, 6000, 7000,
-];
-
-/// Name and corner zone of the tool point [mm] of the zones that the controller has.
-const ZONES: [(&str, f64); 14] = [
-    ("z0", 0.3),
-    ("z1", 1.0),
-    ("z5", 5.0),
-    ("z10", 10.0),
-    ("z15", 15.0),
-    ("z20", 20.0),
-    ("z30", 30.0),
-    ("z40", 40.0),
-    ("z50", 50.0),
-    ("z60", 60.0),
-    ("z80", 80.0),
-    ("z100", 100.0),
-    ("z150", 150.0),
-    ("z200", 200.0),
-];
 
 struct Controller<'a> {
     modules: Vec<Module<'a>>,
@@ -91,10 +71,6 @@ pub(crate) fn rapid(files: &[File]) -> Result<ControllerProgram, String> {
     }
 }
 
-fn last(path: &str) -> &str {
-    path.rsplit(['/', ':']).next().unwrap_or(path)
-}
-
 /// The modules that a `.pgf` lists.
 fn listing(text: &Text) -> Result<Vec<String>, String> {
     let root = xml::document(text.path, text.text)?;
@@ -109,22 +85,6 @@ fn listing(text: &Text) -> Result<Vec<String>, String> {
 }
 
 impl Controller<'_> {
-    /// No name stands in two modules at once (LOCAL is not counted as an excuse).
-    fn ambiguous(&self) -> Result<(), String> {
-        let mut names: Vec<&String> = Vec::new();
-        for &at in self.loaded.keys() {
-            let module = &self.modules[at];
-            let own = module.data.keys().chain(module.procedures.keys()).chain([&module.name]);
-            for name in own {
-                if names.contains(&name) {
-                    return Err(format!("{}:0: {name} is ambiguous among the loaded modules", module.path));
-                }
-                names.push(name);
-            }
-        }
-        Ok(())
-    }
-
     fn run(&mut self, module: usize, procedure: &str) -> Result<(), String> {
         if self.running.iter().any(|other| other == procedure) {
             return Err(format!("{procedure} calls itself"));
@@ -215,36 +175,6 @@ impl Controller<'_> {
         Ok(())
     }
 
-    /// Load and UnLoad.
-    fn memory(&mut self, scan: &mut Scan, is_load: bool) -> Result<(), String> {
-        let from = scan.clone();
-        if is_load {
-            scan.need_all(&["\\", "Dynamic", ","])?;
-        }
-        let path = scan.quoted('"')?.to_owned();
-        let found =
-            self.modules.iter().position(|module| last(module.path).eq_ignore_ascii_case(last(&path)));
-        let Some(found) = found else { return from.fail("no such module in the package") };
-        if self.program.is_blending() {
-            return from.fail("within a corner zone");
-        }
-        if !path.starts_with("HOME:/") || path.contains('\\') {
-            return from.fail("a path begins with HOME:/");
-        }
-        match (is_load, self.loaded.get(&found)) {
-            (true, None) => {
-                self.loaded.insert(found, Some(path));
-                self.used.push(found);
-                self.ambiguous()
-            }
-            (false, Some(Some(before))) if *before == path => {
-                self.loaded.remove(&found);
-                Ok(())
-            }
-            _ => from.fail("loaded already, or not loaded by this path"),
-        }
-    }
-
     /// A value of this type, written out or by name, with the names within it resolved.
     fn value_of(&self, scan: &mut Scan, kind: &str) -> Result<Value, String> {
         let from = scan.clone();
@@ -330,70 +260,6 @@ impl Controller<'_> {
             wait_before_s: 0.0,
         };
         self.program.cartesian(base, tool, target).or_else(|what| from.fail(what))
-    }
-
-    /// The speed of the tool point [mm/s].
-    fn speed(&self, scan: &mut Scan) -> Result<f64, String> {
-        let mut known = scan.clone();
-        if let Ok(word) = known.word()
-            && let Some(number) =
-                word.to_ascii_lowercase().strip_prefix('v').and_then(|rest| rest.parse().ok())
-            && SPEEDS.contains(&number)
-        {
-            *scan = known;
-            return Ok(f64::from(number));
-        }
-        match numbers::<4>(&self.value_of(scan, "speeddata")?) {
-            Some(speed) if speed.iter().all(|part| *part > 0.0) => Ok(speed[0]),
-            _ => scan.fail("a speed that is not above zero"),
-        }
-    }
-
-    fn zone(&self, scan: &mut Scan) -> Result<Blend, String> {
-        if scan.take("fine") {
-            return Ok(Blend::Stop);
-        }
-        if let Some((_, size)) = ZONES.iter().find(|(name, _)| scan.take(name)) {
-            return Ok(Blend::Distance(*size));
-        }
-        let Value::List(parts) = self.value_of(scan, "zonedata")? else { return scan.fail("no zone") };
-        match (&parts[0], &parts[1]) {
-            (Value::Flag(true), _) => Ok(Blend::Stop),
-            (_, Value::Number(size)) if *size >= 0.0 => Ok(Blend::Distance(*size)),
-            _ => scan.fail("a zone below zero"),
-        }
-    }
-
-    /// The tool and its mass [kg]; tool0 has none.
-    fn tool(&self, scan: &mut Scan) -> Result<(Frame, Option<f64>), String> {
-        if scan.take("tool0") {
-            return Ok((identity(), None));
-        }
-        let from = scan.clone();
-        let value = self.value_of(scan, "tooldata")?;
-        let Value::List(parts) = &value else { return from.fail("no tool") };
-        let (Some(tool), Value::List(load)) = (frame(&parts[1]), &parts[2]) else {
-            return from.fail("no tool");
-        };
-        match (&parts[0], &load[0], numbers::<3>(&load[1])) {
-            (Value::Flag(true), Value::Number(mass), Some(centre)) if *mass > 0.0 && centre != [0.0; 3] => {
-                Ok((tool, Some(*mass)))
-            }
-            _ => from.fail("the robot does not hold this tool, or its load is zero"),
-        }
-    }
-
-    fn base(&self, scan: &mut Scan) -> Result<Frame, String> {
-        if scan.take("wobj0") {
-            return Ok(identity());
-        }
-        let from = scan.clone();
-        let Value::List(parts) = self.value_of(scan, "wobjdata")? else { return from.fail("no work object") };
-        let is_fixed = parts[..3] == [Value::Flag(false), Value::Flag(true), Value::Text(String::new())];
-        match (frame(&parts[3]), frame(&parts[4])) {
-            (Some(user), Some(object)) if is_fixed => Ok(within(user, object)),
-            _ => from.fail("the work object is not fixed"),
-        }
     }
 }
 
