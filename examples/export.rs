@@ -6,6 +6,7 @@
 use armill::setup::Controller;
 use armill::verification::Programs;
 use armill::{Error, Progress};
+use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -37,7 +38,8 @@ fn main() -> ExitCode {
     };
     match export(&text, controller.as_deref(), Path::new(&out)) {
         Ok(printed) => {
-            println!("{printed}");
+            // A reader that closed the pipe early (`| head`) is not an error.
+            let _ = writeln!(std::io::stdout(), "{printed}");
             ExitCode::SUCCESS
         }
         Err(Failure::Refused(error)) => {

@@ -55,24 +55,24 @@ pub const FORMATS: [Format; 10] = [
         id: "krl",
         name: "KUKA KRL",
         extension: "src",
-        note: "Exact stop at every point until you turn blending on. Not tried on a controller.",
+        note: "The main program of the package with all moves, blended by C_DIS. Not tried on a controller.",
     },
     Format {
         id: "rapid",
         name: "ABB RAPID",
         extension: "mod",
-        note: "Zones z0, stops fine; enter the tool's load. Not tried on a controller.",
+        note: "The main module of the package with all moves, blended by a zone. Not tried on a controller.",
     },
     Format {
         id: "val3",
         name: "Staubli VAL3",
         extension: "pgx",
-        note: "One program; declare frame, tool, point and motion descriptor. Not tried on a controller.",
+        note: "The program start with all moves; its points are in the package's data. Not tried on a controller.",
     },
     Format {
         id: "fanuc",
         name: "FANUC LS",
         extension: "ls",
-        note: "Exact stop at every point; enter the frames, check CONFIG. Not tried on a controller.",
+        note: "The main program of the package with all moves, passed by CNT. Not tried on a controller.",
     },
 ];

@@ -2,6 +2,8 @@
 //! `cargo xtask fuzz` searches for more, guided by coverage.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
+#[path = "../controllers/mod.rs"]
+mod controllers;
 mod target;
 mod words;
 

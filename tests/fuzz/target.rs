@@ -2,16 +2,21 @@
 //! message, and every output can be read.
 
 use armill::chart::{self, CATALOG};
+use armill::export::post::robot::PackageFile;
 use armill::export::{Export, ExportOptions, FORMATS};
 use armill::path::program::{MovePace, Program};
 use armill::path::unit::{FeedUnit, LengthUnit};
 use armill::path::{Path, Segment, apt, csv, gcode};
+use armill::setup::Controller;
 use armill::units::MM;
+use armill::verification::{Package, Programs};
 use armill::{Error, Job, Report};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::PathBuf;
+
+use super::controllers::{self, File};
 
 /// A reader of texts under test.
 pub(crate) struct Target {
@@ -295,6 +300,27 @@ fn check_exports(report: &Report) {
             Err(error) => check_error(&error, "", ""),
         }
     }
+    let programs = Programs::default();
+    for controller in [Controller::Kuka, Controller::Abb, Controller::Staubli, Controller::Fanuc] {
+        match programs.package(report, Some(controller)) {
+            Ok(package) => check_package(&package, controller),
+            Err(error) => check_error(&error, "", ""),
+        }
+    }
+}
+
+/// A package is what its controller's reader takes.
+fn check_package(package: &Package, controller: Controller) {
+    let of = |file: &PackageFile| File { path: file.path.clone(), text: file.text.clone() };
+    let files: Vec<File> = package.files.iter().map(of).collect();
+    let read = match controller {
+        Controller::Kuka => controllers::krl(&files),
+        Controller::Abb => controllers::rapid(&files),
+        Controller::Staubli => controllers::val3(&files),
+        _ => controllers::fanuc(&files),
+    };
+    let program = read.unwrap_or_else(|error| panic!("{}: {error}\n{}", package.controller, files[0].text));
+    assert_eq!(program.targets.len(), package.points, "{}", package.controller);
 }
 
 /// Output is read back, and passes every commanded tip.

@@ -2,6 +2,8 @@
 //! `cargo xtask fuzz`.
 #![no_main]
 
+#[path = "../../controllers/mod.rs"]
+mod controllers;
 #[path = "../target.rs"]
 mod target;
 #[path = "../words.rs"]

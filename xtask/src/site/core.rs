@@ -22,10 +22,10 @@ pub(crate) const BENCH: &str = "armill-bench";
 /// The module in the folder that [`make`] fills.
 pub(crate) const MODULE: &str = "armill_bg.wasm";
 
-/// Size limits of the core in bytes, as it is and compressed by gzip: every visit fetches it. When
-/// bands, verdicts and remedies were added it had 1,350,516 and 548,049; these are 15 % more. Raise
-/// them only with a reason in CHANGELOG.md.
-pub(super) const LIMITS: [usize; 2] = [1_553_000, 630_000];
+/// Size limits of the core in bytes, as it is and compressed by gzip: every visit fetches it. With the
+/// packages of robots' controllers it has 1,670,850 and 682,088. Raise them only with a reason in
+/// CHANGELOG.md.
+pub(super) const LIMITS: [usize; 2] = [1_700_000, 695_000];
 
 /// Makes the core in `package` from the sources in `root`: `folder` gets the module, its JavaScript
 /// side and their types.
