@@ -621,3 +621,15 @@ fn programs_of_hands_lead_where_the_control_goes() {
     }
     assert!(read(&format!("MSG()\n{}", "TRANS ".repeat(100_000))).is_err());
 }
+
+/// CR alone ends a line, as old systems write it, and errors count such lines.
+#[test]
+fn bare_carriage_returns_end_lines() {
+    let body = "G21 G90 G17\rG0 X0 Y0 Z10\rG1 Z-1 F600\rX50 (a note)\rG0 Z10\r";
+    let program = read(body).unwrap();
+    assert_eq!(program, read(&body.replace('\r', "\n")).unwrap());
+    assert_eq!(program.lines, 5);
+    assert!((figures(&program).0 - 72.0).abs() < 1e-9);
+    let error = read("G21 G90\rG0 X0 Y0 Z10\r\nG1 Z-1 F600\r  G41 D1\rX50").unwrap_err();
+    assert_eq!(error.place(), Some((4, 3)));
+}

@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use armill::robot::library;
 use armill_bench::poses::{self, Poses};
+use armill_bench::program;
 use armill_bench::stages::{STAGES, Stages, whole};
 use criterion::{Criterion, SamplingMode};
 use k::{InverseKinematicsSolver, Isometry3, JacobianIkSolver, JointType, NodeBuilder, SerialChain, Vector3};
@@ -20,6 +21,7 @@ mod peer;
 fn main() {
     let mut criterion = Criterion::default().configure_from_args().without_plots();
     kinematics(&mut criterion);
+    reading(&mut criterion);
     for samples in sizes() {
         jobs(&mut criterion, samples);
     }
@@ -44,6 +46,15 @@ fn jobs(criterion: &mut Criterion, samples: usize) {
     let text = stages.text().to_owned();
     drop(stages);
     group.bench_function("whole job", |bencher| bencher.iter(|| whole(&text)));
+    group.finish();
+}
+
+fn reading(criterion: &mut Criterion) {
+    let text = program::plain(program::LINES);
+    let mut group = criterion.benchmark_group("reading");
+    group.sampling_mode(SamplingMode::Flat).sample_size(10);
+    group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(2));
+    group.bench_function("G-code, plain lines", |bencher| bencher.iter(|| program::read(&text)));
     group.finish();
 }
 

@@ -1,7 +1,8 @@
-//! The work that `cargo xtask bench` times: the default job stage by stage, and kinematics pose by
-//! pose. It is a library so that the browser runs the same code as the native benchmarks.
+//! The work that `cargo xtask bench` times: the default job stage by stage, kinematics pose by
+//! pose, and a long program. It is a library so that the browser runs the same code as the native benchmarks.
 
 pub mod poses;
+pub mod program;
 pub mod stages;
 #[cfg(target_arch = "wasm32")]
 mod wasm;

@@ -1,4 +1,4 @@
-//! The lines of a text, for the readers of APT and CSV.
+//! The lines of a text, for the readers of programs.
 
 /// Lines that end in LF, CR LF or a bare CR, without a byte order mark before the first and without
 /// the Ctrl-Z and NUL characters that some systems put after the last.

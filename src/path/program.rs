@@ -36,7 +36,7 @@ pub struct Program {
 pub struct SourceProgram {
     /// Language: `gcode`, `apt` or `csv`.
     pub language: &'static str,
-    /// As typed.
+    /// As typed, but with LF where a bare CR ended a line.
     pub text: Arc<str>,
     /// As read.
     pub program: Program,

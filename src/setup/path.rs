@@ -9,6 +9,7 @@ use crate::path::{Path, Program, Remark, SourceProgram, apt, csv, gcode, shape};
 use crate::progress::Progress;
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
+use std::sync::Arc;
 
 /// JSON path of a program's text.
 const TEXT: &str = "path.text";
@@ -27,11 +28,19 @@ pub(super) fn desired(job: &Job, progress: &mut Progress) -> Result<(Path, Optio
     };
     let text = given.text.as_ref().ok_or_else(|| need("text"))?;
     let mut program = program(given, text, progress)?;
-    program.remarks.extend(earlier_model(text));
+    let text = with_line_feeds(text.shared());
+    program.remarks.extend(earlier_model(&text));
     let path = Path::of_program(&program).ok_or_else(|| {
         Error::invalid(TEXT, "a text without a move", "two positions or more that are not all the same")
     })?;
-    Ok((path, Some(SourceProgram { language, text: text.shared(), program })))
+    Ok((path, Some(SourceProgram { language, text, program })))
+}
+
+/// A text as typed, or with LF after each line if some end in a bare CR: so its lines are those that the
+/// reader counts.
+fn with_line_feeds(text: Arc<str>) -> Arc<str> {
+    let unified = text.replace("\r\n", "\n").replace('\r', "\n");
+    if unified.lines().count() == text.lines().count() { text } else { unified.into() }
 }
 
 /// The program in the text, in the workpiece frame.

@@ -22,6 +22,10 @@ pub(super) struct Block<'t> {
     /// The line.
     pub(super) text: &'t str,
     codes: [Option<Code>; GROUPS],
+    /// Whether there are any; lines of a few words need not look at each group.
+    coded: bool,
+    /// The letters of the words, a bit each.
+    letters: u32,
     /// What a Siemens cycle of the line asks for besides its words.
     pub(super) cycle: Option<SiemensCycle>,
     /// Whether an axis word stands in the line.
@@ -30,6 +34,11 @@ pub(super) struct Block<'t> {
     words: Vec<Word>,
     /// Codes without effect, in order, each with the letters that it takes along.
     pub(super) harmless: Vec<(Word, &'static [char])>,
+}
+
+/// The bit of a capital letter.
+fn bit(letter: char) -> u32 {
+    1 << (u32::from(letter) - u32::from('A'))
 }
 
 impl<'t> Block<'t> {
@@ -42,7 +51,9 @@ impl<'t> Block<'t> {
         siemens: Option<&mut Siemens>,
     ) -> Result<(), WordFault> {
         self.text = text;
-        self.codes = [None; GROUPS];
+        if std::mem::take(&mut self.coded) {
+            self.codes = [None; GROUPS];
+        }
         self.words.clear();
         self.harmless.clear();
         self.cycle = None;
@@ -71,7 +82,7 @@ impl<'t> Block<'t> {
                 'N' if first => _ = word.whole(text, 0, 999_999_999)?,
                 'N' => return Err(word.fault(text, "the line number N stands first in its line")),
                 letter => {
-                    let bit = 1 << (u32::from(letter) - u32::from('A'));
+                    let bit = bit(letter);
                     if seen & bit != 0 {
                         return Err(
                             word.fault(text, format!("a line holds one {letter} word, this is the second"))
@@ -86,6 +97,7 @@ impl<'t> Block<'t> {
         }
         words.truncate(kept);
         self.words = words;
+        self.letters = seen;
         Ok(())
     }
 
@@ -119,6 +131,7 @@ impl<'t> Block<'t> {
                 }
                 None => {
                     self.codes[group as usize] = Some(Code { tenths, word });
+                    self.coded = true;
                     Ok(())
                 }
             },
@@ -127,7 +140,7 @@ impl<'t> Block<'t> {
 
     /// Whether the line has no word except a line number.
     pub(super) fn is_empty(&self) -> bool {
-        self.words.is_empty() && self.harmless.is_empty() && self.codes.iter().all(Option::is_none)
+        self.words.is_empty() && self.harmless.is_empty() && !self.coded
     }
 
     /// The code of a group.
@@ -142,6 +155,9 @@ impl<'t> Block<'t> {
 
     /// The word with this letter, not consumed.
     pub(super) fn peek(&self, letter: char) -> Option<Word> {
+        if self.letters & bit(letter) == 0 {
+            return None;
+        }
         self.words.iter().find(|word| word.letter == letter).copied()
     }
 
@@ -152,6 +168,9 @@ impl<'t> Block<'t> {
 
     /// Consumes the word with this letter.
     pub(super) fn take(&mut self, letter: char) -> Option<Word> {
+        if self.letters & bit(letter) == 0 {
+            return None;
+        }
         let index = self.words.iter().position(|word| word.letter == letter)?;
         Some(self.words.remove(index))
     }

@@ -2,6 +2,7 @@
 
 use super::control::{Control, control};
 use crate::path::builder::LONGEST_WAIT;
+use crate::path::lines::TextLines;
 
 /// A controller's way of writing programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,7 +66,7 @@ impl GcodeDialect {
     /// Recognises the controller by what is written in the first lines.
     pub fn of(text: &str) -> Self {
         let mut numbered = false;
-        for line in text.lines().take(LOOKED_AT) {
+        for line in TextLines::of(text).take(LOOKED_AT) {
             let code: String = line.chars().filter(|sign| !sign.is_whitespace()).collect();
             let (upper, lower) = (code.to_ascii_uppercase(), line.to_ascii_lowercase());
             if let Some((_, dialect)) = NAMES.iter().find(|(name, _)| is_named(&lower, name)) {

@@ -43,6 +43,9 @@ impl Variables {
 
     /// The values set in the line just read hold from here on.
     pub(super) fn settle(&mut self) {
+        if self.pending.is_empty() {
+            return;
+        }
         for (variable, value) in std::mem::take(&mut self.pending) {
             self.put(variable, value);
         }

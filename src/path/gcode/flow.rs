@@ -8,6 +8,7 @@ use super::after_slash;
 use super::control::{Control, control, do_number, line_number, pieces};
 use super::expression::{ExpressionReader, Locals, Variables};
 use super::word::{self, WordFault};
+use crate::path::lines::TextLines;
 use std::cell::Cell;
 
 /// Most lines that are run.
@@ -47,14 +48,16 @@ pub(super) struct Flow<'t> {
 }
 
 /// The lines of a text in the pieces that run one after the other, each with its line from 0.
-pub(super) fn parts(text: &str) -> Vec<(usize, String)> {
-    let lines = text.lines().enumerate();
+pub(super) fn parts(lines: TextLines) -> Vec<(usize, String)> {
+    let lines = lines.enumerate();
     lines.flat_map(|(index, line)| pieces(line).into_iter().map(move |piece| (index, piece))).collect()
 }
 
 /// Whether a text has lines that decide which line is next.
-pub(super) fn decides(text: &str) -> bool {
-    text.lines().any(|line| !matches!(control(line), None | Some(Control::Label(_) | Control::Back)))
+pub(super) fn decides(mut lines: TextLines) -> bool {
+    // An O word, GOTO and DO have an O, a call has its P, a condition its bracket.
+    let may = |line: &str| line.bytes().any(|sign| matches!(sign, b'O' | b'o' | b'P' | b'p' | b':' | b'['));
+    lines.any(|line| may(line) && !matches!(control(line), None | Some(Control::Label(_) | Control::Back)))
 }
 
 impl<'t> Flow<'t> {

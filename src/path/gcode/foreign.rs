@@ -1,6 +1,7 @@
 //! Programs in other languages, named as what they are.
 
 use crate::error::Error;
+use crate::path::lines::TextLines;
 
 /// How a line of another language begins, the language, and what to do.
 const LANGUAGES: [(&str, &str, &str); 12] = [
@@ -28,7 +29,7 @@ const LOOKED_AT: usize = 20;
 /// # Errors
 /// [`Error::Text`] with the name of the language.
 pub(super) fn check(text: &str, field: &str) -> Result<(), Error> {
-    for (index, line) in text.lines().take(LOOKED_AT).enumerate() {
+    for (index, line) in TextLines::of(text).take(LOOKED_AT).enumerate() {
         let content = line.trim_start();
         let start = content.to_ascii_uppercase();
         // `PARTNO /` and `PARTNO/` are the same.

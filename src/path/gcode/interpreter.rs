@@ -44,6 +44,8 @@ pub(super) struct Interpreter<'o> {
     pub(super) local: Vector3<f64>,
     /// G92 [m].
     pub(super) shift: Vector3<f64>,
+    /// Unit of the coordinates before [m].
+    pub(super) noted_unit: Option<f64>,
     started: bool,
     ended: bool,
 }
@@ -66,6 +68,7 @@ impl<'o> Interpreter<'o> {
             tool_length: 0.0,
             local: Vector3::zeros(),
             shift: Vector3::zeros(),
+            noted_unit: None,
             started: false,
             ended: false,
         }

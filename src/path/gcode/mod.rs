@@ -60,6 +60,7 @@ pub use drill::PECK_CLEARANCE;
 pub use options::{ARC_TOLERANCE_PART, Options};
 
 use crate::error::Error;
+use crate::path::lines::TextLines;
 use crate::path::program::Program;
 use crate::units::INCH;
 use block::Block;
@@ -77,7 +78,7 @@ use word::WordFault;
 /// [`Error::Text`] with line and column of the first word that is unknown, does not fit, or would
 /// change the path in a way that is not modelled.
 pub fn program(text: &str, options: &Options, mut on_line: impl FnMut(usize)) -> Result<Program, Error> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text).trim_end_matches(['\0', '\u{1a}']);
+    let lines = TextLines::of(text);
     let dialect = options.dialect.unwrap_or_else(|| GcodeDialect::of(text));
     if dialect != GcodeDialect::Siemens {
         foreign::check(text, &options.field)?;
@@ -95,9 +96,11 @@ pub fn program(text: &str, options: &Options, mut on_line: impl FnMut(usize)) ->
         found: fault.found,
         expected: fault.expected,
     };
-    let jumps = flow::decides(text);
+    let jumps = flow::decides(lines.clone());
+    let mut count = 0;
     if jumps {
-        let parts = flow::parts(text);
+        let parts = flow::parts(lines);
+        count = parts.last().map_or(0, |(index, _)| index + 1);
         let mut block = Block::default();
         let mut flow = Flow::new(&parts, options.block_delete);
         let mut furthest = 0;
@@ -115,11 +118,12 @@ pub fn program(text: &str, options: &Options, mut on_line: impl FnMut(usize)) ->
             }
         }
     } else {
-        for (index, line) in text.lines().enumerate() {
-            interpreter.line = index + 1;
+        for (index, line) in lines.enumerate() {
+            count = index + 1;
+            interpreter.line = count;
             run_line(line, &mut interpreter, &mut block, &mut variables, &mut opened)
                 .map_err(|fault| place(index, line, fault))?;
-            on_line(index + 1);
+            on_line(count);
         }
     }
     let mut program = interpreter.program;
@@ -128,7 +132,7 @@ pub fn program(text: &str, options: &Options, mut on_line: impl FnMut(usize)) ->
     if program.unit.is_empty() {
         program.unit = if interpreter.modal.unit == INCH { "inch" } else { "mm" };
     }
-    program.lines = text.lines().count();
+    program.lines = count;
     Ok(program)
 }
 

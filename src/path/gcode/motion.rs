@@ -21,6 +21,10 @@ const MOST_TURNS: u32 = 1000;
 impl Interpreter<'_> {
     /// Records the unit of the first coordinates, with remarks about a missing or changed unit.
     pub(super) fn note_unit(&mut self) {
+        if self.noted_unit == Some(self.modal.unit) {
+            return;
+        }
+        self.noted_unit = Some(self.modal.unit);
         let unit = if self.modal.unit == INCH { "inch" } else { "mm" };
         if !self.modal.unit_said {
             self.remark("unit-assumed", || {

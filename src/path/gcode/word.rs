@@ -75,7 +75,13 @@ pub(super) fn words(
     variables: &mut Variables,
 ) -> Result<(), WordFault> {
     let mut at = from;
-    while let Some(token) = tokens(line, at).next() {
+    loop {
+        if let Some(word) = plain_word(line, at) {
+            at = word.end;
+            words.push(word);
+            continue;
+        }
+        let Some(token) = tokens(line, at).next() else { break };
         at = token.end();
         match token.kind {
             Kind::LineComment => {}
@@ -108,6 +114,65 @@ pub(super) fn words(
     }
     variables.settle();
     Ok(())
+}
+
+/// Digits that a double holds exactly, whatever they are.
+const EXACT_DIGITS: usize = 15;
+/// Powers of ten that a double holds exactly.
+#[rustfmt::skip] // A table.
+const POWERS: [f64; EXACT_DIGITS + 1] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+];
+
+/// The word at the byte `at` if it is written as almost all are: a letter other than O and some digits,
+/// then a blank, a letter or the end of the line. It is read without the detour of tokens.
+///
+/// Digits and power of ten are exact, so that their quotient is the double nearest to the decimal, as
+/// [`str::parse`] gives it.
+fn plain_word(line: &str, at: usize) -> Option<Word> {
+    let bytes = line.as_bytes();
+    let byte = |at: usize| bytes.get(at).copied().unwrap_or(b' ');
+    let blank = |byte: u8| byte == b' ' || byte == b'\t';
+    let mut at = at;
+    while at < bytes.len() && blank(bytes[at]) {
+        at += 1;
+    }
+    let (start, letter) = (at, byte(at).to_ascii_uppercase());
+    if !letter.is_ascii_uppercase() || letter == b'O' {
+        return None;
+    }
+    at += 1;
+    let negative = byte(at) == b'-';
+    at += usize::from(negative);
+    let (first, mut mantissa, mut decimals) = (at, 0_u64, 0);
+    let mut digits = |at: &mut usize| {
+        while byte(*at).is_ascii_digit() {
+            mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(byte(*at) - b'0'));
+            *at += 1;
+        }
+    };
+    digits(&mut at);
+    let mut count = at - first;
+    if byte(at) == b'.' {
+        at += 1;
+        let point = at;
+        digits(&mut at);
+        decimals = at - point;
+        count += decimals;
+    }
+    let ends = blank(byte(at)) || byte(at).is_ascii_alphabetic() && !matches!(byte(at), b'e' | b'E');
+    if count == 0 || count > EXACT_DIGITS || !ends {
+        return None;
+    }
+    let size = mantissa as f64 / POWERS[decimals];
+    let value = if negative { 0.0 - size } else { size };
+    (size <= LARGEST).then_some(Word {
+        letter: char::from(letter),
+        value,
+        start,
+        end: at,
+        mode: WordMode::Modal,
+    })
 }
 
 /// Whether a letter is followed by an expression instead of a number.
@@ -236,6 +301,37 @@ mod tests {
         }
         assert_eq!(read("g1x1y-2.5"), Ok(vec![('G', 1.0), ('X', 1.0), ('Y', -2.5)]));
         assert!(read("X-0").is_ok_and(|words| words[0].1.is_sign_positive()));
+    }
+
+    #[test]
+    fn plain_numbers_are_the_nearest_doubles() {
+        let mut state = 1_u64;
+        for _ in 0..200_000 {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let (whole, part, places) =
+                (state >> 60, (state >> 24) & 0xffff_ffff, (state >> 16) as usize % 12);
+            let sign = if state & 0x8000 == 0 { "" } else { "-" };
+            let number =
+                format!("{sign}{whole}.{:.places$}", part % 10_u64.pow(places as u32), places = places);
+            let word = plain_word(&format!("X{number}"), 0).unwrap();
+            assert_eq!(word.value.to_bits(), (number.parse::<f64>().unwrap() + 0.0).to_bits(), "{number}");
+        }
+        for left in [
+            "X",
+            "X-",
+            "X.",
+            "X+1",
+            "X 1",
+            "X1E+2",
+            "X1#2",
+            "X1[2",
+            "X1(a",
+            "O1",
+            "X1\u{e4}",
+            "X1234567890123456",
+        ] {
+            assert_eq!(plain_word(left, 0), None, "{left}: left to the tokens");
+        }
     }
 
     #[test]

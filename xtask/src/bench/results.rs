@@ -223,6 +223,13 @@ impl Display for Results {
             )?;
         }
         self.poses(f)?;
+        if let Some(time) = self.native.of("reading", "G-code, plain lines") {
+            writeln!(
+                f,
+                "\n500,000 plain lines of G-code are read in {:.0} ms natively.\n",
+                time.median / 1e6
+            )?;
+        }
         self.memory(f)?;
         let drag = |key: &str| self.chromium["drag"][key].as_f64().unwrap_or(f64::NAN);
         writeln!(
