@@ -26,7 +26,7 @@ struct Row {
 }
 
 /// How many are read right today, at least. The goal is 38.
-const READ_TODAY: usize = 39;
+const READ_TODAY: usize = 40;
 
 /// Programs are worked to 0.0001 mm, and centres are written to 0.001 mm.
 const TOLERANCE: f64 = 0.002;
@@ -170,7 +170,7 @@ const ROWS: [Row; 40] = [
     Row {
         file: "23-linuxcnc-polar.nc", post: "LinuxCNC, by hand: polar coordinates", length: 142.0,
         lowest: [-20.0, -17.3205, -1.0], highest: [20.0, 17.3205, 10.0], end: [20.0, 0.0, 10.0],
-        cuts: 7, rapids: 2, dwell: 0.0, reads: false,
+        cuts: 7, rapids: 2, dwell: 0.0, reads: true,
     },
     // sqrt((2 * 2 * pi * 0.5)^2 + 0.5^2) helix + 0.5 along + 0.5 up (inches)
     Row {

@@ -1,9 +1,9 @@
 //! One line of a program: its codes by modal group, and its other words, each used once.
 
 use super::code::{self, GROUPS, Group, Meaning};
-use super::expression::Variables;
 use super::interpreter::AXES;
 use super::siemens::{Siemens, SiemensCycle};
+use super::variables::Variables;
 use super::word::{self, Word, WordFault};
 
 /// A G or M code.
@@ -36,9 +36,9 @@ pub(super) struct Block<'t> {
     pub(super) harmless: Vec<(Word, &'static [char])>,
 }
 
-/// The bit of a capital letter.
+/// The bit of a capital letter, `@` or `^`: their codes follow one another.
 fn bit(letter: char) -> u32 {
-    1 << (u32::from(letter) - u32::from('A'))
+    1 << (u32::from(letter) - u32::from('@'))
 }
 
 impl<'t> Block<'t> {
@@ -173,6 +173,17 @@ impl<'t> Block<'t> {
         }
         let index = self.words.iter().position(|word| word.letter == letter)?;
         Some(self.words.remove(index))
+    }
+
+    /// The words that are left.
+    pub(super) fn words(&self) -> &[Word] {
+        &self.words
+    }
+
+    /// Adds a word.
+    pub(super) fn put(&mut self, word: Word) {
+        self.letters |= bit(word.letter);
+        self.words.push(word);
     }
 
     /// Byte of the block's first word, for errors about the whole block.

@@ -41,6 +41,11 @@ pub(super) const EXTENDED_OFFSET: u32 = 541;
 /// See [`EXTENDED_OFFSET`].
 pub(super) const HAAS_OFFSET: u32 = 1540;
 
+/// G110 to G129 (Haas): the first twenty of them.
+pub(super) const HAAS_FIRST: u32 = 1100;
+/// See [`HAAS_FIRST`].
+pub(super) const HAAS_LAST: u32 = 1290;
+
 /// Number of groups.
 pub(super) const GROUPS: usize = Group::ToolChange as usize + 1;
 
@@ -73,10 +78,11 @@ pub(super) fn g(tenths: u32) -> Meaning {
         540 | 550 | 560 | 570 | 580 | 590 | 591 | 592 | 593 | EXTENDED_OFFSET | HAAS_OFFSET => {
             Acts(Group::WorkOffset)
         }
+        HAAS_FIRST..=HAAS_LAST if tenths.is_multiple_of(10) => Acts(Group::WorkOffset),
         610 | 611 | 640 => Acts(Group::Blending),
         40 | 100 | 280 | 300 | 520 | 530 | 920 | 921 => Acts(Group::NonModal),
         // Each ends a mode whose start is refused, or names the only mode there is.
-        131 | 150 | 230 | 400 | 491 | 500 | 670 | 690 | 691 | 970 | 1130 => Harmless(&[]),
+        131 | 150 | 230 | 400 | 491 | 500 | 670 | 690 | 691 | 970 => Harmless(&[]),
         501 => Harmless(&['X', 'Y', 'Z']),
         // Where the controller keeps its accuracy: smoothing, look-ahead, exact stop, speed watch.
         51 => Harmless(&['Q', 'R', 'P', 'X', 'Y', 'Z']),
@@ -89,7 +95,8 @@ pub(super) fn g(tenths: u32) -> Meaning {
         // They store where the reference position is.
         281 | 301 => Harmless(&['X', 'Y', 'Z', 'A', 'B', 'C']),
         410 | 411 | 420 | 421 => Refused(
-            "cutter radius compensation is not modelled: have the CAM system post the path of the tool's centre",
+            "cutter radius compensation is not read, as it depends on the radius and wear stored in the control: \
+             have the CAM system post the compensated path (compensation in computer), or program the tool's centre line",
         ),
         160 => Refused("polar coordinates are not read: have the CAM system post X and Y"),
         510 | 511 => Refused(
@@ -99,7 +106,8 @@ pub(super) fn g(tenths: u32) -> Meaning {
             "a rotated frame is not read: turn the workpiece frame of the job, or post rotated coordinates",
         ),
         50 | 52 | 62 => Refused("splines are not read: have the CAM system post lines and arcs"),
-        650 | 660 | 661 => Refused("macro calls are not followed: have the CAM system post plain moves"),
+        650 => Refused("G65 names its macro by P, which stands in this text as O and its number"),
+        660 | 661 => Refused("modal macro calls are not followed: call the macro by G65 at each place"),
         431 | 434 | 435 => Refused(
             "only G43 with an H number is read, for a tool that keeps its direction: post for three axes",
         ),

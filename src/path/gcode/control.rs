@@ -27,8 +27,10 @@ pub(super) enum Control {
     Continue(ControlName),
     /// `IF [..] GOTO 10` or `IF [..] THEN ..`.
     When(usize),
-    /// `WHILE [..] DO 1`.
-    WhileDo(usize),
+    /// `WHILE [..] DO 1`, with the number after DO.
+    WhileDo(usize, Option<u32>),
+    /// `DO 1` without WHILE: a loop that only a jump leaves.
+    DoLoop(u32),
     /// `END 1`.
     End(u32),
     GoTo(usize),
@@ -38,8 +40,25 @@ pub(super) enum Control {
         repeats: Option<u32>,
         is_line: bool,
     },
+    /// G65, with its words.
+    Macro(usize),
     /// M99.
     Back,
+    /// M99 P: back to the line with this number.
+    BackTo(u32),
+}
+
+impl Control {
+    /// Whether only LinuxCNC has it.
+    pub(super) fn is_linuxcnc(&self) -> bool {
+        use Control::*;
+        match self {
+            Label(_) | When(_) | WhileDo(..) | DoLoop(_) | End(_) | GoTo(_) => false,
+            CallNumber { .. } | Macro(_) | Back | BackTo(_) => false,
+            Sub(_) | EndSub(_) | Return(_) | Call(..) | If(..) | ElseIf(..) | Else(_) | EndIf(_) => true,
+            While(..) | EndWhile(_) | Do(_) | Repeat(..) | EndRepeat(_) | Break(_) | Continue(_) => true,
+        }
+    }
 }
 
 /// The number of a line, N.
@@ -48,11 +67,10 @@ pub(super) fn line_number(line: &str) -> Option<u32> {
     rest[..rest.bytes().take_while(u8::is_ascii_digit).count()].parse().ok()
 }
 
-/// The number after DO in a line that begins with WHILE.
-pub(super) fn do_number(line: &str) -> Option<u32> {
-    let upper = line.to_ascii_uppercase();
-    let rest = upper.contains("WHILE").then(|| upper.rsplit_once("DO"))??.1.trim_start().to_owned();
-    rest[..rest.bytes().take_while(u8::is_ascii_digit).count()].parse().ok()
+/// The number at the start of a text.
+fn leading_number(text: &str) -> Option<u32> {
+    let text = text.trim_start();
+    text[..text.bytes().take_while(u8::is_ascii_digit).count()].parse().ok()
 }
 
 /// What a line decides.
@@ -66,7 +84,7 @@ pub(super) fn control(line: &str) -> Option<Control> {
     let start = [0, 1].map(|at| rest.as_bytes().get(at).map_or(b' ', u8::to_ascii_uppercase));
     match &start {
         [b'O' | b':', _] => named(line, at),
-        b"IF" | b"WH" | b"EN" | b"GO" => spelled(rest, at).or_else(|| called(line, at)),
+        b"IF" | b"WH" | b"EN" | b"GO" | b"DO" => spelled(rest, at).or_else(|| called(line, at)),
         _ => called(line, at),
     }
 }
@@ -112,7 +130,7 @@ fn named(line: &str, at: usize) -> Option<Control> {
     })
 }
 
-/// IF, WHILE, END and GOTO.
+/// IF, WHILE, DO, END and GOTO.
 fn spelled(rest: &str, at: usize) -> Option<Control> {
     let upper = rest.to_ascii_uppercase();
     let follows = |word: &str| upper.strip_prefix(word).map(|after| after.trim_start().to_owned());
@@ -120,27 +138,38 @@ fn spelled(rest: &str, at: usize) -> Option<Control> {
         return Some(Control::When(at + 2));
     }
     if follows("WHILE").is_some_and(|after| after.starts_with('[')) {
-        return Some(Control::WhileDo(at + 5));
+        let number = upper.rsplit_once("DO").and_then(|(_, after)| leading_number(after));
+        return Some(Control::WhileDo(at + 5, number));
     }
-    if let Some(number) = follows("END") {
-        let digits = number.bytes().take_while(u8::is_ascii_digit).count();
-        return number[..digits].parse().ok().map(Control::End);
+    if let Some(after) = follows("END") {
+        return leading_number(&after).map(Control::End);
     }
-    follows("GOTO").map(|_| Control::GoTo(at + 4))
+    if let Some(after) = follows("DO") {
+        return leading_number(&after).map(Control::DoLoop);
+    }
+    // GOTOF and GOTOB are Siemens' own.
+    let goes =
+        follows("GOTO").is_some_and(|after| !after.starts_with(|sign: char| sign.is_ascii_alphabetic()));
+    goes.then_some(Control::GoTo(at + 4))
 }
 
-/// M97, M98, M99 with their words, which follow them.
+/// G65, M97, M98, M99 with their words, which follow them.
 fn called(line: &str, from: usize) -> Option<Control> {
     let call = call_in(line, from)?;
     match (call.code, call.number) {
+        (MACRO_CALL, _) => call.places.first().map(|(_, end)| Control::Macro(*end)),
+        (99, _) if call.repeats.is_some() => None,
         (99, None) => Some(Control::Back),
-        // Whether a line's P is its number or its repeats, controls do not agree on.
-        (99, Some(_)) | (_, None) => None,
+        (99, Some(number)) => Some(Control::BackTo(number)),
+        (_, None) => None,
         (code, Some(number)) => {
             Some(Control::CallNumber { number, repeats: call.repeats, is_line: code == 97 })
         }
     }
 }
+
+/// The G code that calls a macro.
+const MACRO_CALL: u32 = 65;
 
 /// A call or return in a line, and the bytes of its words.
 struct CallWords {
@@ -152,7 +181,7 @@ struct CallWords {
 }
 
 fn call_in(line: &str, from: usize) -> Option<CallWords> {
-    if !line.bytes().any(|sign| matches!(sign, b'M' | b'm')) {
+    if !line.bytes().any(|sign| matches!(sign, b'M' | b'm' | b'P' | b'p')) {
         return None;
     }
     let mut found: Option<CallWords> = None;
@@ -162,6 +191,11 @@ fn call_in(line: &str, from: usize) -> Option<CallWords> {
         let letter = token.text.as_bytes()[0].to_ascii_uppercase();
         let place = (token.start, token.end());
         match (letter, value, &mut found) {
+            // All that follows are its words.
+            (b'G', Some(65.0), None) => {
+                let (number, repeats, places) = (None, None, vec![place, (place.1, line.len())]);
+                return Some(CallWords { code: MACRO_CALL, number, repeats, places, others });
+            }
             (b'M', Some(value), None) if [97.0, 98.0, 99.0].contains(&value) => {
                 let places = vec![place];
                 found = Some(CallWords { code: value as u32, number: None, repeats: None, places, others });

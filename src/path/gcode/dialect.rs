@@ -1,11 +1,11 @@
 //! The controller that a program is written for. It decides what several would read differently.
 
-use super::control::{Control, control};
+use super::control::control;
 use crate::path::builder::LONGEST_WAIT;
 use crate::path::lines::TextLines;
 
 /// A controller's way of writing programs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum GcodeDialect {
     /// Fanuc, and Haas, which follows it.
     Fanuc,
@@ -18,6 +18,7 @@ pub enum GcodeDialect {
     /// Mach3 and Mach4.
     Mach,
     /// None of them is recognised.
+    #[default]
     Unknown,
 }
 
@@ -72,7 +73,7 @@ impl GcodeDialect {
             if let Some((_, dialect)) = NAMES.iter().find(|(name, _)| is_named(&lower, name)) {
                 return *dialect;
             }
-            if matches!(control(line), Some(Control::Sub(_) | Control::Call(..))) {
+            if control(line).is_some_and(|control| control.is_linuxcnc()) {
                 return Self::LinuxCnc;
             }
             let open = upper.split(['(', ';']).next().unwrap_or_default();

@@ -2,103 +2,18 @@
 //! them, as LinuxCNC, Fanuc and Siemens write it.
 //!
 //! Angles are in degrees. In brackets the operators bind, from the tightest: `**`; `*`, `/`, `MOD`;
-//! `+`, `-`; `EQ`, `NE`, `GT`, `GE`, `LT`, `LE` (`==`, `<>`, `>`, `>=`, `<`, `<=`); `AND`, `OR`, `XOR`.
+//! `+`, `-`; `EQ`, `NE`, `GT`, `GE`, `LT`, `LE` (`==`, `<>`, `>`, `>=`, `<`, `<=`); `AND`, `OR`, `XOR`. On a
+//! Fanuc, `AND` binds like `*`, `OR` and `XOR` like `+`, and all three join whole numbers bit by bit.
 
+use super::dialect::GcodeDialect;
+use super::operator::{FUNCTIONS, levels};
+use super::variables::{Operand, Variable, Variables};
 use super::word::{LARGEST, WordFault};
 use crate::math;
 use crate::units::DEG;
-use std::collections::BTreeMap;
 
 /// Deepest nesting of brackets.
 const DEEPEST: usize = 50;
-
-/// The values of a program's variables.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Variables {
-    /// By `#` and a number.
-    numbered: BTreeMap<u32, f64>,
-    /// By `#<name>`, lower case.
-    named: BTreeMap<String, f64>,
-    /// `R` and a number (Siemens).
-    arithmetic: BTreeMap<u32, f64>,
-    /// Whether LinuxCNC's rules hold.
-    pub(super) is_linuxcnc: bool,
-    /// Values set in the line being read.
-    pending: Vec<(Variable, f64)>,
-}
-
-/// A variable.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Variable {
-    Numbered(u32),
-    Named(String),
-    Arithmetic(u32),
-}
-
-impl Variables {
-    /// Sets a variable; on LinuxCNC its value holds from the next line on.
-    pub(super) fn set(&mut self, variable: Variable, value: f64) {
-        if self.is_linuxcnc { self.pending.push((variable, value)) } else { self.put(variable, value) }
-    }
-
-    /// The values set in the line just read hold from here on.
-    pub(super) fn settle(&mut self) {
-        if self.pending.is_empty() {
-            return;
-        }
-        for (variable, value) in std::mem::take(&mut self.pending) {
-            self.put(variable, value);
-        }
-    }
-
-    fn put(&mut self, variable: Variable, value: f64) {
-        match variable {
-            Variable::Numbered(number) => self.numbered.insert(number, value),
-            Variable::Named(name) => self.named.insert(name, value),
-            Variable::Arithmetic(number) => self.arithmetic.insert(number, value),
-        };
-    }
-
-    fn get(&self, variable: &Variable) -> Option<f64> {
-        match variable {
-            Variable::Numbered(number) => self.numbered.get(number),
-            Variable::Named(name) => self.named.get(name),
-            Variable::Arithmetic(number) => self.arithmetic.get(number),
-        }
-        .copied()
-    }
-
-    /// The local variables.
-    pub(super) fn locals(&self) -> Locals {
-        let numbered = self.numbered.range(1..=30).map(|(number, value)| (*number, *value)).collect();
-        let named = self.named.iter().filter(|(name, _)| !name.starts_with('_'));
-        Locals { numbered, named: named.map(|(name, value)| (name.clone(), *value)).collect() }
-    }
-
-    /// Puts local variables in place of those in force.
-    pub(super) fn set_locals(&mut self, locals: Locals) {
-        self.numbered.retain(|number, _| !(1..=30).contains(number));
-        self.numbered.extend(locals.numbered);
-        self.named.retain(|name, _| name.starts_with('_'));
-        self.named.extend(locals.named);
-    }
-}
-
-/// Variables that a subprogram of LinuxCNC has for itself: #1 to #30, and names that do not start with
-/// an underscore.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Locals {
-    numbered: BTreeMap<u32, f64>,
-    named: BTreeMap<String, f64>,
-}
-
-impl Locals {
-    /// Those of a call with these values.
-    pub(super) fn of(given: &[f64]) -> Self {
-        let numbered = (1..).zip(given.iter().copied()).collect();
-        Self { numbered, named: BTreeMap::new() }
-    }
-}
 
 /// A place in a line from which values are read.
 pub(super) struct ExpressionReader<'a> {
@@ -144,11 +59,29 @@ impl<'a> ExpressionReader<'a> {
         Err(WordFault { at: start, found, expected: format!("a number within -{LARGEST:e} and {LARGEST:e}") })
     }
 
-    /// One value: a number, a variable, a function, or an expression in brackets, with a sign.
+    /// One value: a number, a variable, a function, or an expression in brackets, with a sign. One that
+    /// is vacant counts as 0.
     ///
     /// # Errors
     /// At the place that is no value, or a variable without one.
     pub(super) fn value(&mut self) -> Result<f64, WordFault> {
+        let value = self.operand()?;
+        Ok(self.counted(value))
+    }
+
+    /// A vacant value counts as 0.
+    fn counted(&self, value: Operand) -> f64 {
+        value.unwrap_or_else(|| {
+            self.variables.used_vacant.set(true);
+            0.0
+        })
+    }
+
+    /// As [`Self::value`], or none if it is vacant.
+    ///
+    /// # Errors
+    /// See [`Self::value`].
+    pub(super) fn operand(&mut self) -> Result<Operand, WordFault> {
         self.depth += 1;
         if self.depth > DEEPEST {
             return Err(self.fault("brackets within each other, fifty at most"));
@@ -156,9 +89,9 @@ impl<'a> ExpressionReader<'a> {
         self.skip_blanks();
         let start = self.at;
         let value = if self.take("-") {
-            -self.value()?
+            self.operand()?.map(|value| -value)
         } else if self.take("+") {
-            self.value()?
+            self.operand()?
         } else if self.take("[") {
             self.bracketed("]")?
         } else if self.rest().starts_with('(') && self.depth > 1 {
@@ -175,16 +108,16 @@ impl<'a> ExpressionReader<'a> {
                 }
             }
         } else if let Some(number) = self.number() {
-            number
+            Some(number)
         } else {
-            self.function()?
+            Some(self.function()?)
         };
         self.depth -= 1;
-        self.finite(start, value + 0.0)
+        value.map(|value| self.finite(start, value + 0.0)).transpose()
     }
 
-    fn bracketed(&mut self, close: &str) -> Result<f64, WordFault> {
-        let value = self.expression()?;
+    fn bracketed(&mut self, close: &str) -> Result<Operand, WordFault> {
+        let value = self.joined(0)?;
         if self.take(close) {
             Ok(value)
         } else {
@@ -192,18 +125,29 @@ impl<'a> ExpressionReader<'a> {
         }
     }
 
-    /// Values joined by operators.
+    /// Values joined by operators; vacant, it counts as 0.
     ///
     /// # Errors
     /// See [`Self::value`].
     pub(super) fn expression(&mut self) -> Result<f64, WordFault> {
+        let value = self.joined(0)?;
+        Ok(self.counted(value))
+    }
+
+    /// Values joined by operators, or none if there is only one, which is vacant.
+    ///
+    /// # Errors
+    /// See [`Self::value`].
+    pub(super) fn operands(&mut self) -> Result<Operand, WordFault> {
         self.joined(0)
     }
 
     /// Values joined by the operators of a level and of the tighter ones.
-    fn joined(&mut self, level: usize) -> Result<f64, WordFault> {
-        let Some(operators) = LEVELS.get(level) else { return self.value() };
+    fn joined(&mut self, level: usize) -> Result<Operand, WordFault> {
+        let dialect = self.variables.dialect;
+        let Some(operators) = levels(dialect).get(level) else { return self.operand() };
         let mut value = self.joined(level + 1)?;
+        let mut compared = false;
         'next: loop {
             for (sign, operator) in *operators {
                 let before = self.at;
@@ -211,7 +155,22 @@ impl<'a> ExpressionReader<'a> {
                 if self.take(sign) && !(*sign == "*" && self.rest().starts_with('*')) {
                     let start = self.at;
                     let other = self.joined(level + 1)?;
-                    value = self.finite(start, operator(value, other))?;
+                    let fault = |expected: &str| WordFault {
+                        at: before,
+                        found: format!("\"{}\"", self.line[before..self.at].trim()),
+                        expected: expected.into(),
+                    };
+                    if compared && dialect == GcodeDialect::Fanuc {
+                        return Err(fault(
+                            "each comparison in brackets of its own: [[#1 GT 2] AND [#3 LE 7]]",
+                        ));
+                    }
+                    compared = operator.compares();
+                    if !compared {
+                        (self.counted(value), self.counted(other));
+                    }
+                    let joined = operator.join(value, other, dialect).map_err(fault)?;
+                    value = Some(self.finite(start, joined)?);
                     continue 'next;
                 }
                 self.at = before;
@@ -288,8 +247,9 @@ impl<'a> ExpressionReader<'a> {
                     return Err(self.fault("the value of a function stands in brackets"));
                 }
                 let value = self.bracketed(close)?;
+                let value = self.counted(value);
                 // LinuxCNC rounds down and up, the others toward zero and away from it.
-                return Ok(match (name, self.variables.is_linuxcnc) {
+                return Ok(match (name, self.variables.dialect == GcodeDialect::LinuxCnc) {
                     ("FIX", false) => value.trunc(),
                     ("FUP", false) => value.abs().ceil().copysign(value),
                     _ => function(value),
@@ -313,6 +273,7 @@ impl<'a> ExpressionReader<'a> {
             let before = self.at;
             if !separate && self.take("/") && self.take("[") {
                 let x = self.bracketed("]")?;
+                let x = self.counted(x);
                 return Ok(math::atan2(y, x) / DEG);
             }
             self.at = before;
@@ -323,69 +284,16 @@ impl<'a> ExpressionReader<'a> {
     }
 }
 
-type Operator = fn(f64, f64) -> f64;
-type Function = fn(f64) -> f64;
-
-fn truth(holds: bool) -> f64 {
-    f64::from(u8::from(holds))
-}
-
-fn is_true(value: f64) -> bool {
-    value != 0.0
-}
-
-/// Operators by how loosely they bind.
-const LEVELS: [&[(&str, Operator)]; 5] = [
-    &[
-        ("AND", |a, b| truth(is_true(a) && is_true(b))),
-        ("OR", |a, b| truth(is_true(a) || is_true(b))),
-        ("XOR", |a, b| truth(is_true(a) != is_true(b))),
-    ],
-    &[
-        ("EQ", |a, b| truth(a == b)),
-        ("NE", |a, b| truth(a != b)),
-        ("GE", |a, b| truth(a >= b)),
-        ("GT", |a, b| truth(a > b)),
-        ("LE", |a, b| truth(a <= b)),
-        ("LT", |a, b| truth(a < b)),
-        ("==", |a, b| truth(a == b)),
-        ("<>", |a, b| truth(a != b)),
-        (">=", |a, b| truth(a >= b)),
-        ("<=", |a, b| truth(a <= b)),
-        (">", |a, b| truth(a > b)),
-        ("<", |a, b| truth(a < b)),
-    ],
-    &[("+", |a, b| a + b), ("-", |a, b| a - b)],
-    &[("*", |a, b| a * b), ("/", |a, b| a / b), ("MOD", |a, b| a - b * (a / b).floor())],
-    &[("**", math::pow)],
-];
-
-/// Functions of one value; angles in degrees.
-const FUNCTIONS: [(&str, Function); 12] = [
-    ("ABS", f64::abs),
-    ("SQRT", f64::sqrt),
-    ("SIN", |a| math::sin(a * DEG)),
-    ("COS", |a| math::cos(a * DEG)),
-    ("TAN", |a| math::tan(a * DEG)),
-    ("ASIN", |a| math::atan2(a, (1.0 - a * a).sqrt()) / DEG),
-    ("ACOS", |a| math::acos(a) / DEG),
-    ("ROUND", f64::round),
-    ("FIX", f64::floor),
-    ("FUP", f64::ceil),
-    ("EXP", math::exp),
-    ("LN", math::ln),
-];
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn value(text: &str) -> Result<f64, String> {
         let mut variables = Variables::default();
-        variables.set(Variable::Numbered(1), 3.0);
-        variables.set(Variable::Numbered(3), 7.0);
-        variables.set(Variable::Named("depth".into()), -2.5);
-        variables.set(Variable::Arithmetic(10), 4.0);
+        variables.set(Variable::Numbered(1), Some(3.0));
+        variables.set(Variable::Numbered(3), Some(7.0));
+        variables.set(Variable::Named("depth".into()), Some(-2.5));
+        variables.set(Variable::Arithmetic(10), Some(4.0));
         let mut reader = ExpressionReader::new(text, 0, &variables);
         let value = reader.value().map_err(|fault| format!("{}: {}", fault.at, fault.expected))?;
         assert_eq!(reader.at, text.len(), "{text}");
@@ -424,6 +332,49 @@ mod tests {
             let found = value(text).unwrap_or_else(|error| panic!("{text}: {error}"));
             assert!((found - wanted).abs() < 1e-12, "{text}: {found}");
         }
+    }
+
+    #[test]
+    fn controls_join_as_their_books_say() {
+        use GcodeDialect::{Fanuc, LinuxCnc, Unknown};
+        let value = |text: &str, dialect| {
+            let mut variables = Variables::of(dialect);
+            for (number, value) in [(1, 6.0), (2, 3.0)] {
+                variables.set(Variable::Numbered(number), Some(value));
+            }
+            variables.settle();
+            ExpressionReader::new(text, 0, &variables).operands().map_err(|fault| fault.expected)
+        };
+        for (text, dialect, wanted) in [
+            // 110 and 011 in binary.
+            ("#1 AND #2", Fanuc, Some(2.0)),
+            ("#1 OR #2", Fanuc, Some(7.0)),
+            ("#1 XOR #2", Fanuc, Some(5.0)),
+            ("#1 AND #2", LinuxCnc, Some(1.0)),
+            ("#1 XOR #2", LinuxCnc, Some(0.0)),
+            // AND binds like a product, OR like a sum: (6 AND 3) + 1 and (8 OR 6) - 2, from the left.
+            ("#1 AND #2 + 1", Fanuc, Some(3.0)),
+            ("8 OR #1 - 2", Fanuc, Some(12.0)),
+            ("#1 AND #2 + 1", LinuxCnc, Some(1.0)),
+            ("[[#1 AND 2] EQ 2]", Fanuc, Some(1.0)),
+            ("[[#1 GT 2] AND [#2 LE 7]]", Fanuc, Some(1.0)),
+            ("[#1 GT 2] AND [#2 GT 7]", Unknown, Some(0.0)),
+            ("#0", Fanuc, None),
+            ("-[#0]", Fanuc, None),
+            ("#0 + 2", Fanuc, Some(2.0)),
+            ("#5 EQ #0", Fanuc, Some(1.0)),
+            ("#1 EQ #0", Fanuc, Some(0.0)),
+            ("#1 NE #0", Fanuc, Some(1.0)),
+            // A vacant value equals no number, not even 0, but is no less than 0.
+            ("#0 EQ 0", Fanuc, Some(0.0)),
+            ("#0 GE 0", Fanuc, Some(1.0)),
+        ] {
+            assert_eq!(value(text, dialect), Ok(wanted), "{text}");
+        }
+        assert!(value("#1 AND 2.5", Fanuc).is_err_and(|said| said.contains("whole")));
+        assert!(value("#1 AND #2", Unknown).is_err_and(|said| said.contains("path.dialect")));
+        assert!(value("#1 GT 2 AND #2 LE 7", Fanuc).is_err_and(|said| said.contains("brackets")));
+        assert!(value("#0", LinuxCnc).is_err() && value("#100", Fanuc).is_err());
     }
 
     #[test]

@@ -1,12 +1,15 @@
 //! Programs that do not run from the first line to the last: subprograms, loops and conditions of
-//! LinuxCNC (O words) and Fanuc (M97, M98, M99, IF, WHILE, GOTO).
+//! LinuxCNC (O words) and Fanuc (G65, M97, M98, M99, IF, WHILE, DO, GOTO).
 //!
 //! Only what stands in the same text is followed. Steps and calls are bounded, so that a loop without
 //! an end is an error at its line.
 
 use super::after_slash;
-use super::control::{Control, control, do_number, line_number, pieces};
-use super::expression::{ExpressionReader, Locals, Variables};
+use super::call::Call;
+use super::control::{Control, control, line_number, pieces};
+use super::expression::ExpressionReader;
+use super::token::tokens;
+use super::variables::Variables;
 use super::word::{self, WordFault};
 use crate::path::lines::TextLines;
 use std::cell::Cell;
@@ -15,18 +18,8 @@ use std::cell::Cell;
 const MOST_STEPS: usize = 3_000_000;
 /// Most lines that are looked through for the other ends of jumps.
 const MOST_LOOKED_THROUGH: usize = 200_000_000;
-/// Most calls within each other.
-const DEEPEST: usize = 100;
 /// Most repeats of a call or a loop.
-const MOST_REPEATS: u32 = 100_000;
-
-/// A call that has not returned.
-struct Call {
-    back: usize,
-    start: usize,
-    repeats: u32,
-    locals: Option<Locals>,
-}
+pub(super) const MOST_REPEATS: u32 = 100_000;
 
 /// A fault and the line, from 0, in which it is.
 pub(super) type LineFault = (usize, WordFault);
@@ -36,9 +29,9 @@ pub(super) struct Flow<'t> {
     pub(super) lines: Vec<&'t str>,
     /// The line of the text, from 0, that each is (a part of).
     pub(super) sources: Vec<usize>,
-    controls: Vec<Option<Control>>,
-    at: usize,
-    calls: Vec<Call>,
+    pub(super) controls: Vec<Option<Control>>,
+    pub(super) at: usize,
+    pub(super) calls: Vec<Call>,
     /// Lines of loops that repeat, with the repeats that are left.
     repeats: Vec<(usize, u32)>,
     steps: usize,
@@ -55,8 +48,10 @@ pub(super) fn parts(lines: TextLines) -> Vec<(usize, String)> {
 
 /// Whether a text has lines that decide which line is next.
 pub(super) fn decides(mut lines: TextLines) -> bool {
-    // An O word, GOTO and DO have an O, a call has its P, a condition its bracket.
-    let may = |line: &str| line.bytes().any(|sign| matches!(sign, b'O' | b'o' | b'P' | b'p' | b':' | b'['));
+    // An O word, GOTO and DO have an O, END a D, a call its P, a condition its bracket.
+    let may = |line: &str| {
+        line.bytes().any(|sign| matches!(sign, b'O' | b'o' | b'P' | b'p' | b'D' | b'd' | b':' | b'['))
+    };
     lines.any(|line| may(line) && !matches!(control(line), None | Some(Control::Label(_) | Control::Back)))
 }
 
@@ -149,19 +144,9 @@ impl<'t> Flow<'t> {
                 return self.back(here, variables);
             }
             Call(name, from) => self.call(here, &name, from, variables)?,
-            CallNumber { number, repeats, is_line } => {
-                // Older controls write the repeats before the four digits of the number.
-                let is_label = |control: &Option<Control>| *control == Some(Label(number));
-                let both =
-                    !is_line && number > 9999 && repeats.is_none() && !self.controls.iter().any(is_label);
-                let (number, repeats) =
-                    if both { (number % 10_000, number / 10_000) } else { (number, repeats.unwrap_or(1)) };
-                if repeats > MOST_REPEATS {
-                    return Err(self.fault(here, "repeats of 100000 at most"));
-                }
-                let start = if is_line { self.numbered(here, number)? } else { self.labelled(here, number)? };
-                self.enter(here, start, repeats, None)?;
-            }
+            CallNumber { number, repeats, is_line } => self.call_number(here, number, repeats, is_line)?,
+            Macro(from) => self.call_macro(here, from, variables)?,
+            BackTo(number) => self.back_to(here, number, variables)?,
             If(name, from) | ElseIf(name, from) if matches!(self.controls[here], Some(If(..))) => {
                 if !self.holds(here, from, variables)? {
                     self.at = self.branch(here, &name, variables)?;
@@ -217,27 +202,27 @@ impl<'t> Flow<'t> {
                 self.at = self.after(here, is_end, "continue is in a loop of the same number")?;
             }
             When(from) => self.when(here, from, variables)?,
-            WhileDo(from) => self.while_do(here, from, variables)?,
+            WhileDo(from, number) => self.while_do(here, from, number, variables)?,
+            DoLoop(number) => self.do_loop(here, number)?,
             End(number) => {
-                let line = self.lines[..here].iter().rposition(|line| do_number(line) == Some(number));
-                self.look(here - line.unwrap_or(0));
-                self.at = line.ok_or_else(|| self.fault(here, "END closes a WHILE with the same number"))?;
+                let is_start = |control: &Control| match control {
+                    WhileDo(_, Some(other)) | DoLoop(other) => *other == number,
+                    _ => false,
+                };
+                self.at = self.before(here, is_start, "END closes a WHILE or DO with the same number")?;
             }
-            GoTo(from) => {
-                let number = self.value(here, from, variables)?;
-                self.at = self.numbered(here, number as u32)?;
-            }
+            GoTo(from) => self.go_to(here, from, variables)?,
         }
         Ok(true)
     }
 
-    fn fault(&self, line: usize, expected: &str) -> LineFault {
+    pub(super) fn fault(&self, line: usize, expected: &str) -> LineFault {
         let text = self.lines[line];
         let at = text.len() - text.trim_start().len();
         (line, WordFault { at, found: format!("\"{}\"", text.trim()), expected: expected.into() })
     }
 
-    fn look(&self, lines: usize) {
+    pub(super) fn look(&self, lines: usize) {
         self.looked.set(self.looked.get() + lines);
     }
 
@@ -259,8 +244,33 @@ impl<'t> Flow<'t> {
         found.ok_or_else(|| self.fault(here, expected))
     }
 
+    /// The value with which a line ends.
     fn value(&self, line: usize, from: usize, variables: &Variables) -> Result<f64, LineFault> {
-        ExpressionReader::new(self.lines[line], from, variables).value().map_err(|fault| (line, fault))
+        let mut reader = ExpressionReader::new(self.lines[line], from, variables);
+        let value = reader.value().map_err(|fault| (line, fault))?;
+        self.ends(line, reader.at)?;
+        Ok(value)
+    }
+
+    /// Fails unless nothing but a comment follows in a line.
+    pub(super) fn ends(&self, line: usize, at: usize) -> Result<(), LineFault> {
+        let rest = self.lines[line][at..].trim_start();
+        if rest.is_empty() || rest.starts_with(['(', ';']) {
+            return Ok(());
+        }
+        let at = self.lines[line].len() - rest.len();
+        let expected = "nothing but a comment follows here";
+        Err((line, WordFault { at, found: format!("\"{}\"", rest.trim_end()), expected: expected.into() }))
+    }
+
+    /// GOTO from the byte before its number.
+    fn go_to(&mut self, here: usize, from: usize, variables: &Variables) -> Result<(), LineFault> {
+        let number = self.value(here, from, variables)?;
+        if number.fract() != 0.0 || !(0.0..=f64::from(u32::MAX)).contains(&number) {
+            return Err(self.fault(here, &format!("the whole number of a line; this goes to {number}")));
+        }
+        self.at = self.numbered(here, number as u32)?;
+        Ok(())
     }
 
     fn holds(&self, line: usize, from: usize, variables: &Variables) -> Result<bool, LineFault> {
@@ -305,82 +315,8 @@ impl<'t> Flow<'t> {
         Ok(())
     }
 
-    fn call(
-        &mut self,
-        here: usize,
-        name: &str,
-        from: usize,
-        variables: &mut Variables,
-    ) -> Result<(), LineFault> {
-        let is_sub =
-            |control: &Option<Control>| matches!(control, Some(Control::Sub(other)) if other == name);
-        self.look(self.lines.len());
-        let Some(start) = self.controls.iter().position(is_sub) else {
-            return Err(self.fault(here, "a sub-program that stands in this text"));
-        };
-        // What is not given is 0.
-        let mut given: Vec<f64> = Vec::new();
-        let mut reader = ExpressionReader::new(self.lines[here], from, variables);
-        for _ in 1..=30 {
-            reader.skip_blanks();
-            if !self.lines[here][reader.at..].starts_with('[') {
-                break;
-            }
-            given.push(reader.value().map_err(|fault| (here, fault))?);
-        }
-        given.resize(30, 0.0);
-        let locals = variables.locals();
-        variables.set_locals(Locals::of(&given));
-        self.enter(here, start + 1, 1, Some(locals))
-    }
-
-    fn enter(
-        &mut self,
-        here: usize,
-        start: usize,
-        repeats: u32,
-        locals: Option<Locals>,
-    ) -> Result<(), LineFault> {
-        if self.calls.len() >= DEEPEST {
-            return Err(self.fault(here, "calls within each other, a hundred at most"));
-        }
-        if repeats == 0 {
-            return Ok(());
-        }
-        self.calls.push(Call { back: here + 1, start, repeats: repeats - 1, locals });
-        self.at = start;
-        Ok(())
-    }
-
-    /// Returns from a call, or repeats it.
-    fn back(&mut self, here: usize, variables: &mut Variables) -> Result<bool, LineFault> {
-        let Some(call) = self.calls.last_mut() else {
-            return Err(self.fault(here, "a return stands in a sub-program that was called"));
-        };
-        if call.repeats > 0 {
-            call.repeats -= 1;
-            self.at = call.start;
-            return Ok(true);
-        }
-        self.at = call.back;
-        if let Some(locals) = self.calls.pop().and_then(|call| call.locals) {
-            variables.set_locals(locals);
-        }
-        Ok(true)
-    }
-
-    /// The line after the number of a program.
-    fn labelled(&self, here: usize, number: u32) -> Result<usize, LineFault> {
-        let is_label = |control: &Option<Control>| *control == Some(Control::Label(number));
-        self.look(self.lines.len());
-        let found = self.controls.iter().position(is_label);
-        found.map(|line| line + 1).ok_or_else(|| {
-            self.fault(here, "a sub-program that stands in this text: the file of another one is not read")
-        })
-    }
-
     /// The line with this number in the same program, from here on and then from its start.
-    fn numbered(&self, here: usize, number: u32) -> Result<usize, LineFault> {
+    pub(super) fn numbered(&self, here: usize, number: u32) -> Result<usize, LineFault> {
         let is_label = |control: &Option<Control>| matches!(control, Some(Control::Label(_)));
         self.look(self.lines.len());
         let first = self.controls[..here].iter().rposition(is_label).unwrap_or(0);
@@ -408,24 +344,51 @@ impl<'t> Flow<'t> {
             return Ok(());
         }
         if goes {
-            let number = self.value(here, at, variables)?;
-            self.at = self.numbered(here, number as u32)?;
-            return Ok(());
+            return self.go_to(here, at, variables);
         }
         let mut words = Vec::new();
         word::words(line, at, &mut words, variables).map_err(|fault| (here, fault))?;
         if words.is_empty() { Ok(()) } else { Err(self.fault(here, "after THEN a variable is set")) }
     }
 
-    fn while_do(&mut self, here: usize, from: usize, variables: &Variables) -> Result<(), LineFault> {
-        if self.holds(here, from, variables)? {
-            return Ok(());
-        }
-        let Some(number) = do_number(self.lines[here]) else {
+    fn while_do(
+        &mut self,
+        here: usize,
+        from: usize,
+        number: Option<u32>,
+        variables: &Variables,
+    ) -> Result<(), LineFault> {
+        let Some(number) = number else {
             return Err(self.fault(here, "WHILE [condition] DO 1"));
         };
+        let mut reader = ExpressionReader::new(self.lines[here], from, variables);
+        let holds = reader.value().map_err(|fault| (here, fault))? != 0.0;
+        if holds {
+            return Ok(());
+        }
         let is_end = |control: &Control| *control == Control::End(number);
         self.at = self.after(here, is_end, "a loop ends with END and its number")? + 1;
         Ok(())
+    }
+
+    /// `DO 1` without WHILE runs until a jump, a return or the program's end leaves it.
+    fn do_loop(&self, here: usize, number: u32) -> Result<(), LineFault> {
+        use Control::*;
+        let is_end = |control: &Control| *control == End(number);
+        let end = self.after(here, is_end, "a loop ends with END and its number")?;
+        let ends = |line: &&str| {
+            let words = tokens(line, 0).map(|token| token.text.trim_start_matches(['M', 'm', '0', ' ']));
+            line.contains(['M', 'm']) && words.into_iter().any(|word| word == "2" || word == "30")
+        };
+        let leaves =
+            |control: &Option<Control>| matches!(control, Some(GoTo(_) | When(_) | Back | BackTo(_)));
+        if self.controls[here..end].iter().any(leaves) || self.lines[here..end].iter().any(|line| ends(&line))
+        {
+            return Ok(());
+        }
+        Err(self.fault(
+            here,
+            "a loop without an end: give it WHILE [condition], or leave it by IF [condition] GOTO",
+        ))
     }
 }

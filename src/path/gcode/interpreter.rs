@@ -5,6 +5,7 @@ use super::code::Group;
 use super::dialect::GcodeDialect;
 use super::modal::Modal;
 use super::options::Options;
+use super::point::Points;
 use super::siemens::Siemens;
 use super::word::{self, Word, WordFault};
 use crate::path::builder::LONGEST_WAIT;
@@ -44,6 +45,12 @@ pub(super) struct Interpreter<'o> {
     pub(super) local: Vector3<f64>,
     /// G92 [m].
     pub(super) shift: Vector3<f64>,
+    /// Axes that are at a position of the machine; `position` is where they were left.
+    pub(super) away: [bool; 3],
+    /// Axes that the move being made has a word for.
+    pub(super) given: [bool; 3],
+    /// How lengths were written.
+    pub(super) points: Points,
     /// Unit of the coordinates before [m].
     pub(super) noted_unit: Option<f64>,
     started: bool,
@@ -68,6 +75,9 @@ impl<'o> Interpreter<'o> {
             tool_length: 0.0,
             local: Vector3::zeros(),
             shift: Vector3::zeros(),
+            away: [false; 3],
+            given: [false; 3],
+            points: Points::default(),
             noted_unit: None,
             started: false,
             ended: false,
@@ -107,6 +117,7 @@ impl<'o> Interpreter<'o> {
         self.pass_over(block)?;
         self.modal.set(block)?;
         self.set_offsets(block)?;
+        self.resolve_polar(block)?;
         self.dwell(block)?;
         self.blending(block);
         self.motion(block)?;

@@ -16,10 +16,13 @@
 //!   G91.1.
 //! - G93 G94 G95, F, S: feed in 1/minutes, length per minute, length per revolution. Without F the
 //!   job's feed is used, with a remark.
-//! - G54 to G59.3, G52, G92, G92.1: offsets. G54.1 P and G154 P are at zero, with a remark, and so
-//!   is what G10 sets; other values are refused.
+//! - G54 to G59.3, G52, G92, G92.1: offsets. G54.1 P, G154 P and G110 to G129 (Haas) are at zero, with a
+//!   remark, and so is what G10 sets; other values are refused.
 //! - G28, G30, G53: positions of the machine. They are left out, with a remark: the tool goes up to
-//!   the highest level so far if they move Z, and otherwise stays where it is.
+//!   the highest level so far if they move Z, and otherwise stays where it is. The axes that they move are
+//!   not known until they are given again: nothing cuts and nothing counts from there, and what the tool
+//!   does beside the workpiece is left out.
+//! - `@`, `^`: polar words of LinuxCNC, a distance from X0 Y0 and an angle.
 //! - G43 G44 H, G49: tool length offsets along Z, in addition to the job's tool frame.
 //! - G73 G81 G82 G83 G85 G89, G80, G98 G99: drilling, expanded into moves. The default is G98. L (K)
 //!   repeats. Under G91, R is relative to the level at the start of the series and the bottom is
@@ -29,14 +32,17 @@
 //!   machine. It is listed, like G codes that only smooth, look ahead or end a mode.
 //!
 //! Everything else is an error whose message says what to do: above all cutter compensation (G41,
-//! G42), scaling, rotation, polar coordinates, tapping, macro calls (G65), rotary axes other than 0 and
-//! M4. A lone `O` number in the first line names the program and is skipped.
+//! G42), scaling, rotation, polar coordinates (G16), tapping, modal macro calls (G66), rotary axes other
+//! than 0 and M4. A lone `O` number in the first line names the program and is skipped.
 //!
-//! Variables and expressions (`expression.rs`), subprograms, loops and jumps of LinuxCNC and Fanuc in the
-//! same text (`flow.rs`) and the words of Siemens (`siemens.rs`) are followed.
+//! Variables and expressions (`expression.rs`), subprograms, macros, loops and jumps of LinuxCNC and Fanuc in
+//! the same text (`flow.rs`, `call.rs`) and the words of Siemens (`siemens.rs`) are followed. On a Fanuc a
+//! variable may have no value (#0): its word is passed over.
 
 mod arc;
+mod away;
 mod block;
+mod call;
 mod code;
 mod control;
 mod cycle;
@@ -49,10 +55,14 @@ mod interpreter;
 mod modal;
 mod motion;
 mod offset;
+mod operator;
 mod options;
+mod point;
+mod polar;
 mod siemens;
 mod siemens_word;
 pub(crate) mod token;
+mod variables;
 mod word;
 
 pub use dialect::GcodeDialect;
@@ -62,11 +72,10 @@ pub use options::{ARC_TOLERANCE_PART, Options};
 use crate::error::Error;
 use crate::path::lines::TextLines;
 use crate::path::program::Program;
-use crate::units::INCH;
 use block::Block;
-use expression::Variables;
 use flow::Flow;
 use interpreter::Interpreter;
+use variables::Variables;
 use word::WordFault;
 
 /// Reads a program. `on_line` is called after each line with the number of lines read.
@@ -86,9 +95,7 @@ pub fn program(text: &str, options: &Options, mut on_line: impl FnMut(usize)) ->
     let mut interpreter = Interpreter::new(options, dialect);
     let mut block = Block::default();
     let mut opened = false;
-    let is_linuxcnc = dialect == GcodeDialect::LinuxCnc;
-    let mut variables = Variables::default();
-    variables.is_linuxcnc = is_linuxcnc;
+    let mut variables = Variables::of(dialect);
     let place = |index: usize, line: &str, fault: WordFault| Error::Text {
         field: options.field.clone(),
         line: index + 1,
@@ -130,7 +137,7 @@ pub fn program(text: &str, options: &Options, mut on_line: impl FnMut(usize)) ->
     program.dialect = Some(dialect);
     program.jumps = jumps;
     if program.unit.is_empty() {
-        program.unit = if interpreter.modal.unit == INCH { "inch" } else { "mm" };
+        program.unit = interpreter.modal.unit_name();
     }
     program.lines = count;
     Ok(program)
@@ -177,6 +184,15 @@ fn run_line<'t>(
     let line = without_tail(line, interpreter);
     let siemens = (interpreter.dialect == GcodeDialect::Siemens).then_some(&mut interpreter.siemens);
     block.read(line, from, variables, siemens)?;
+    if variables.used_vacant.take() {
+        interpreter.remark("vacant-variable", || {
+            "a variable without a value is used here: its word is passed over, and in sums it counts as 0 (Fanuc)"
+                .into()
+        });
+    }
+    if interpreter.dialect == GcodeDialect::Fanuc {
+        interpreter.note_points(block);
+    }
     if block.is_empty() { Ok(()) } else { interpreter.run(block) }
 }
 

@@ -90,6 +90,11 @@ impl Modal {
         Self { unit, ..Self::default() }
     }
 
+    /// Name of the unit of length.
+    pub(super) fn unit_name(&self) -> &'static str {
+        if self.unit == INCH { "inch" } else { "mm" }
+    }
+
     /// Puts the motion before a canned cycle in force again.
     pub(super) fn end_cycle(&mut self) {
         self.motion = self.before_cycle;

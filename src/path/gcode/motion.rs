@@ -10,7 +10,7 @@ use super::word::{Word, WordFault, WordMode};
 use crate::path::Segment;
 use crate::path::builder;
 use crate::path::program::{Move, MovePace};
-use crate::units::{INCH, MM};
+use crate::units::MM;
 use nalgebra::Vector3;
 
 /// Most moves in a program; more would not fit a browser's memory.
@@ -25,7 +25,7 @@ impl Interpreter<'_> {
             return;
         }
         self.noted_unit = Some(self.modal.unit);
-        let unit = if self.modal.unit == INCH { "inch" } else { "mm" };
+        let unit = self.modal.unit_name();
         if !self.modal.unit_said {
             self.remark("unit-assumed", || {
                 format!("the program does not say its unit (G20 inch, G21 mm): {unit} is taken (path.unit)")
@@ -54,11 +54,11 @@ impl Interpreter<'_> {
             };
             if absolute {
                 target[axis] = value + self.origin()[axis];
-            } else if self.known[axis] {
+            } else if self.is_certain(axis) {
                 target[axis] += value;
             } else {
                 let expected = format!(
-                    "G91 counts from a position that is not known yet: give {letter} under G90 first, or path.start_mm"
+                    "G91 counts from a position that is not known here: give {letter} under G90 first, or path.start_mm"
                 );
                 return Err(word.fault(block.text, expected));
             }
@@ -95,6 +95,7 @@ impl Interpreter<'_> {
                     return Ok(());
                 }
                 self.begin_over_hole(block)?;
+                self.return_over_hole(block)?;
                 self.all_known(block)?;
                 self.drill(cycle, block)
             }
@@ -116,50 +117,9 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// A move to a position of the machine: G53, G28, G30. Where that lies from the workpiece is not
-    /// known, and an arm has no such position. The tool stays where it is, or goes up to the highest
-    /// level so far, because such a move takes it out of the way.
-    fn leave_out(&mut self, block: &mut Block) -> Result<(), WordFault> {
-        let code = block.code(Group::NonModal);
-        let axes: Vec<Word> =
-            ['X', 'Y', 'Z', 'A', 'B', 'C'].iter().filter_map(|&axis| block.take(axis)).collect();
-        if let Some(word) = axes.iter().find(|word| word.letter < 'X' && word.value != 0.0) {
-            return Err(word.fault(block.text, "rotary axes are not read from G-code: post for three axes"));
-        }
-        // G30 P2 is the second of them.
-        block.take('P');
-        let up = axes.is_empty() || axes.iter().any(|word| word.letter == 'Z');
-        if !up && self.known[2] && self.tip.z < self.highest {
-            let at = axes.first().map_or(block.start(), |word| word.start);
-            return Err(WordFault {
-                at,
-                found: "a move to a position of the machine with the tool down".into(),
-                expected: "lift the tool before, in a line of its own: where this move leads is not known"
-                    .into(),
-            });
-        }
-        for word in &axes {
-            self.ignore(word.text(block.text));
-        }
-        let name = code.map_or_else(String::new, |code| code.word.text(block.text).to_ascii_uppercase());
-        self.ignore(&name);
-        self.remark("machine-zero", || {
-            format!(
-                "{name} goes to a position of the machine, which a workpiece does not know: such moves are left out, \
-                 the tool stays clear where it is"
-            )
-        });
-        // The codes of the line stay in force.
-        if up && !self.known.contains(&false) && self.tip.z < self.highest {
-            let mut clear = self.position;
-            clear.z = self.highest;
-            self.rapid(clear)?;
-        }
-        Ok(())
-    }
-
     /// Fails if the tool position is not fully known.
     fn all_known(&self, block: &Block) -> Result<(), WordFault> {
+        self.all_back(block)?;
         match AXES.iter().zip(self.known).find(|(_, known)| !known) {
             None => Ok(()),
             Some((axis, _)) => Err(WordFault {
@@ -178,8 +138,12 @@ impl Interpreter<'_> {
         let rapid = self.modal.motion == Some(Motion::Rapid);
         let to = self.target(block)?;
         let begins = self.known.contains(&false);
-        for (axis, letter) in AXES.into_iter().enumerate() {
-            self.known[axis] |= block.take(letter).is_some();
+        self.given = AXES.map(|letter| block.take(letter).is_some());
+        for (known, given) in self.known.iter_mut().zip(self.given) {
+            *known |= given;
+        }
+        if !begins && self.stays_away(to, block)? {
+            return Ok(());
         }
         match (begins, rapid) {
             (false, true) => self.rapid(to),

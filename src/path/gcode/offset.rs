@@ -3,10 +3,10 @@
 
 use super::block::Block;
 use super::block::Code;
-use super::code::{EXTENDED_OFFSET, Group, HAAS_OFFSET};
+use super::code::{EXTENDED_OFFSET, Group, HAAS_FIRST, HAAS_LAST, HAAS_OFFSET};
 use super::dialect::GcodeDialect;
 use super::interpreter::{AXES, Interpreter};
-use super::word::{Word, WordFault};
+use super::word::{Word, WordFault, WordMode};
 use nalgebra::Vector3;
 
 impl Interpreter<'_> {
@@ -62,7 +62,11 @@ impl Interpreter<'_> {
             let Some(number) = block.take('P') else {
                 return Err(code.word.fault(block.text, "an extended work offset needs its number P"));
             };
+            number.whole(block.text, 1, if code.tenths == HAAS_OFFSET { 99 } else { 300 })?;
             name = format!("{name} {}", number.text(block.text).to_ascii_uppercase());
+            None
+        } else if (HAAS_FIRST..=HAAS_LAST).contains(&code.tenths) {
+            self.check_haas_offset(code, block)?;
             None
         } else {
             let index =
@@ -82,6 +86,23 @@ impl Interpreter<'_> {
             });
         }
         Ok(())
+    }
+
+    /// G110 to G129 are work offsets on a Haas only; G112 and G113 switch polar interpolation on a Fanuc,
+    /// which G113 ends.
+    fn check_haas_offset(&self, code: Code, block: &Block) -> Result<(), WordFault> {
+        let is_fanuc = self.dialect == GcodeDialect::Fanuc;
+        let is_polar = matches!(code.tenths, 1120 | 1130);
+        let expected = match self.work == Vector3::zeros() {
+            _ if is_fanuc && !is_polar => return Ok(()),
+            true if is_fanuc || code.tenths == 1130 => return Ok(()),
+            false if is_polar => {
+                "G112 and G113 are work offsets on a Haas and polar interpolation on a Fanuc: \
+                 write G154 P3 and P4, or delete them"
+            }
+            _ => "this G number is not known; if it is a work offset of a Haas, say path.dialect \"fanuc\"",
+        };
+        Err(code.word.fault(block.text, expected))
     }
 
     /// G10: an offset of zero is what the program has already.
@@ -157,7 +178,8 @@ impl Interpreter<'_> {
         }
         for (axis, letter) in AXES.into_iter().enumerate() {
             if let Some(word) = block.take(letter) {
-                self.local[axis] = word.value * self.modal.unit;
+                let kept = if word.mode == WordMode::Incremental { self.local[axis] } else { 0.0 };
+                self.local[axis] = kept + word.value * self.modal.unit;
             }
         }
         Ok(())
@@ -177,6 +199,11 @@ impl Interpreter<'_> {
         for (axis, letter) in AXES.into_iter().enumerate() {
             let Some(word) = block.take(letter) else { continue };
             let value = word.value * self.modal.unit;
+            if self.away[axis] {
+                let expected =
+                    format!("first a G0 line with {letter}: here the tool is at a position of the machine");
+                return Err(word.fault(block.text, expected));
+            }
             if self.known[axis] {
                 self.shift[axis] += self.position[axis] - self.origin()[axis] - value;
             } else {

@@ -1,8 +1,9 @@
 //! Words of Siemens Sinumerik programs for three axes: `X=10`, `CR=`, `I=AC(5)`, `TRANS`, `SUPA`,
 //! `CYCLE81`. They become the words that the interpreter knows, at their places in the line.
 
-use super::expression::Variables;
+use super::interpreter::AXES;
 use super::siemens_word::{arguments, assigned, closing, named, plain};
+use super::variables::Variables;
 use super::word::{Word, WordFault, WordMode};
 
 /// What a line asks of a canned cycle besides its words.
@@ -16,13 +17,18 @@ pub(super) struct SiemensCycle {
     pub(super) stays: bool,
 }
 
-/// State of the translation.
+/// What a line asks for besides its words.
 #[derive(Debug, Default)]
 pub(super) struct Siemens {
-    /// TRANS and ATRANS, in the unit of the program.
-    shift: [f64; 3],
     /// The cycle of the line just read.
     pub(super) cycle: Option<SiemensCycle>,
+}
+
+/// Takes back the translation.
+fn clear(words: &mut Vec<Word>, (start, end): (usize, usize)) {
+    for (letter, value) in [('G', 52.0), ('X', 0.0), ('Y', 0.0), ('Z', 0.0)] {
+        words.push(Word { letter, value, start, end, mode: WordMode::Modal });
+    }
 }
 
 impl Siemens {
@@ -89,7 +95,7 @@ impl Siemens {
                     at = named(line, (start, after), &name)?;
                     if ["ROT", "SCALE", "MIRROR"].contains(&name.as_str()) {
                         // Without words, each takes back every programmable frame.
-                        self.clear(words, (start, after));
+                        clear(words, (start, after));
                     }
                 }
                 _ => at = plain(line, start, words, variables)?,
@@ -108,24 +114,15 @@ impl Siemens {
         Ok(())
     }
 
-    fn clear(&mut self, words: &mut Vec<Word>, (start, end): (usize, usize)) {
-        self.shift = [0.0; 3];
-        for (letter, value) in [('G', 52.0), ('X', 0.0), ('Y', 0.0), ('Z', 0.0)] {
-            words.push(Word { letter, value, start, end, mode: WordMode::Modal });
-        }
-    }
-
-    /// TRANS replaces the shift, ATRANS adds to it: both as G52 of all axes.
+    /// TRANS replaces the shift, as G52 of all axes; ATRANS adds to it.
     fn translate(
-        &mut self,
+        &self,
         line: &str,
         (start, after): (usize, usize),
         words: &mut Vec<Word>,
         variables: &mut Variables,
     ) -> Result<usize, WordFault> {
-        if line[start..].starts_with(['T', 't']) {
-            self.shift = [0.0; 3];
-        }
+        let adds = line[start..].starts_with(['A', 'a']);
         let mut given = Vec::new();
         let mut at = after;
         loop {
@@ -145,15 +142,14 @@ impl Siemens {
             let found = format!("\"{}\"", line[at..].trim_end());
             return Err(WordFault { at, found, expected: "TRANS takes X, Y and Z".into() });
         }
-        for word in &given {
-            let Some(axis) = ['X', 'Y', 'Z'].iter().position(|&axis| axis == word.letter) else {
-                return Err(word.fault(line, "TRANS takes X, Y and Z"));
-            };
-            self.shift[axis] += word.value;
+        if let Some(word) = given.iter().find(|word| !AXES.contains(&word.letter)) {
+            return Err(word.fault(line, "TRANS takes X, Y and Z"));
         }
-        let place = |letter, value| Word { letter, value, start, end: after, mode: WordMode::Modal };
+        let mode = if adds { WordMode::Incremental } else { WordMode::Modal };
+        let place = |letter, value| Word { letter, value, start, end: after, mode };
         words.push(place('G', 52.0));
-        for (letter, value) in ['X', 'Y', 'Z'].into_iter().zip(self.shift) {
+        for letter in AXES {
+            let value = given.iter().filter(|word| word.letter == letter).map(|word| word.value).sum();
             words.push(place(letter, value));
         }
         Ok(line.len())

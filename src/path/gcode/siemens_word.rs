@@ -1,6 +1,7 @@
 //! The words and names of a Siemens line, one by one.
 
-use super::expression::{ExpressionReader, Variable, Variables};
+use super::expression::ExpressionReader;
+use super::variables::{Variable, Variables};
 use super::word::{Word, WordFault, WordMode};
 
 /// Names without effect on the path of a milling program.
@@ -133,7 +134,7 @@ pub(super) fn assigned(
     let letter = match name {
         "R" if !digits.is_empty() => {
             if let Ok(number) = digits.parse() {
-                variables.set(Variable::Arithmetic(number), value);
+                variables.set(Variable::Arithmetic(number), Some(value));
             }
             return Ok(end);
         }

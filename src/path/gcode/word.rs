@@ -1,12 +1,14 @@
 //! Words that a controller would understand: a letter and a number, each with its place.
 
-use super::expression::{ExpressionReader, Variables};
+use super::dialect::GcodeDialect;
+use super::expression::ExpressionReader;
 use super::token::{Kind, Token, tokens};
+use super::variables::{Variable, Variables};
 
 /// A letter and its number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Word {
-    /// Capital letter.
+    /// Capital letter, `@` or `^`.
     pub(super) letter: char,
     /// The number, in the program's unit.
     pub(super) value: f64,
@@ -91,7 +93,10 @@ pub(super) fn words(
                 return Ok(());
             }
             Kind::Word if token.text.starts_with('#') => at = assignment(line, token.start, variables)?,
-            Kind::Word if !token.text.starts_with(|sign: char| sign.is_ascii_alphabetic()) => {
+            Kind::Word
+                if !token.text.starts_with(|sign: char| sign.is_ascii_alphabetic())
+                    && !is_polar(&token, variables.dialect) =>
+            {
                 return Err(stray(line, token.start));
             }
             Kind::Word
@@ -104,9 +109,14 @@ pub(super) fn words(
             }
             Kind::Word if computes(line, &token) => {
                 let mut reader = ExpressionReader::new(line, token.start + 1, variables);
-                let value = if reader.take("=") { reader.expression()? } else { reader.value()? };
+                let value = if reader.take("=") { reader.operands()? } else { reader.operand()? };
                 at = reader.at;
                 let letter = char::from(token.text.as_bytes()[0].to_ascii_uppercase());
+                // A word whose value is vacant is passed over (Fanuc).
+                let Some(value) = value else {
+                    variables.used_vacant.set(true);
+                    continue;
+                };
                 words.push(Word { letter, value, start: token.start, end: at, mode: WordMode::Modal });
             }
             Kind::Word => words.push(word(line, &token)?),
@@ -175,6 +185,11 @@ fn plain_word(line: &str, at: usize) -> Option<Word> {
     })
 }
 
+/// Whether a token is a polar word, `@` or `^` (LinuxCNC).
+fn is_polar(token: &Token, dialect: GcodeDialect) -> bool {
+    token.text.starts_with(['@', '^']) && matches!(dialect, GcodeDialect::LinuxCnc | GcodeDialect::Unknown)
+}
+
 /// Whether a letter is followed by an expression instead of a number.
 fn computes(line: &str, token: &Token) -> bool {
     matches!(token.text[1..].trim_ascii_start(), "" | "+" | "-")
@@ -188,13 +203,26 @@ fn assignment(line: &str, start: usize, variables: &mut Variables) -> Result<usi
     if !reader.take("=") {
         return Err(stray(line, start));
     }
-    let value = reader.expression()?;
+    let value = reader.operands()?;
     let end = reader.at;
-    if let Some(variable) = variable {
-        variables.set(variable, value);
+    let fault = |expected: &str| {
+        Err(WordFault { at: start, found: format!("\"{}\"", &line[start..end]), expected: expected.into() })
+    };
+    match variable {
+        Some(Variable::Numbered(0)) => {
+            return fault("#0 is the variable without a value: nothing is assigned to it");
+        }
+        Some(Variable::Numbered(ALARM)) if variables.dialect == GcodeDialect::Fanuc => {
+            return fault("the program stops with an alarm of its own here (#3000)");
+        }
+        Some(variable) => variables.set(variable, value),
+        None => {}
     }
     Ok(end)
 }
+
+/// The variable by which a Fanuc program raises an alarm.
+const ALARM: u32 = 3000;
 
 /// What to do about an O word.
 pub(super) const SUBPROGRAM: &str = "an O number stands alone in its line, and sub-programs follow the end of the \
@@ -267,6 +295,7 @@ fn stray(line: &str, at: usize) -> WordFault {
         "," if line[at + 1..].trim_start().starts_with(['R', 'C', 'r', 'c', 'A', 'a']) => {
             "rounded and chamfered corners (,R ,C) are not read: post lines and arcs"
         }
+        "@" | "^" => "polar words (@ ^) are LinuxCNC's: say path.dialect \"linuxcnc\" if it is its program",
         "," => "numbers are written with a decimal point",
         ")" => "a comment opens with ( before it closes",
         _ => "a word is a letter and a number, such as X12.5; comments stand in ( ) or after ;",
