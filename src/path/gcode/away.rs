@@ -60,6 +60,13 @@ impl Interpreter<'_> {
         self.known[axis] && !self.away[axis]
     }
 
+    /// The axes that the move being made has words for are back in the workpiece.
+    pub(super) fn come_back(&mut self) {
+        for (away, given) in self.away.iter_mut().zip(self.given) {
+            *away &= !given;
+        }
+    }
+
     /// Handles a straight move while the tool is at a position of the machine. As long as X and Y are not
     /// both given, it stays where it was left: what such lines say, the next ones start from.
     ///
@@ -70,12 +77,10 @@ impl Interpreter<'_> {
             return Ok(false);
         }
         let (was_beside, low) = (self.away[0] || self.away[1], self.position.z < self.tip.z);
-        for (axis, given) in self.given.into_iter().enumerate() {
-            self.away[axis] &= !given;
-        }
+        self.come_back();
         if self.away[0] || self.away[1] {
             if self.modal.motion != Some(Motion::Rapid) {
-                self.all_back(block)?;
+                self.all_back(2, block)?;
             }
             self.position = to;
             return Ok(true);
@@ -103,14 +108,14 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Fails if the tool is beside the workpiece, at a position of the machine in X or Y.
-    pub(super) fn all_back(&self, block: &Block) -> Result<(), WordFault> {
-        match AXES.iter().zip(self.away).take(2).find(|(_, away)| *away) {
+    /// Fails if the first `axes` of X, Y and Z have one that is at a position of the machine.
+    pub(super) fn all_back(&self, axes: usize, block: &Block) -> Result<(), WordFault> {
+        match AXES.iter().zip(self.away).take(axes).find(|(_, away)| *away) {
             None => Ok(()),
             Some((axis, _)) => Err(WordFault {
                 at: block.start(),
                 found: format!("a cut while the tool is at a position of the machine in {axis}"),
-                expected: "first a G0 line with X and Y, which brings it back over the workpiece".into(),
+                expected: format!("first a G0 line with {axis}, which brings the tool back to the workpiece"),
             }),
         }
     }

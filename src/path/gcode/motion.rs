@@ -88,6 +88,7 @@ impl Interpreter<'_> {
                     return Ok(());
                 }
                 self.all_known(block)?;
+                self.all_back(3, block)?;
                 self.arc(counter_clockwise, block)
             }
             (Some(Motion::Cycle(cycle)), _) => {
@@ -119,7 +120,7 @@ impl Interpreter<'_> {
 
     /// Fails if the tool position is not fully known.
     fn all_known(&self, block: &Block) -> Result<(), WordFault> {
-        self.all_back(block)?;
+        self.all_back(2, block)?;
         match AXES.iter().zip(self.known).find(|(_, known)| !known) {
             None => Ok(()),
             Some((axis, _)) => Err(WordFault {
@@ -142,7 +143,9 @@ impl Interpreter<'_> {
         for (known, given) in self.known.iter_mut().zip(self.given) {
             *known |= given;
         }
-        if !begins && self.stays_away(to, block)? {
+        if begins {
+            self.come_back();
+        } else if self.stays_away(to, block)? {
             return Ok(());
         }
         match (begins, rapid) {
