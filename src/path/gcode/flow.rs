@@ -47,12 +47,12 @@ pub(super) fn parts(lines: TextLines) -> Vec<(usize, String)> {
 }
 
 /// Whether a text has lines that decide which line is next.
-pub(super) fn decides(mut lines: TextLines) -> bool {
+pub(super) fn decides(text: &str) -> bool {
     // An O word, GOTO and DO have an O, END a D, a call its P, a condition its bracket.
-    let may = |line: &str| {
-        line.bytes().any(|sign| matches!(sign, b'O' | b'o' | b'P' | b'p' | b'D' | b'd' | b':' | b'['))
-    };
-    lines.any(|line| may(line) && !matches!(control(line), None | Some(Control::Label(_) | Control::Back)))
+    let has = |sign: u8| matches!(sign, b'O' | b'o' | b'P' | b'p' | b'D' | b'd' | b':' | b'[');
+    let may = |text: &str| text.bytes().any(has);
+    let decides = |line: &str| !matches!(control(line), None | Some(Control::Label(_) | Control::Back));
+    may(text) && TextLines::of(text).any(|line| may(line) && decides(line))
 }
 
 impl<'t> Flow<'t> {

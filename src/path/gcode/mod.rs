@@ -103,7 +103,7 @@ pub fn program(text: &str, options: &Options, mut on_line: impl FnMut(usize)) ->
         found: fault.found,
         expected: fault.expected,
     };
-    let jumps = flow::decides(lines.clone());
+    let jumps = flow::decides(text);
     let mut count = 0;
     if jumps {
         let parts = flow::parts(lines);
@@ -175,7 +175,7 @@ fn run_line<'t>(
         *opened = true;
         return Ok(());
     }
-    let from = after_slash(line);
+    let from = if content.starts_with(['N', 'n', '/']) { after_slash(line) } else { 0 };
     if from > 0 && interpreter.options.block_delete {
         interpreter.ignore(content.trim_end());
         interpreter.remark("block-delete", || "lines with a slash are left out: block delete is on".into());
