@@ -496,7 +496,7 @@ fn refusals_are_placed_and_say_what_to_do() {
         check(name, &format!("{HEAD}\n{text}"), &Gives::Error(2, column, words), &Options::default());
     }
     let endless = format!("{HEAD}\no1 while [1 GT 0]\nG4 P0\no1 endwhile");
-    check("a loop without an end", &endless, &Gives::Error(4, 1, "three million"), &Options::default());
+    check("a loop without an end", &endless, &Gives::Error(4, 1, "loop that ends"), &Options::default());
     // The tolerance is 0.005 mm + 0.001 of the radius: 0.015 mm at 10 mm. A centre off by half of
     // it makes the two radii differ by all of it.
     assert!(read_with(&format!("{HEAD}\nG2 X20 I10.007"), &Options::default()).is_ok());

@@ -147,6 +147,13 @@ fn loops_without_a_condition_need_a_way_out() {
         ),
         (Fanuc, "#1=0\nWHILE [#1 LT 2] DO2\nX[#1+1]\n#1=#1+1\nEND2", &[[1.0, 0.0, 10.0], [2.0, 0.0, 10.0]]),
     ]);
+    // The way out is never taken: bounded, and the fault is in the loop.
+    let endless = "#1=0\nDO 1\nX#1\nIF [[#1 AND 6] EQ 6] GOTO 9\nEND 1\nN9 Y1";
+    let error = read(&format!("{HEAD}{endless}"), Fanuc).unwrap_err();
+    assert!(
+        (5..=8).contains(&error.place().unwrap().0) && error.to_string().contains("loop that ends"),
+        "{error}"
+    );
     refuse(&[
         (Fanuc, "X1\nDO 1\nX2\nX1\nEND 1\nM30", 2, "without an end"),
         (Fanuc, "DO 1\nX2\nIF [#0 EQ #0] GOTO 5\nM30\nN5 X1", 1, "END"),

@@ -149,7 +149,11 @@ impl<'a> ExpressionReader<'a> {
         let mut value = self.joined(level + 1)?;
         let mut compared = false;
         'next: loop {
+            let next = self.rest().trim_start().bytes().next().map(|byte| byte.to_ascii_uppercase());
             for (sign, operator) in *operators {
+                if sign.bytes().next() != next {
+                    continue;
+                }
                 let before = self.at;
                 // A single star is not the start of a double one.
                 if self.take(sign) && !(*sign == "*" && self.rest().starts_with('*')) {

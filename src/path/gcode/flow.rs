@@ -14,8 +14,10 @@ use super::word::{self, WordFault};
 use crate::path::lines::TextLines;
 use std::cell::Cell;
 
-/// Most lines that are run.
-const MOST_STEPS: usize = 3_000_000;
+/// Most bytes of lines that are run beyond those of the text.
+const MOST_RUN: usize = 16_000_000;
+/// What a line costs besides its bytes.
+const LINE_COST: usize = 16;
 /// Most lines that are looked through for the other ends of jumps.
 const MOST_LOOKED_THROUGH: usize = 200_000_000;
 /// Most repeats of a call or a loop.
@@ -34,7 +36,9 @@ pub(super) struct Flow<'t> {
     pub(super) calls: Vec<Call>,
     /// Lines of loops that repeat, with the repeats that are left.
     repeats: Vec<(usize, u32)>,
-    steps: usize,
+    /// Bytes of the lines that were run, with their cost, and their limit.
+    run: usize,
+    most_run: usize,
     /// Lines that were looked through for the other end of a jump.
     looked: Cell<usize>,
     started: bool,
@@ -61,6 +65,7 @@ impl<'t> Flow<'t> {
     pub(super) fn new(pieces: &'t [(usize, String)], block_delete: bool) -> Self {
         let lines: Vec<&str> = pieces.iter().map(|(_, line)| line.as_str()).collect();
         let sources = pieces.iter().map(|(source, _)| *source).collect();
+        let most_run = MOST_RUN + lines.iter().map(|line| line.len() + LINE_COST).sum::<usize>();
         let left_out = |line: &str| block_delete && after_slash(line) > 0;
         let controls = lines.iter().map(|line| if left_out(line) { None } else { control(line) }).collect();
         Self {
@@ -70,7 +75,8 @@ impl<'t> Flow<'t> {
             at: 0,
             calls: Vec::new(),
             repeats: Vec::new(),
-            steps: 0,
+            run: 0,
+            most_run,
             looked: Cell::new(0),
             started: false,
         }
@@ -90,12 +96,14 @@ impl<'t> Flow<'t> {
                     "a sub-program that is called here does not return: it ends with M99 or endsub",
                 ));
             };
-            self.steps += 1;
+            self.run += self.lines[self.at].len() + LINE_COST;
             if self.looked.get() > MOST_LOOKED_THROUGH {
                 return Err(self.fault(self.at, "a program with fewer jumps over so many lines"));
             }
-            if self.steps > MOST_STEPS {
-                let expected = "a loop that ends: three million lines were run up to here";
+            // At a line that decides, which is one of the loop.
+            if self.run > self.most_run && control.is_some() {
+                let expected =
+                    "a loop that ends: about half a million lines are run at most, fewer long ones";
                 return Err(self.fault(self.at, expected));
             }
             match control.clone() {
