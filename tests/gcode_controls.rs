@@ -216,7 +216,8 @@ fn translations_keep_their_length_when_the_unit_changes() {
         (Siemens, "TRANS X10 Y5\nTRANS X1\nX0 Y0", &[[1.0, 0.0, 10.0]]),
         (Siemens, "TRANS X10\nTRANS\nX1", &[[1.0, 0.0, 10.0]]),
     ]);
-    refuse(&[(Siemens, "TRANS A10", 1, "TRANS")]);
+    // The last was found by the fuzz target: a variable of the control.
+    refuse(&[(Siemens, "TRANS A10", 1, "TRANS"), (Siemens, "$1", 1, "variable of the control")]);
 }
 
 #[test]

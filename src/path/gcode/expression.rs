@@ -170,8 +170,8 @@ impl<'a> ExpressionReader<'a> {
                         ));
                     }
                     compared = operator.compares();
-                    if !compared {
-                        (self.counted(value), self.counted(other));
+                    if !compared && (value.is_none() || other.is_none()) {
+                        self.variables.used_vacant.set(true);
                     }
                     let joined = operator.join(value, other, dialect).map_err(fault)?;
                     value = Some(self.finite(start, joined)?);

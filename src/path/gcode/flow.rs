@@ -384,13 +384,13 @@ impl<'t> Flow<'t> {
         use Control::*;
         let is_end = |control: &Control| *control == End(number);
         let end = self.after(here, is_end, "a loop ends with END and its number")?;
-        let ends = |line: &&str| {
+        let ends = |line: &str| {
             let words = tokens(line, 0).map(|token| token.text.trim_start_matches(['M', 'm', '0', ' ']));
-            line.contains(['M', 'm']) && words.into_iter().any(|word| word == "2" || word == "30")
+            line.contains(['M', 'm']) && words.into_iter().any(|word| ["2", "30"].contains(&word.trim_end()))
         };
         let leaves =
             |control: &Option<Control>| matches!(control, Some(GoTo(_) | When(_) | Back | BackTo(_)));
-        if self.controls[here..end].iter().any(leaves) || self.lines[here..end].iter().any(|line| ends(&line))
+        if self.controls[here..end].iter().any(leaves) || self.lines[here..end].iter().any(|line| ends(line))
         {
             return Ok(());
         }

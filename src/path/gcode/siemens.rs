@@ -50,9 +50,14 @@ impl Siemens {
             if sign == ';' {
                 break;
             }
-            if !sign.is_ascii_alphabetic() && sign != '_' && sign != '$' {
+            if !sign.is_ascii_alphabetic() && sign != '_' {
                 let found = format!("\"{sign}\"");
-                let expected = "a word, such as X12.5 or CR=5; comments stand after ;";
+                let expected = match sign {
+                    '$' => {
+                        "no variable of the control ($..), whose value is not known: a word, such as X12.5"
+                    }
+                    _ => "a word, such as X12.5 or CR=5; comments stand after ;",
+                };
                 return Err(WordFault { at, found, expected: expected.into() });
             }
             let letters =
