@@ -296,3 +296,23 @@ fn names_that_a_controller_does_not_take_are_refused() {
         assert_eq!((error.code(), error.field()), ("invalid", Some("program.name")), "{name}");
     }
 }
+
+#[test]
+fn an_archive_holds_the_files_as_they_are() {
+    let (controller, robot, place) = ROBOTS[0];
+    let report = job(robot, place, &json!({"kind":"line","from_mm":[0,0,0],"to_mm":[50,0,0]}), &[]);
+    let (package, _) = package(&report, controller);
+    let bytes = armill::export::archive::zip(&package.name, &package.files).unwrap();
+    assert_eq!(bytes, armill::export::archive::zip(&package.name, &package.files).unwrap(), "no date in it");
+    let archive = rawzip::ZipArchive::from_slice(&bytes).unwrap();
+    let mut entries = archive.entries();
+    let mut found = Vec::new();
+    while let Some(entry) = entries.next_entry().unwrap() {
+        let path = String::from_utf8(entry.file_path().as_ref().to_vec()).unwrap();
+        let content = archive.get_entry(entry.wayfinder()).unwrap();
+        found.push((path, content.data().to_vec()));
+    }
+    let files =
+        package.files.iter().map(|file| (format!("ARMILL/{}", file.path), file.text.clone().into_bytes()));
+    assert_eq!(found, files.collect::<Vec<_>>());
+}

@@ -521,7 +521,8 @@ fn programs_come_in_and_go_out() -> Result {
             )
             .await?;
             page.click("#download-program").await?;
-            let text = page.downloaded(file).await?;
+            let bytes = page.downloaded_bytes(file).await?;
+            let text = String::from_utf8_lossy(&bytes);
             for part in &native.files {
                 assert!(text.contains(&part.text), "{id}: {}", part.path);
             }
