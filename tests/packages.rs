@@ -159,7 +159,9 @@ fn a_package_is_the_compensated_path_in_the_controllers_world() {
             assert!((program.tool.1 - tool.rotation).norm() < 1e-4, "{name}");
             // Every commanded sample lies beside the program by no more than what was measured.
             let course = course(&program, start);
-            let allowed = export.deviation * 1e3 + 2.0 * rounding + 2e-3;
+            // Its first move is by axes: a thousandth of a degree is 0.03 mm at 1.7 m.
+            let by_axes = if controller == Controller::Fanuc { 0.02 } else { 0.0 };
+            let allowed = export.deviation * 1e3 + 2.0 * rounding + 2e-3 + by_axes;
             let commanded = export.commanded_path.positions(&report);
             for (k, p) in commanded.iter().enumerate().step_by(3) {
                 let off = distance(&in_base(*p), &course);
@@ -272,7 +274,7 @@ fn the_job_names_numbers_loads_and_procedures() {
         }
         let numbers: &[&str] = match controller {
             Controller::Kuka => &["BAS (#TOOL,3)", "BAS (#BASE,5)"],
-            Controller::Fanuc => &["UFRAME_NUM=5 ;", "UTOOL_NUM=3 ;", "PAYLOAD[3] ;"],
+            Controller::Fanuc => &["UFRAME_NUM=5 ;", "UTOOL_NUM=3 ;", "PAYLOAD[1] ;"],
             _ => &[],
         };
         assert!(numbers.iter().all(|text| all.contains(text)), "{robot}");
@@ -315,4 +317,110 @@ fn an_archive_holds_the_files_as_they_are() {
     let files =
         package.files.iter().map(|file| (format!("ARMILL/{}", file.path), file.text.clone().into_bytes()));
     assert_eq!(found, files.collect::<Vec<_>>());
+}
+
+/// The last tool axis and position before each target that is further along x than `x` [mm].
+fn before_x(program: &ControllerProgram, x: f64) -> &Target {
+    let after = program.targets.iter().skip(1).position(|target| target.position.x > x).unwrap();
+    &program.targets[after]
+}
+
+#[test]
+fn a_tilt_on_the_spot_stays_on_the_spot() {
+    // 20 deg within 0.09 mm between two straight moves: points nearer than the least step, but not alike.
+    let tilt: String = (0..=40)
+        .map(|k| {
+            let t = (f64::from(k) * 0.5_f64).to_radians();
+            format!("{},0,0,{},0,{}\n", 10.0 + 0.09 * f64::from(k) / 40.0, t.sin(), t.cos())
+        })
+        .collect();
+    let (sin, cos) = 20_f64.to_radians().sin_cos();
+    let text = format!("x,y,z,i,j,k\n0,0,0,0,0,1\n{tilt}20,0,0,{sin},0,{cos}\n");
+    for (controller, robot, place) in ROBOTS {
+        let more = [("motion.feed_mm_s", json!(0.5)), ("compensation.max_passes", json!(0))];
+        let report = job(robot, place, &json!({"kind":"csv","text":text}), &more);
+        let (_, program) = package(&report, controller);
+        let axis = -before_x(&program, 10.5).rotation.column(2);
+        let off = (axis - Vector3::new(sin, 0.0, cos)).norm();
+        assert!(off < 0.02, "{robot}: tilted by {axis} where the straight move begins");
+    }
+}
+
+#[test]
+fn a_stop_is_kept_where_its_move_is_too_short_to_be_written() {
+    let head = "G21 G90 G17 S4000 M3\nG0 X0 Y0 Z0\n";
+    for (controller, robot, place) in ROBOTS {
+        for (text, stops_at) in [
+            // The end, a sharp corner, and a wait, each after 0.05 or 0.08 mm at another feed.
+            ("G1 X40 F1200\nG1 X40.05 F600\nM30", None),
+            ("G1 X40 F1200\nG1 X40.08 F600\nG1 Y40 F1200\nM30", Some(40.0)),
+            ("G1 X40 F1200\nG1 X40.05 F600\nG4 P2\nG1 X80 F1200\nM30", Some(40.0)),
+        ] {
+            let path = json!({"kind":"gcode","text":format!("{head}{text}"),"dialect":"linuxcnc"});
+            let report = job(robot, place, &path, &[("compensation.max_passes", json!(0))]);
+            let (_, program) = package(&report, controller);
+            assert_eq!(program.targets.last().unwrap().blend, Blend::Stop, "{robot}: {text}");
+            let Some(x) = stops_at else { continue };
+            let at_corner: Vec<_> = program.targets[1..]
+                .iter()
+                .filter(|target| (target.position.x - x).abs() < 0.2 && target.position.y.abs() < 0.2)
+                .collect();
+            assert!(at_corner.iter().any(|target| target.blend == Blend::Stop), "{robot}: {text}");
+        }
+    }
+}
+
+#[test]
+fn names_that_clash_are_refused_for_the_controller_asked() {
+    let programs = |name: &str, hook: &str| {
+        job(
+            "kuka-kr-210-2",
+            [1500.0, 100.0, 700.0],
+            &json!({"kind":"line","from_mm":[0,0,0],"to_mm":[50,0,0]}),
+            &[("program", json!({"controller":"gcode","name":name,"spindle_on":hook}))],
+        )
+    };
+    for (controller, name, hook, field) in [
+        (Controller::Staubli, "WING", "start", "program.spindle_on"),
+        (Controller::Staubli, "WING", "mill_001", "program.spindle_on"),
+        (Controller::Staubli, "WING", "A_NAME_OF_16_CHR", "program.spindle_on"),
+        (Controller::Kuka, "WING", "wing", "program.spindle_on"),
+        (Controller::Kuka, "WING", "WING_002", "program.spindle_on"),
+        (Controller::Kuka, "WING", "HALT", "program.spindle_on"),
+        (Controller::Kuka, "BAS", "SPIN", "program.name"),
+        (Controller::Abb, "tMill", "SPIN", "program.name"),
+        (Controller::Abb, "WING", "main", "program.spindle_on"),
+        (Controller::Fanuc, "WING", "wing", "program.spindle_on"),
+    ] {
+        let report = programs(name, hook);
+        let error = Programs::default().package(&report, Some(controller)).unwrap_err();
+        assert_eq!((error.code(), error.field()), ("invalid", Some(field)), "{controller:?} {name} {hook}");
+    }
+}
+
+#[test]
+fn what_a_package_leaves_to_be_done_is_said() {
+    let says = |report: &Report, controller: Controller, part: &str| {
+        let package = Programs::default().package(report, Some(controller)).unwrap();
+        package.remarks.iter().any(|remark| remark.contains(part))
+    };
+    let (_, kuka, place) = ROBOTS[0];
+    let text = POCKET
+        .replace("G4 P0.5", "M0")
+        .replace("G1 Y60", "S8000\nG1 Y60")
+        .replace("G0 X10 Y10", "T2 M6\nG0 X10 Y10");
+    let report = job(kuka, place, &json!({"kind":"gcode","text":text}), &[]);
+    for part in ["M0 in line", "M6 in line", "spindle's speed changes", "load of the flange", "Not tried"] {
+        assert!(says(&report, Controller::Kuka, part), "{part}");
+    }
+    assert!(!says(&report, Controller::Kuka, "not known to be one with this controller"));
+    assert!(says(&report, Controller::Abb, "not known to be one with this controller"));
+    assert!(says(&report, Controller::Fanuc, "controller's own acceleration"));
+    let fast =
+        job(kuka, place, &json!({"kind":"gcode","text":POCKET}), &[("motion.rapid_mm_s", json!(5000))]);
+    let error = Programs::default().package(&fast, None).unwrap_err();
+    assert_eq!(error.field(), Some("motion.rapid_mm_s"));
+    let tiny = job(kuka, place, &json!({"kind":"line","from_mm":[0,0,0],"to_mm":[0.05,0,0]}), &[]);
+    let error = Programs::default().package(&tiny, None).unwrap_err();
+    assert_eq!(error.field(), Some("program.least_step_mm"));
 }

@@ -77,6 +77,20 @@ pub(super) fn in_files(moves: Vec<CommandedMove>, lines: usize) -> Vec<Commanded
     parted
 }
 
+/// Lets the tool come to rest at the last point written before a stop or a wait, where the move that
+/// stops is too short to be written.
+pub(super) fn rest(moves: &mut [CommandedMove]) {
+    let mut rests = false;
+    for commanded in moves.iter_mut().rev() {
+        rests |= commanded.stops;
+        if !commanded.steps.is_empty() {
+            commanded.stops |= rests;
+            rests = false;
+        }
+        rests |= commanded.wait > 0.0;
+    }
+}
+
 /// The fewest moves along `points` within `tolerance`, none shorter than `least` [m], and the largest
 /// distance of the points from them [m]; arcs about the axis `normal` of the workpiece frame, where
 /// the language has them and they save moves.
@@ -87,11 +101,13 @@ pub(super) fn steps(
     style: PostStyle,
 ) -> (Vec<Step>, f64) {
     let resolution = style.resolution();
-    let kept = thin::thin(points, tolerance - resolution);
-    let kept = thin::spaced(points, &thin::pruned(points, &kept, tolerance - resolution), least);
+    // Coarse steps of the language leave at least half of the tolerance to thinning.
+    let within = (tolerance - resolution).max(tolerance / 2.0);
+    let kept = thin::thin(points, within);
+    let kept = thin::spaced(points, &thin::pruned(points, &kept, within), (tolerance, least));
     let ends: Vec<Vec<Point>> = kept.iter().map(|&k| vec![rounded(&points[k], resolution)]).collect();
     // Of moves too short to be written, only the start is left.
-    let from_start = |point: &Point| (point.position - points[0].position).norm();
+    let from_start = |point: &Point| point.distance(&points[0], &points[0]);
     let deviation = match kept.len() {
         0 | 1 => points.iter().map(from_start).fold(0.0, f64::max),
         _ => thin::deviation(points, &kept, &ends),
@@ -100,7 +116,7 @@ pub(super) fn steps(
     let Some(normal) = normal.filter(|_| style.arcs && straight.len() > 1) else {
         return (straight, deviation);
     };
-    let (turned, strayed) = arc::steps(points, normal, tolerance - resolution, resolution);
+    let (turned, strayed) = arc::steps(points, normal, within, resolution);
     let turned: Vec<Step> = in_parts(&points[0], &turned).collect();
     let writable = steepest(&points[0], &turned, normal, least).filter(|rise| *rise <= tolerance);
     match writable {

@@ -60,10 +60,20 @@ pub struct Command {
 pub struct ProgramRun {
     /// Largest contour error [m].
     pub reached: f64,
+    /// Largest distance of a point of the desired path from the tip's way [m], where corners are
+    /// blended.
+    pub missed: f64,
     /// Time from the start to the end of the path [s].
     pub duration: f64,
     /// Number of full stops in between.
     pub stops: usize,
+}
+
+impl ProgramRun {
+    /// The larger of its two errors [m].
+    pub fn worst(&self) -> f64 {
+        self.reached.max(self.missed)
+    }
 }
 
 /// One move of the path, as commanded, or several that are written as one.
@@ -137,7 +147,7 @@ impl Command {
             moves.push(CommandedMove {
                 line: step.line,
                 rapid: step.pace == MovePace::Rapid,
-                feed,
+                feed: style.speed(feed),
                 spindle: step
                     .spindle
                     .unwrap_or(report.setup().teeth_per_second / f64::from(report.setup().cut.flutes)),
@@ -149,6 +159,12 @@ impl Command {
         }
         if style.is_robot() {
             moves = chain::in_files(moves, report.setup().output.lines);
+            chain::rest(&mut moves);
+            if moves.iter().all(|commanded| commanded.steps.is_empty()) {
+                let least = report.setup().output.least_step / MM;
+                let expected = format!("less than the {} mm that the path is long", path.length() / MM);
+                return Err(Error::invalid("program.least_step_mm", least, expected));
+            }
         }
         // Points that are merged may stray further; that is measured and said.
         if deviation > thinning && !style.is_robot() {

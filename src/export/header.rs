@@ -81,9 +81,9 @@ fn points(report: &Report, command: &Command) -> Vec<String> {
 /// How the file itself runs: its largest contour error compared with the tolerance, its time, its
 /// stops and its blending.
 fn rehearsed(report: &Report, command: &Command, run: &ProgramRun) -> Vec<String> {
-    let ProgramRun { reached, duration, stops } = *run;
+    let ProgramRun { reached, missed, duration, stops } = *run;
     let tolerance = report.setup().goal.tolerance;
-    let met = match report.verdict_state_at(reached) {
+    let met = match report.verdict_state_at(run.worst()) {
         VerdictState::CannotRun => "the arm cannot run it",
         VerdictState::Met => "tolerance met",
         VerdictState::MetIfNominal => "tolerance met if the numbers are exact, but not in 95 of 100 cases",
@@ -92,9 +92,15 @@ fn rehearsed(report: &Report, command: &Command, run: &ProgramRun) -> Vec<String
     let mut lines = vec![format!(
         "Run from this file, timed by its own moves, feeds and stops: largest contour error {} mm if every number is exact, \
          up to {} mm in 95 of 100 cases, {met}",
-        millimetres(reached),
-        millimetres(report.p95_at(reached))
+        millimetres(run.worst()),
+        millimetres(report.p95_at(run.worst()))
     )];
+    if missed > reached {
+        lines.push(format!(
+            "That is of a blended corner, from the tip's way, the tip itself is at most {} mm off the path",
+            millimetres(reached)
+        ));
+    }
     if command.style.is_robot() {
         lines.push(format!(
             "It takes {} s with {stops} stops on the way, {}",

@@ -51,6 +51,12 @@ impl Posture {
     }
 }
 
+/// Whether the arm changes its posture between joint values [rad] that follow each other: linear moves
+/// keep it, and controllers stop where they cannot.
+pub fn changes(robot: &Robot, joints: &[Joints]) -> bool {
+    joints.windows(2).any(|pair| Posture::of(robot, &pair[0]) != Posture::of(robot, &pair[1]))
+}
+
 /// Turns of an axis at an angle [deg]: 0 from -180 to 180, 1 to 540, and so on.
 pub fn turns(angle: f64) -> i32 {
     let whole = ((angle.abs() + 180.0) / 360.0).floor() as i32;

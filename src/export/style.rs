@@ -67,6 +67,21 @@ impl PostStyle {
 
     /// Positions are written in steps of this size [m].
     pub fn resolution(self) -> f64 {
-        if self.inch { INCH * 1e-6 } else { MM * 1e-5 }
+        match self.junctions {
+            // FANUC's listings have three decimals.
+            Junctions::Share => MM * 1e-3,
+            _ if self.inch => INCH * 1e-6,
+            _ => MM * 1e-5,
+        }
+    }
+
+    /// A speed as it is written [m/s]: FANUC's in whole mm/s from 10 on and tenths below, at least one
+    /// tenth and at most 2000 mm/s; others as they are.
+    pub fn speed(self, speed: f64) -> f64 {
+        match (self.junctions, speed / MM) {
+            (Junctions::Share, mm) if mm < 10.0 => (mm * 10.0).round().max(1.0) / 10.0 * MM,
+            (Junctions::Share, mm) => mm.round().min(2000.0) * MM,
+            _ => speed,
+        }
     }
 }

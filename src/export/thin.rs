@@ -102,11 +102,15 @@ pub fn pruned(points: &[Point], kept: &[usize], tolerance: f64) -> Vec<usize> {
     pruned
 }
 
-/// Those of `kept` that are at least `least` [m] from the one before and from the last; the first and
-/// the last are among them, unless they are nearer to each other than that: then the first alone.
-pub fn spaced(points: &[Point], kept: &[usize], least: f64) -> Vec<usize> {
+/// Those of `kept` that are at least `least` [m] from the one before and from the last, or whose axis
+/// differs from theirs by more than `tolerance` [m] at the height [`LEVER`]; the first and the last are
+/// among them, unless they are not apart themselves: then the first alone.
+pub fn spaced(points: &[Point], kept: &[usize], (tolerance, least): (f64, f64)) -> Vec<usize> {
     let (Some(&first), Some(&last)) = (kept.first(), kept.last()) else { return Vec::new() };
-    let apart = |a: usize, b: usize| (points[a].position - points[b].position).norm() >= least;
+    let apart = |a: usize, b: usize| {
+        let (a, b) = (&points[a], &points[b]);
+        (a.position - b.position).norm() >= least || (a.axis - b.axis).norm() * LEVER > tolerance
+    };
     let mut spaced = vec![first];
     let mut from = first;
     for &index in &kept[1..kept.len() - 1] {

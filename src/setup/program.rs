@@ -65,13 +65,242 @@ impl Controller {
         }
     }
 
-    /// Refuses a name that it does not take, with room for the numbers of parts if it is split.
+    /// Refuses names and numbers that it does not take; a split program needs room for the numbers of
+    /// its parts.
     ///
     /// # Errors
-    /// [`Error::Invalid`] of `program.name`.
-    pub fn accepts(self, name: &str, split: bool) -> Result<(), Error> {
+    /// [`Error::Invalid`] of the key of `program`.
+    pub fn accepts(self, options: &ProgramOptions, split: bool) -> Result<(), Error> {
+        let longest = self.longest_name();
         let numbers = if split { "p_000".len() } else { 0 };
-        identifier("program.name", name, self.longest_name() - numbers)
+        self.identifier("program.name", &options.name, longest - numbers)?;
+        if matches!(self, Self::Gcode | Self::Apt | Self::Csv) {
+            return Ok(());
+        }
+        for (field, name) in &options.hooks {
+            self.identifier(field, name, longest)?;
+            let taken = name.eq_ignore_ascii_case(&options.name)
+                || options.part_prefixes(self).iter().any(|prefix| begins(name, prefix));
+            if taken {
+                let expected = "another name than those of this program and its parts";
+                return Err(Error::invalid(*field, format!("\"{name}\""), expected));
+            }
+        }
+        let numbers = [
+            ("program.tool_number", options.tool, 10),
+            ("program.base_number", options.base, 9),
+            ("program.load_number", options.load_number.unwrap_or(1), 10),
+        ];
+        for (field, number, most) in numbers {
+            if self == Self::Fanuc && number > most {
+                return Err(Error::invalid(field, number, format!("1 to {most} on a FANUC controller")));
+            }
+        }
+        if self == Self::Staubli && !options.external.is_empty() {
+            let expected = "none: points of a Staubli arm have no external axes";
+            return Err(Error::invalid("program.external_axes", format!("{:?}", options.external), expected));
+        }
+        Ok(())
+    }
+
+    /// Refuses what is no name for it.
+    fn identifier(self, field: &str, name: &str, longest: usize) -> Result<(), Error> {
+        let legal = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let reserved = self.reserved().iter().any(|word| word.eq_ignore_ascii_case(name));
+        let letter = name.starts_with(|c: char| c.is_ascii_alphabetic());
+        if letter && name.chars().all(legal) && name.len() <= longest && !reserved {
+            return Ok(());
+        }
+        let expected = match reserved {
+            true => "a name that means nothing else to the controller".to_owned(),
+            false => format!("letters, digits and underscores, a letter first, {longest} characters at most"),
+        };
+        Err(Error::invalid(field, format!("\"{name}\""), expected))
+    }
+
+    /// Words of its language and names that programs and controller have already.
+    fn reserved(self) -> &'static [&'static str] {
+        match self {
+            Self::Kuka => &[
+                "BAS",
+                "CELL",
+                "SPS",
+                "IR_STOPM",
+                "INITMOV",
+                "HOME",
+                "TOOL",
+                "BASE",
+                "FRAMES",
+                "MAIN",
+                "DEF",
+                "DEFDAT",
+                "DEFFCT",
+                "END",
+                "ENDDAT",
+                "ENDFCT",
+                "LIN",
+                "PTP",
+                "CIRC",
+                "SLIN",
+                "SPTP",
+                "SCIRC",
+                "SPLINE",
+                "HALT",
+                "WAIT",
+                "IF",
+                "THEN",
+                "ELSE",
+                "ENDIF",
+                "FOR",
+                "ENDFOR",
+                "LOOP",
+                "ENDLOOP",
+                "WHILE",
+                "ENDWHILE",
+                "REPEAT",
+                "UNTIL",
+                "SWITCH",
+                "CASE",
+                "DEFAULT",
+                "ENDSWITCH",
+                "GOTO",
+                "RETURN",
+                "EXIT",
+                "CONTINUE",
+                "INTERRUPT",
+                "TRIGGER",
+                "DECL",
+                "EXT",
+                "INT",
+                "REAL",
+                "BOOL",
+                "CHAR",
+                "STRUC",
+                "ENUM",
+                "FRAME",
+                "POS",
+                "E6POS",
+                "AXIS",
+                "E6AXIS",
+                "LOAD",
+                "SIGNAL",
+                "CONST",
+                "GLOBAL",
+                "PUBLIC",
+                "IMPORT",
+                "TRUE",
+                "FALSE",
+                "AND",
+                "OR",
+                "NOT",
+                "EXOR",
+            ],
+            Self::Abb => &[
+                "main",
+                "tMill",
+                "wPart",
+                "zMill",
+                "tool0",
+                "wobj0",
+                "load0",
+                "fine",
+                "MODULE",
+                "ENDMODULE",
+                "SYSMODULE",
+                "PROC",
+                "ENDPROC",
+                "FUNC",
+                "ENDFUNC",
+                "TRAP",
+                "ENDTRAP",
+                "VAR",
+                "PERS",
+                "CONST",
+                "TASK",
+                "LOCAL",
+                "RECORD",
+                "ENDRECORD",
+                "ALIAS",
+                "IF",
+                "THEN",
+                "ELSE",
+                "ELSEIF",
+                "ENDIF",
+                "FOR",
+                "FROM",
+                "TO",
+                "STEP",
+                "DO",
+                "ENDFOR",
+                "WHILE",
+                "ENDWHILE",
+                "TEST",
+                "CASE",
+                "DEFAULT",
+                "ENDTEST",
+                "GOTO",
+                "RETURN",
+                "EXIT",
+                "RAISE",
+                "RETRY",
+                "TRYNEXT",
+                "CONNECT",
+                "WITH",
+                "ERROR",
+                "UNDO",
+                "BACKWARD",
+                "AND",
+                "OR",
+                "NOT",
+                "XOR",
+                "DIV",
+                "MOD",
+                "TRUE",
+                "FALSE",
+                "INOUT",
+                "NOSTEPIN",
+                "VIEWONLY",
+                "READONLY",
+                "NOVIEW",
+                "STOP",
+                "MoveL",
+                "MoveJ",
+                "MoveC",
+            ],
+            Self::Staubli => &[
+                "start",
+                "stop",
+                "begin",
+                "end",
+                "call",
+                "if",
+                "else",
+                "elseIf",
+                "endIf",
+                "for",
+                "endFor",
+                "while",
+                "endWhile",
+                "do",
+                "until",
+                "switch",
+                "case",
+                "endSwitch",
+                "return",
+                "and",
+                "or",
+                "not",
+                "world",
+                "flange",
+                "fPart",
+                "tMill",
+                "jStart",
+                "mMove",
+                "mCut",
+                "mStop",
+            ],
+            Self::Fanuc | Self::Gcode | Self::Apt | Self::Csv => &[],
+        }
     }
 
     /// Longest name of a program that it takes [characters].
@@ -115,8 +344,8 @@ pub struct ProgramOptions {
     pub tool: u32,
     /// Number of the base.
     pub base: u32,
-    /// Number of the load.
-    pub load_number: u32,
+    /// Number of the load, if it is given.
+    pub load_number: Option<u32>,
     /// Whether the program stores the values of tool, base and load in the controller.
     pub stores_frames: bool,
     /// Load of the flange, if it is known.
@@ -129,10 +358,45 @@ pub struct ProgramOptions {
     pub lines: usize,
     /// Positions of external axes [mm or deg].
     pub external: Vec<f64>,
+    /// Procedures of the cell that the job names, each with its key.
+    pub hooks: Vec<(&'static str, String)>,
+    /// The controller of the arm's maker, if that is one of these.
+    pub of_arm: Option<Controller>,
+}
+
+/// Keys of the procedures that are called before the first cut; the others are called at the end.
+const BEFORE: [&str; 2] = ["program.spindle_on", "program.coolant_on"];
+
+impl ProgramOptions {
     /// Procedures that are called before the first cut.
-    pub before: Vec<String>,
+    pub fn before(&self) -> Vec<&str> {
+        let hooks = self.hooks.iter().filter(|(key, _)| BEFORE.contains(key));
+        hooks.map(|(_, name)| name.as_str()).collect()
+    }
+
     /// Procedures that are called at the end.
-    pub after: Vec<String>,
+    pub fn after(&self) -> Vec<&str> {
+        let hooks = self.hooks.iter().filter(|(key, _)| !BEFORE.contains(key));
+        hooks.map(|(_, name)| name.as_str()).collect()
+    }
+
+    /// What the names of a split program's parts begin with, before their numbers.
+    fn part_prefixes(&self, controller: Controller) -> Vec<String> {
+        let name = &self.name;
+        match controller {
+            Controller::Kuka | Controller::Fanuc => vec![format!("{name}_")],
+            Controller::Abb => vec![format!("m{name}_"), format!("p{name}_")],
+            Controller::Staubli => vec!["mill_".into()],
+            // These call nothing.
+            Controller::Gcode | Controller::Apt | Controller::Csv => Vec::new(),
+        }
+    }
+}
+
+/// Whether a name is a prefix and digits.
+fn begins(name: &str, prefix: &str) -> bool {
+    let rest = name.get(prefix.len()..).filter(|_| name[..prefix.len()].eq_ignore_ascii_case(prefix));
+    rest.is_some_and(|rest| !rest.is_empty() && rest.chars().all(|c| c.is_ascii_digit()))
 }
 
 /// Checks the section of a job for a robot of this maker.
@@ -147,29 +411,24 @@ pub(super) fn options(given: &job::RobotProgram, maker: Option<&str>) -> Result<
         ControllerWord::Apt => Controller::Apt,
         ControllerWord::Csv => Controller::Csv,
     };
-    controller.accepts(&given.name, false)?;
+    let external = given.external_axes.clone().unwrap_or_default();
+    if external.len() > 6 || external.iter().any(|axis| axis.abs() > 1e5 || axis.is_nan()) {
+        let expected = "up to six numbers from -100000 to 100000";
+        return Err(Error::invalid("program.external_axes", format!("{external:?}"), expected));
+    }
     let hooks = [
         ("program.spindle_on", &given.spindle_on),
-        ("program.spindle_off", &given.spindle_off),
         ("program.coolant_on", &given.coolant_on),
+        ("program.spindle_off", &given.spindle_off),
         ("program.coolant_off", &given.coolant_off),
     ];
-    for (field, name) in hooks {
-        if !name.is_empty() {
-            identifier(field, name, controller.longest_name())?;
-        }
-    }
-    let external = given.external_axes.clone().unwrap_or_default();
-    if external.len() > 6 || external.iter().any(|axis| !axis.is_finite()) {
-        return Err(Error::invalid("program.external_axes", format!("{external:?}"), "up to six numbers"));
-    }
-    let named = |names: [&String; 2]| names.into_iter().filter(|name| !name.is_empty()).cloned().collect();
-    Ok(ProgramOptions {
+    let named = hooks.into_iter().filter(|(_, name)| !name.is_empty());
+    let options = ProgramOptions {
         controller,
         name: given.name.clone(),
         tool: given.tool_number,
         base: given.base_number,
-        load_number: given.load_number.unwrap_or(given.tool_number),
+        load_number: given.load_number,
         stores_frames: given.frames == FrameValues::Values,
         load: match given.load_kg {
             Choice::Value(mass, _) => {
@@ -184,18 +443,9 @@ pub(super) fn options(given: &job::RobotProgram, maker: Option<&str>) -> Result<
         least_step: given.least_step_mm * MM,
         lines: given.lines_per_file as usize,
         external,
-        before: named([&given.spindle_on, &given.coolant_on]),
-        after: named([&given.spindle_off, &given.coolant_off]),
-    })
-}
-
-/// Refuses what is no name for a controller.
-fn identifier(field: &str, name: &str, longest: usize) -> Result<(), Error> {
-    let legal = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    if name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(legal) && name.len() <= longest
-    {
-        return Ok(());
-    }
-    let expected = format!("letters, digits and underscores, a letter first, {longest} characters at most");
-    Err(Error::invalid(field, format!("\"{name}\""), expected))
+        hooks: named.map(|(key, name)| (key, name.clone())).collect(),
+        of_arm: maker.map(|maker| Controller::of_maker(Some(maker))),
+    };
+    controller.accepts(&options, false)?;
+    Ok(options)
 }

@@ -19,8 +19,11 @@ use crate::math;
 use crate::motion::trajectory::MotionLimits;
 use crate::path::program::Dwell;
 use crate::path::{Move, MovePace, Program, Segment};
+use crate::units::DEG;
 use nalgebra::Vector3;
 
+/// A sharper corner is a way back, at which the tool comes to rest in any case [rad].
+const WAY_BACK: f64 = 168.0 * DEG;
 /// A parabola is run in chords that turn by at most this share of the angle that is a stop.
 const CHORD: f64 = 0.3;
 
@@ -37,8 +40,12 @@ pub fn as_run(command: &Command, limits: &MotionLimits) -> Program {
         .windows(2)
         .zip(&stops)
         .map(|(pair, stops)| {
+            let turn = math::angle_between(
+                &pair[0].segment.tangent(pair[0].segment.length()),
+                &pair[1].segment.tangent(0.0),
+            );
             let distance = match command.style.junctions {
-                _ if *stops => 0.0,
+                _ if *stops || turn > WAY_BACK => 0.0,
                 Junctions::AsWritten => 0.0,
                 Junctions::Distance => command.blend,
                 Junctions::Share => {
@@ -96,16 +103,24 @@ impl BlendedCorner {
     /// the moves' `speeds` [m/s].
     fn chords(&self, reach: f64, speeds: [f64; 2], limits: &MotionLimits) -> Vec<Move> {
         let Self { before, after } = self;
-        let (start, corner, end) =
-            (before.segment.point(0.0), after.segment.point(0.0), after.segment.point(reach));
-        let turn = math::angle_between(&(corner - start), &(end - corner));
+        let (start, end) = (before.segment.point(0.0), after.segment.point(reach));
+        let (arriving, leaving) = (before.segment.tangent(0.0), after.segment.tangent(reach));
+        let corner = math::angle_between(&before.segment.tangent(reach), &after.segment.tangent(0.0));
         // At its vertex the radius is d cos^2(turn / 2) / sin(turn / 2).
-        let (sin, cos) = math::sin_cos(turn / 2.0);
+        let (sin, cos) = math::sin_cos(corner / 2.0);
         let slowest = (limits.acceleration * reach * cos * cos / sin.max(f64::MIN_POSITIVE)).sqrt();
+        let turn = math::angle_between(&arriving, &leaving);
         let count = (turn / (CHORD * limits.corner_angle)).ceil().max(2.0);
+        // As a cubic, the parabola between two straight moves has its inner points at two thirds of the
+        // way to the corner; beside an arc, that touches the arc.
+        let inner = [start + arriving * (reach * 2.0 / 3.0), end - leaving * (reach * 2.0 / 3.0)];
         let at = |k: f64| {
             let t = k / count;
-            start * (1.0 - t) * (1.0 - t) + corner * (2.0 * t * (1.0 - t)) + end * (t * t)
+            let u = 1.0 - t;
+            start * (u * u * u)
+                + inner[0] * (3.0 * u * u * t)
+                + inner[1] * (3.0 * u * t * t)
+                + end * (t * t * t)
         };
         let axis = |k: f64| {
             let t = k / count;

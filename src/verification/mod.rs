@@ -3,6 +3,7 @@
 
 pub mod as_run;
 mod programs;
+mod remarks;
 pub mod rehearsal;
 pub mod replay;
 

@@ -10,6 +10,7 @@ use crate::report::{Report, VerdictState, millimetres};
 use crate::setup::Controller;
 use crate::units::MM;
 use crate::verification::rehearsal::{Rehearsal, rehearse};
+use crate::verification::remarks::remarks;
 use serde::Serialize;
 use std::sync::OnceLock;
 
@@ -47,7 +48,10 @@ pub struct Package {
     pub files: Vec<PackageFile>,
     /// Largest contour error when it runs, if every number is exact [mm].
     pub max_mm: f64,
-    /// 95 % quantile of the largest contour error [mm].
+    /// Largest distance of a point of the desired path from the tip's way [mm]: of corners that are
+    /// blended.
+    pub missed_mm: f64,
+    /// 95 % quantile of the larger of these errors [mm].
     pub p95_mm: f64,
     /// Whether the job's tolerance is met at 95 %.
     pub met: bool,
@@ -102,12 +106,18 @@ impl Programs {
         let format = export::format(id)?;
         let style = PostStyle::of(format, report)
             .ok_or_else(|| Error::invalid("format", format!("\"{id}\""), "a program, not a table"))?;
-        let Rehearsal { command, run: ProgramRun { reached, .. }, .. } = self.rehearsal(report, style)?;
+        let Rehearsal { command, run, .. } = self.rehearsal(report, style)?;
         post::expressible(report, command, id)?;
-        let (state, p95) = (report.verdict_state_at(*reached), report.p95_at(*reached));
-        let sentence = format!("As {}: {}", in_words(format), judged(report, *reached));
+        let (state, p95) = (report.verdict_state_at(run.worst()), report.p95_at(run.worst()));
+        let sentence = format!("As {}: {}", in_words(format), judged(report, run));
         let met = state == VerdictState::Met;
-        Ok(ProgramAccuracy { max_mm: reached / MM, met, verdict_state: state, p95_mm: p95 / MM, sentence })
+        Ok(ProgramAccuracy {
+            max_mm: run.reached / MM,
+            met,
+            verdict_state: state,
+            p95_mm: p95 / MM,
+            sentence,
+        })
     }
 
     /// The same for the format that most controllers read: G-code, or APT where three axes cannot
@@ -146,20 +156,21 @@ impl Programs {
             name: options.name.clone(),
             files,
             max_mm: run.reached / MM,
-            p95_mm: report.p95_at(run.reached) / MM,
-            met: report.verdict_state_at(run.reached) == VerdictState::Met,
+            p95_mm: report.p95_at(run.worst()) / MM,
+            missed_mm: run.missed / MM,
+            met: report.verdict_state_at(run.worst()) == VerdictState::Met,
             duration_s: run.duration,
             points: command.points(),
             stops: run.stops,
             blending,
-            remarks: remarks(report, style),
+            remarks: remarks(report, command, controller)?,
             sentence: format!(
                 "As {}: {:.1} s with {} {}, {}",
                 in_words(format),
                 run.duration,
                 run.stops,
                 if run.stops == 1 { "stop" } else { "stops" },
-                judged(report, run.reached)
+                judged(report, run)
             ),
         })
     }
@@ -183,40 +194,19 @@ fn format_of(controller: Controller) -> &'static str {
     }
 }
 
-/// What to look out for before a program runs.
-fn remarks(report: &Report, style: PostStyle) -> Vec<String> {
-    let setup = report.setup();
-    let mut remarks = Vec::new();
-    if setup.mode.is_some() {
-        remarks.push(
-            "These are commands before the input shaper, which must act on them. A controller without one needs a job with \
-             the shaper \"none\"."
-                .into(),
-        );
-    }
-    if style.is_robot() && setup.output.load.is_none() {
-        remarks.push(
-            "The load of the flange is not known (program.load_kg): set it in the controller before running, or it follows \
-             less accurately."
-                .into(),
-        );
-    }
-    if style.is_robot() {
-        remarks.push("Not tried on a controller: run it slowly and without the part first.".into());
-    }
-    remarks
-}
-
-/// A program's largest contour error `reached` [m] in words, compared with the tolerance.
-fn judged(report: &Report, reached: f64) -> String {
-    let (state, p95) = (report.verdict_state_at(reached), report.p95_at(reached));
-    let figures = format!("up to {} mm at 95 %, nominally {} mm", millimetres(p95), millimetres(reached));
+/// A program's errors in words, compared with the tolerance.
+fn judged(report: &Report, run: &ProgramRun) -> String {
+    let worst = run.worst();
+    let (state, p95) = (report.verdict_state_at(worst), report.p95_at(worst));
+    let of_corners = if run.missed > run.reached { " (of blended corners)" } else { "" };
+    let figures =
+        format!("up to {} mm at 95 %, nominally {} mm{of_corners}", millimetres(p95), millimetres(worst));
     let tolerance = report.setup().goal.tolerance;
     let tolerance_text = millimetres(tolerance);
     match state {
         VerdictState::CannotRun => format!("cannot run; if it could, {figures}."),
         _ if p95 > tolerance => format!("{figures}; beyond the tolerance of {tolerance_text} mm."),
-        _ => match report.decisive(state, reached) {
+        _ => match report.decisive(state, worst) {
             Some(but) => format!("{figures}, but {but}; beyond the tolerance of {tolerance_text} mm."),
             None => format!("{figures}; within the tolerance of {tolerance_text} mm."),
         },

@@ -71,7 +71,9 @@ pub fn rehearse(report: &Report, thinning: Option<f64>, style: PostStyle) -> Res
             // The share whose ramps take this distance at the job's feed; the whole speed at most.
             let MotionLimits { feed, acceleration, .. } = report.setup().limits;
             let share = (distance * 2.0 * acceleration / (feed * feed)).min(1.0);
-            blended(report, thinning, style, share)
+            // CNT takes whole numbers, and 0 is a stop.
+            let least = if distance > 0.0 { 0.01 } else { 0.0 };
+            blended(report, thinning, style, ((share * 100.0).round() / 100.0).max(least))
         }
         (Junctions::Share, Blending::Sought) => longest(report, thinning, style, &SHARES),
     }
@@ -86,12 +88,12 @@ fn longest(
     tried: &[f64],
 ) -> Result<Rehearsal, Error> {
     let mut best = blended(report, thinning, style, tried[0])?;
-    let (tolerance, next_to_nothing) = (report.setup().goal.tolerance, best.run.reached * WORSE);
-    let within = |reached: f64| report.p95_at(reached) <= tolerance || reached <= next_to_nothing;
+    let (tolerance, next_to_nothing) = (report.setup().goal.tolerance, best.run.worst() * WORSE);
+    let within = |run: &ProgramRun| report.p95_at(run.worst()) <= tolerance || run.worst() <= next_to_nothing;
     for &blend in &tried[1..] {
         let command = Command { blend, ..best.command.clone() };
         let next = run(report, best.commanded_path.clone(), command)?;
-        if !within(next.run.reached) {
+        if !within(&next.run) || next.run.duration > best.run.duration {
             break;
         }
         best = next;
@@ -144,7 +146,8 @@ fn run(report: &Report, commanded_path: CommandedPath, command: Command) -> Resu
 fn rehearsed(commanded_path: CommandedPath, command: Command, outcome: &Replay) -> Rehearsal {
     let Trajectory { moving, sample_time, ref stops, .. } = *outcome.trajectory;
     let duration = (moving - 1) as f64 * sample_time;
-    let run = ProgramRun { reached: outcome.largest(), duration, stops: stops.len() };
+    let missed = if command.style.is_robot() { outcome.missed } else { 0.0 };
+    let run = ProgramRun { reached: outcome.largest(), missed, duration, stops: stops.len() };
     Rehearsal { commanded_path, command: Command { run: Some(run), ..command }, run }
 }
 

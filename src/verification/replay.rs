@@ -7,6 +7,7 @@
 //! commanded. Thinned moves stray from those points by no more than the thinning tolerance.
 
 use crate::cutting::along;
+use crate::deviation::missed::missed;
 use crate::deviation::{Deviation, Reference, Sources, simulate};
 use crate::error::Error;
 use crate::export::commanded_path::CommandedPath;
@@ -37,6 +38,9 @@ pub struct Replay {
     /// For each sample, the corresponding instant of the report's run, in samples; never
     /// decreasing.
     pub instants: Vec<f64>,
+    /// Largest distance from a point of the desired path to the nearest place that the tip passes
+    /// [m].
+    pub missed: f64,
 }
 
 impl Replay {
@@ -127,7 +131,8 @@ pub fn run_under(
     let deviation = simulate(&plan, &reference, &q, &mut Progress::none());
     let Reference { target, axis, .. } = reference;
     let target = target.into_owned();
-    Ok(Replay { target, axis, deviation, instants, trajectory: plan.trajectory })
+    let missed = missed(&plan.path, &plan.trajectory.timing.arc_length, &deviation.actual).max;
+    Ok(Replay { target, axis, deviation, instants, missed, trajectory: plan.trajectory })
 }
 
 /// Force on the tool [N] along a timing law, of which `share` acts across the tool axis.
@@ -166,7 +171,8 @@ fn instants(commanded: &[Vector3<f64>], own: &Trajectory) -> Option<Vec<f64>> {
     let mut last = own.position[0];
     let instant = |(k, position): (usize, &Vector3<f64>)| {
         let radius = 3.0 * ((position - last).norm() + (position - path.point(near)).norm()) + 1e-6;
-        near = path.closest(position, near, radius).s.clamp(0.0, length);
+        // The program goes on: where it comes back the way it went, the way out is behind it.
+        near = path.closest(position, near + radius / 2.0, radius / 2.0).s.clamp(near, length.max(near));
         last = *position;
         // Where the report's command rests, many instants share one place: they elapse in step with
         // the program's own rest.

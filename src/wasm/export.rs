@@ -18,7 +18,7 @@ export interface Promised {
 export type Controller = "kuka" | "abb" | "staubli" | "fanuc" | "gcode" | "apt" | "csv";
 export interface Package {
   controller: Controller; name: string; files: { path: string; text: string }[];
-  max_mm: number; p95_mm: number; met: boolean; duration_s: number; points: number; stops: number;
+  max_mm: number; missed_mm: number; p95_mm: number; met: boolean; duration_s: number; points: number; stops: number;
   blending: number; remarks: string[]; sentence: string;
 }
 "#;

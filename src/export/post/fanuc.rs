@@ -117,15 +117,16 @@ impl Language for Fanuc<'_> {
             header::wrapped(&brief.header, REMARK).iter().map(|line| self.comment(line)).collect();
         lines.extend(self.store(brief, &mut points));
         lines.extend(self.selection());
+        let schedule = options.load_number.unwrap_or(1);
         let payload = match &options.load {
-            Some(load) => format!("Payload {}: {} kg", options.load_number, number(load.mass, 3)),
-            None => format!("Payload {} must be set", options.load_number),
+            Some(load) => format!("Payload {}: {} kg", schedule, number(load.mass, 3)),
+            None => format!("Payload {} must be set", schedule),
         };
-        lines.extend([self.comment(&payload), format!("  PAYLOAD[{}] ;", options.load_number)]);
+        lines.extend([self.comment(&payload), format!("  PAYLOAD[{}] ;", schedule)]);
         let call = |name: &str| format!("  CALL {}    ;", name.to_ascii_uppercase());
         let on = [self.comment("Switch spindle and coolant on,"), self.comment("wait until it is at speed")]
             .join("\n");
-        lines.extend(brief.hooks(&options.before, call, &on));
+        lines.extend(brief.hooks(&options.before(), call, &on));
         lines.extend([
             self.comment("To the start by joint motion:"),
             self.comment("look out for what is in between"),
@@ -142,7 +143,7 @@ impl Language for Fanuc<'_> {
                 files.push(file(&part_name, &all, &self.points[index]));
             }
         }
-        lines.extend(brief.hooks(&options.after, call, &self.comment("Switch spindle and coolant off")));
+        lines.extend(brief.hooks(&options.after(), call, &self.comment("Switch spindle and coolant off")));
         files.insert(0, file(&name, &lines, &points));
         files
     }
@@ -184,8 +185,7 @@ fn file(name: &str, lines: &[String], points: &[String]) -> PackageFile {
 /// A speed [m/s]: whole mm/s, or tenths below 10.
 fn speed(speed: f64) -> String {
     let mm = speed / MM;
-    let text = if mm < 10.0 { plain(mm.max(0.1), 1) } else { plain(mm.min(2000.0), 0) };
-    format!("{text}mm/sec")
+    format!("{}mm/sec", plain(mm, usize::from(mm < 9.95)))
 }
 
 /// A number as listings show it: without a zero before the point.

@@ -15,6 +15,7 @@ use crate::export::orientation::roll_pitch_yaw;
 use crate::export::posture::Posture;
 use crate::math::Pose;
 use crate::robot::Joints;
+use crate::setup::ProgramOptions;
 use crate::units::{DEG, MM};
 
 /// KRL.
@@ -56,14 +57,14 @@ impl Krl {
         lines.extend(self.frames(brief));
         lines.extend([format!("BAS (#TOOL,{})", options.tool), format!("BAS (#BASE,{})", options.base)]);
         if options.load.is_some() || !options.stores_frames {
-            lines.push(format!("$LOAD=LOAD_DATA[{}]", options.load_number));
+            lines.push(format!("$LOAD=LOAD_DATA[{}]", load_number(options)));
         }
         lines.extend(
             ["$IPO_MODE=#BASE", "$ORI_TYPE=#VAR", "$CIRC_TYPE=#BASE", "$ADVANCE=5"].map(String::from),
         );
         lines.extend(["BAS (#VEL_PTP,10)", "BAS (#ACC_PTP,20)"].map(String::from));
         lines.extend([
-            format!("$ACC.CP={}", number(report.setup().limits.acceleration, 4)),
+            format!("$ACC.CP={}", number(report.setup().limits.acceleration, 7)),
             "$VEL.ORI1=200.0".into(),
             "$VEL.ORI2=200.0".into(),
             "$ACC.ORI1=100.0".into(),
@@ -71,7 +72,7 @@ impl Krl {
             format!("$APO.CDIS={}", number(self.blend, 4)),
         ]);
         let otherwise = "; Spindle and coolant: switch them on here, and wait until the spindle is at speed.";
-        lines.extend(brief.hooks(&options.before, |name| format!("{name}()"), otherwise));
+        lines.extend(brief.hooks(&options.before(), |name| format!("{name}()"), otherwise));
         let axes = brief
             .start_deg()
             .iter()
@@ -104,7 +105,7 @@ impl Krl {
             let [x, y, z] = (load.centre / MM).map(|x| number(x, 3)).into();
             values.push(format!(
                 "LOAD_DATA[{}]={{M {},CM {{X {x},Y {y},Z {z},A 0.0,B 0.0,C 0.0}},J {{X 0.0,Y 0.0,Z 0.0}}}}",
-                options.load_number,
+                load_number(options),
                 number(load.mass, 4)
             ));
         }
@@ -116,7 +117,7 @@ impl Krl {
         if options.load.is_none() {
             lines.push(format!(
                 "; The load is not known here: LOAD_DATA[{}] must be that of spindle, holder and tool.",
-                options.load_number
+                load_number(options)
             ));
         }
         let stored = |value: String| if options.stores_frames { value } else { self.comment(&value) };
@@ -164,11 +165,16 @@ impl Language for Krl {
             }
         }
         let otherwise = "; Spindle and coolant: switch them off here.";
-        main.extend(brief.hooks(&brief.options.after, |name| format!("{name}()"), otherwise));
+        main.extend(brief.hooks(&brief.options.after(), |name| format!("{name}()"), otherwise));
         let mut files = vec![module(name, main), data(name, brief, parts.len())];
         files.extend(subs);
         files
     }
+}
+
+/// Number of the load data: that of the tool unless it is given.
+fn load_number(options: &ProgramOptions) -> u32 {
+    options.load_number.unwrap_or(options.tool)
 }
 
 /// The main module's data list.

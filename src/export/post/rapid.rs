@@ -139,7 +139,7 @@ impl Language for Rapid<'_> {
         ]);
         let otherwise =
             "    ! Spindle and coolant: switch them on here, and wait until the spindle is at speed.";
-        lines.extend(brief.hooks(&options.before, |name| format!("    {name};"), otherwise));
+        lines.extend(brief.hooks(&options.before(), |name| format!("    {name};"), otherwise));
         lines.extend([
             "    ! To the start by joint motion: look out for what is in between.".into(),
             format!(
@@ -167,7 +167,7 @@ impl Language for Rapid<'_> {
             }
         }
         let otherwise = "    ! Spindle and coolant: switch them off here.";
-        lines.extend(brief.hooks(&options.after, |name| format!("    {name};"), otherwise));
+        lines.extend(brief.hooks(&options.after(), |name| format!("    {name};"), otherwise));
         lines.extend(["  ENDPROC", "ENDMODULE"].map(String::from));
         let main = PackageFile {
             path: format!("{name}.mod"),

@@ -14,7 +14,7 @@ use crate::math::Pose;
 use crate::report::Report;
 use crate::robot::Joints;
 use crate::setup::{Controller, ProgramOptions};
-use crate::units::DEG;
+use crate::units::{DEG, MM};
 
 /// A file of a package.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
@@ -54,7 +54,7 @@ impl Brief<'_> {
     /// A call of each procedure that the job names, or a remark that nothing is called.
     pub(super) fn hooks(
         &self,
-        names: &[String],
+        names: &[&str],
         call: impl Fn(&str) -> String,
         otherwise: &str,
     ) -> Vec<String> {
@@ -126,8 +126,9 @@ pub fn package(
         base: report.setup().workpiece_in_world(),
         tool: report.plan.robot.tool(),
     };
+    runs(command, report, controller)?;
     let split = !whole && command.moves.last().is_some_and(|last| last.part > 0);
-    controller.accepts(&options.name, split)?;
+    controller.accepts(options, split)?;
     let language: &mut dyn Language = match controller {
         Controller::Kuka => &mut krl::Krl::new(&brief),
         Controller::Abb => &mut rapid::Rapid::new(&brief),
@@ -139,7 +140,31 @@ pub fn package(
         }
     };
     let parts = parts(command, &joints, whole, language);
-    Ok(language.files(&brief, &parts))
+    let files = language.files(&brief, &parts);
+    // Controllers run Windows: their own files have its line ends, and Staubli's a mark of UTF-8.
+    let mark = if controller == Controller::Staubli { "\u{feff}" } else { "" };
+    let ended = |text: String| if whole { text } else { format!("{mark}{}", text.replace('\n', "\r\n")) };
+    Ok(files.into_iter().map(|file| PackageFile { text: ended(file.text), ..file }).collect())
+}
+
+/// Refuses speeds and accelerations that a controller does not take: KUKA's go up to 3 m/s and, in its
+/// programs, 20 m/s^2.
+fn runs(command: &Command, report: &Report, controller: Controller) -> Result<(), Error> {
+    let fastest = command.moves.iter().map(|commanded| commanded.feed).fold(0.0, f64::max);
+    let acceleration = report.setup().limits.acceleration;
+    if controller == Controller::Kuka && fastest > 3.0 {
+        let expected = "at most 3000 mm/s on a KUKA controller";
+        return Err(Error::invalid(
+            "motion.rapid_mm_s",
+            format!("a move at {:.0} mm/s", fastest / MM),
+            expected,
+        ));
+    }
+    if controller == Controller::Kuka && !(1e-6..=20.0).contains(&acceleration) {
+        let expected = "0.001 to 20000 on a KUKA controller";
+        return Err(Error::invalid("motion.acceleration_mm_s2", acceleration / MM, expected));
+    }
+    Ok(())
 }
 
 /// The lines of each part.

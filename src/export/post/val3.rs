@@ -149,7 +149,7 @@ impl Language for Val3 {
         lines.push("  resetMotion()".into());
         let otherwise =
             "  // Spindle and coolant: switch them on here, and wait until the spindle is at speed";
-        lines.extend(brief.hooks(&options.before, |name| format!("  call {name}()"), otherwise));
+        lines.extend(brief.hooks(&options.before(), |name| format!("  call {name}()"), otherwise));
         lines.extend(
             [
                 "  // To the start by joint motion: look out for what is in between",
@@ -170,9 +170,9 @@ impl Language for Val3 {
         }
         lines.push("  waitEndMove()".into());
         let otherwise = "  // Spindle and coolant: switch them off here";
-        lines.extend(brief.hooks(&options.after, |name| format!("  call {name}()"), otherwise));
+        lines.extend(brief.hooks(&options.after(), |name| format!("  call {name}()"), otherwise));
         // A call must lead to a program of the application: the cell's own go into these.
-        for name in options.before.iter().chain(&options.after) {
+        for (_, name) in &options.hooks {
             if programs.iter().all(|(known, _)| known != name) {
                 programs.push((name.clone(), vec![self.comment("Put the cell's own instructions here")]));
             }
