@@ -23,9 +23,9 @@ pub(crate) const BENCH: &str = "armill-bench";
 pub(crate) const MODULE: &str = "armill_bg.wasm";
 
 /// Size limits of the core in bytes, as it is and compressed by gzip: every visit fetches it. With the
-/// packages of robots' controllers it has 1,670,850 and 682,088. Raise them only with a reason in
-/// CHANGELOG.md.
-pub(super) const LIMITS: [usize; 2] = [1_700_000, 695_000];
+/// packages of robots' controllers and the macros of G-code controls it has 1,712,845 and 698,345; these
+/// are 5 % more. Raise them only with a reason in CHANGELOG.md.
+pub(super) const LIMITS: [usize; 2] = [1_798_000, 733_000];
 
 /// Makes the core in `package` from the sources in `root`: `folder` gets the module, its JavaScript
 /// side and their types.
