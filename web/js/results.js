@@ -33,7 +33,7 @@ export function showSummary(summary, apply) {
   put("force", Math.hypot(...summary.mean_force_n), forceText);
   put("duration", summary.duration_s);
   byId("force-parts").textContent = summary.mean_force_n.map((part, i) => `${"xyz"[i]} ${forceText(part)}`).join(", ");
-  byId("length").textContent = `${lengthText(summary.path_length_mm, 4)} ${lengthUnit()} long${stopsText(summary)}`;
+  byId("length").textContent = `${lengthText(summary.path_length_mm, 4)} ${lengthUnit()}${stopsText(summary)}`;
   showTolerance(summary);
   showErrors(before, after);
   showBudget(summary.budget);
