@@ -47,6 +47,7 @@ function judgeSoon(quiet) {
   const line = byId("as-program");
   line.textContent = "";
   line.classList.remove("bad");
+  showRemarks([]);
   clearTimeout(waiting);
   const { value } = byId("export-format");
   if (!shown || shown.preview || value === JOINTS) return; // nothing is promised
@@ -68,8 +69,15 @@ async function judge(line, controller, json) {
 
 /** What a program is worth, and what to look out for. */
 function showOutline(line, { met, sentence, remarks }) {
-  line.replaceChildren(sentence, ...remarks.flatMap((remark) => [" ", make("span", { className: "remark" }, remark)]));
+  line.textContent = sentence;
   line.classList.toggle("bad", !met);
+  showRemarks(remarks);
+}
+
+/** In a line of its own that is always there: the text comes late, and nothing below it may move. */
+function showRemarks(remarks) {
+  byId("remarks-first").textContent = remarks.length ? `: ${remarks[0]}` : "";
+  byId("remarks-list").replaceChildren(...remarks.map((remark) => make("li", {}, remark)));
 }
 
 async function save(say, warn) {
@@ -80,6 +88,7 @@ async function save(say, warn) {
     const { file, outline } = await core.packageOf(value);
     download(file.name, file.type, file.content);
     if (core.shownJob() === json) showOutline(byId("as-program"), outline);
+    byId("remarks").open = outline.remarks.length > 0;
     say(`Saved ${file.name}${outline.files.length > 1 ? `: ${outline.files.join(", ")}` : ""}`);
   } catch (error) {
     if (!error.fatal && error.code !== "cancelled") warn(`The program could not be made: ${error.message}`);
