@@ -27,7 +27,7 @@ fn package(controller: Controller, turn: f64, legs: usize, more: &[(&'static str
         ("cutting.axial_depth_mm", json!(0)),
         (
             "motion",
-            json!({"feed_mm_s":20,"acceleration_mm_s2":500,"sample_time_s":0.001,"corner_angle_deg":170}),
+            json!({"feed_mm_s":20,"acceleration_mm_s2":500,"sample_time_s":0.0002,"corner_angle_deg":170}),
         ),
         // The file is not to be compensated for its own corners.
         ("compensation", json!({"max_passes":0,"tolerance_mm":0.1})),
@@ -67,7 +67,7 @@ fn a_share_of_the_speed_is_a_distance_of_overlapping_ramps() {
         let made = package(Controller::Fanuc, 90.0, 2, &[("program.blending_mm", json!(given))]);
         let right = 0.4 * share / 100.0 / 4.0;
         assert_eq!(made.blending, share);
-        assert!((made.max_mm - right).abs() < 0.02 * right + 1e-3, "{given}: {} and {right}", made.max_mm);
+        assert!((made.max_mm - right).abs() < 0.02 * right + 2e-3, "{given}: {} and {right}", made.max_mm);
     }
 }
 
@@ -75,9 +75,9 @@ fn a_share_of_the_speed_is_a_distance_of_overlapping_ramps() {
 fn exact_stops_take_the_time_of_their_trapezoids() {
     for legs in [1, 2, 5] {
         let made = package(Controller::Kuka, 10.0, legs, &[("program.blending_mm", json!(0))]);
-        // From rest to rest over 40 mm, and a sample of 1 ms before the next starts.
+        // From rest to rest over 40 mm, and a sample of 0.2 ms before the next starts.
         let n = legs as f64;
-        let right = n * (40.0 / 20.0 + 20.0 / 500.0) + (n - 1.0) * 0.001;
+        let right = n * (40.0 / 20.0 + 20.0 / 500.0) + (n - 1.0) * 0.0002;
         assert!((made.duration_s - right).abs() < 0.003, "{legs}: {} and {right}", made.duration_s);
         assert_eq!(made.stops, legs - 1);
         assert!(made.max_mm < 2e-3, "{}", made.max_mm);
@@ -165,4 +165,23 @@ fn arcs_that_touch_are_blended_without_a_stop() {
         assert!(made.duration_s < reference.duration_s * 1.01, "{blending}: {}", made.duration_s);
         assert!(made.max_mm < 0.5, "{blending}: {}", made.max_mm);
     }
+}
+
+#[test]
+fn arcs_that_bend_in_turn_are_blended_without_a_stop() {
+    let text = "G21 G90 G17 G0 X0 Y0 Z0\nG1 X40 F1800\nG3 X42 Y2 I0 J2\nG2 X44 Y4 I2 J0\nG1 X84";
+    for blending in [0.2, 0.8, 1.5] {
+        let made = of_gcode(Controller::Kuka, text, &[("program.blending_mm", json!(blending))]);
+        assert_eq!(made.stops, 0, "{blending}");
+    }
+}
+
+#[test]
+fn passes_over_the_same_line_all_stay() {
+    // There, back and there again, where the job itself stops at no corner.
+    let text = "G21 G90 G0 X0 Y0 Z0\nG1 F1800 X60\nG1 X0\nG1 X60\nG1 X0";
+    let motion = json!({"acceleration_mm_s2":500,"sample_time_s":0.002,"corner_angle_deg":180});
+    let made = of_gcode(Controller::Kuka, text, &[("motion", motion)]);
+    assert_eq!((made.points, made.stops), (5, 3));
+    assert!((made.duration_s - 4.0 * (60.0 / 30.0 + 30.0 / 500.0)).abs() < 0.02, "{}", made.duration_s);
 }

@@ -129,6 +129,40 @@ fn a_short_move_does_not_hide_a_corner() {
 }
 
 #[test]
+fn a_step_to_the_side_does_not_hide_a_way_back() {
+    for step in [0.002, 0.01, 0.011, 0.012, 0.015, 0.02, 0.05] {
+        let raster: Points = (0..20)
+            .flat_map(|line: u32| {
+                let y = f64::from(line) * step;
+                let ends = [[1700.0, y], [1720.0, y]];
+                if line % 2 == 0 { ends } else { [ends[1], ends[0]] }
+            })
+            .collect();
+        let stops = travelled(&csv(&raster, 6)).plan.trajectory.stops.len();
+        assert!((19..=38).contains(&stops), "{step}: {stops}");
+    }
+    // A right angle whose corner is a chamfer, between dense points.
+    for chamfer in [0.012, 0.014, 0.016, 0.02, 0.03] {
+        let leg = |k: u32| f64::from(k) * 0.05;
+        let mut points: Points = (0..400).map(|k| [1700.0 + leg(k), 0.0]).collect();
+        points.extend([[1720.0 - chamfer, 0.0], [1720.0, chamfer]]);
+        points.extend((1..=400).map(|k| [1720.0, leg(k)]));
+        points.retain(|p| p[0] <= 1720.0 - chamfer || p[1] >= chamfer);
+        let stops = travelled(&csv(&points, 6)).plan.trajectory.stops.len();
+        assert!((1..=2).contains(&stops), "{chamfer}: {stops}");
+    }
+}
+
+#[test]
+fn right_angles_in_a_row_are_not_one_corner() {
+    // A stair of 60 steps of 0.09 mm: corners within 0.1 mm are one, so there are half as many, or more.
+    let stair: Points =
+        (0..=60_u32).map(|k| [1700.0 + f64::from(k / 2) * 0.09, f64::from(k.div_ceil(2)) * 0.09]).collect();
+    let stops = travelled(&csv(&stair, 6)).plan.trajectory.stops.len();
+    assert!((25..=59).contains(&stops), "{stops}");
+}
+
+#[test]
 fn a_fillet_of_dense_points_stops_nowhere() {
     // Between legs of 20 mm, rounded points every 0.03 mm.
     for radius in [0.5, 1.0, 3.0] {

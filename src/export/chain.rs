@@ -16,6 +16,9 @@ use std::ops::Range;
 /// turn from either end.
 const LONGEST_ARC: f64 = 170.0 * DEG;
 
+/// A sharper corner is a way back, at which the tool comes to rest in any case [rad].
+pub const WAY_BACK: f64 = 168.0 * DEG;
+
 /// Every move by itself.
 pub(super) fn single(path: &Path) -> Vec<Range<usize>> {
     (0..path.moves().len()).map(|index| index..index + 1).collect()
@@ -93,10 +96,11 @@ pub(super) fn rest(moves: &mut [CommandedMove]) {
 
 /// The fewest moves along `points` within `tolerance`, none shorter than `least` [m], and the largest
 /// distance of the points from them [m]; arcs about the axis `normal` of the workpiece frame, where
-/// the language has them and they save moves.
+/// the language has them and they save moves. Where the tool `rests` at the end, that is written however
+/// near it is.
 pub(super) fn steps(
     points: &[Point],
-    normal: Option<usize>,
+    (normal, rests): (Option<usize>, bool),
     (tolerance, least): (f64, f64),
     style: PostStyle,
 ) -> (Vec<Step>, f64) {
@@ -104,7 +108,10 @@ pub(super) fn steps(
     // Coarse steps of the language leave at least half of the tolerance to thinning.
     let within = (tolerance - resolution).max(tolerance / 2.0);
     let kept = thin::thin(points, within);
-    let kept = thin::spaced(points, &thin::pruned(points, &kept, within), (tolerance, least));
+    let mut kept = thin::spaced(points, &thin::pruned(points, &kept, within), (tolerance, least));
+    if kept.len() == 1 && rests && rounded(&points[points.len() - 1], resolution) != points[0] {
+        kept.push(points.len() - 1);
+    }
     let ends: Vec<Vec<Point>> = kept.iter().map(|&k| vec![rounded(&points[k], resolution)]).collect();
     // Of moves too short to be written, only the start is left.
     let from_start = |point: &Point| point.distance(&points[0], &points[0]);

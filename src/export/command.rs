@@ -115,7 +115,18 @@ impl Command {
         let back = report.setup().workpiece.inverse();
         let path = report.plan.path.placed(&back);
         let turn = SMOOTH * report.setup().limits.corner_angle;
-        let rests = |s: f64| report.plan.trajectory.stops.iter().any(|corner| corner.s == s);
+        let back_at: Vec<f64> = match style.is_robot() {
+            true => path
+                .corners()
+                .filter(|corner| corner.angle > chain::WAY_BACK)
+                .map(|corner| corner.s)
+                .collect(),
+            false => Vec::new(),
+        };
+        let stops = report.plan.trajectory.stops.iter().map(|corner| corner.s);
+        let mut rests: Vec<f64> = stops.chain(back_at).collect();
+        rests.sort_unstable_by(f64::total_cmp);
+        let rests = |s: f64| rests.binary_search_by(|stop| stop.total_cmp(&s)).is_ok();
         let mut start = None;
         let mut end: Option<Point> = None;
         let mut deviation = 0.0_f64;
@@ -133,7 +144,13 @@ impl Command {
             start.get_or_insert(first);
             let (steps, strayed) = if style.is_robot() {
                 let normal = path.moves()[chain.clone()].iter().find_map(|step| turning_about(&step.segment));
-                chain::steps(&sampled.points, normal, (thinning, report.setup().output.least_step), style)
+                let rests = chain.end == path.moves().len() || rests(path.start(chain.end));
+                chain::steps(
+                    &sampled.points,
+                    (normal, rests),
+                    (thinning, report.setup().output.least_step),
+                    style,
+                )
             } else {
                 steps(&sampled, &step.segment, (thinning, turn), style)
             };

@@ -21,6 +21,9 @@ const LONGEST: f64 = 5.0 * MM;
 /// Points looked at on an arc.
 const ON_ARC: usize = 16;
 
+/// What may be left out of a course next to a corner [m].
+const SKIPPED: f64 = 5.0 * BESIDE;
+
 /// Corners nearer to each other than this are one corner of the course [m].
 const ONE_CORNER: f64 = 10.0 * BESIDE;
 
@@ -33,18 +36,18 @@ pub fn of_moves(path: &Path, limit: f64) -> Vec<(usize, Corner)> {
 /// Those of them at which the course turns as well. What is in doubt counts as smooth.
 pub fn corners(path: &Path, limit: f64) -> Vec<(usize, Corner)> {
     let mut corners: Vec<(usize, Corner)> = Vec::new();
+    // Where the corner of the course that was found last begins [m].
+    let mut begins = f64::NEG_INFINITY;
     for (index, corner) in of_moves(path, limit) {
         if !turns(path, index, &corner, limit) {
             continue;
         }
-        match corners.last_mut() {
+        if corner.s - begins >= ONE_CORNER {
+            begins = corner.s;
+            corners.push((index, corner));
+        } else if let Some(last) = corners.last_mut().filter(|last| corner.angle > last.1.angle) {
             // The sharpest of them is nearest to the corner of the course.
-            Some(last) if corner.s - last.1.s < ONE_CORNER => {
-                if corner.angle > last.1.angle {
-                    *last = (index, corner);
-                }
-            }
-            _ => corners.push((index, corner)),
+            *last = (index, corner);
         }
     }
     corners
@@ -60,8 +63,8 @@ fn turns(path: &Path, index: usize, corner: &Corner, limit: f64) -> bool {
     if !(short(&arriving[index]) || short(&leaving[0])) {
         return corner.angle > limit;
     }
-    let arriving = Direction::of(&points(arriving.iter().rev(), reach, |length, s| length - s));
-    let leaving = Direction::of(&points(leaving.iter(), reach, |_, s| s));
+    let arriving = Direction::surest(&points(arriving.iter().rev(), reach, |length, s| length - s));
+    let leaving = Direction::surest(&points(leaving.iter(), reach, |_, s| s));
     let turn = math::angle_between(&-arriving.tangent, &leaving.tangent);
     // A bend of the radius r may have turned by the angle b before it is further than r b^2 / 2 from
     // the straight course before it.
@@ -84,6 +87,21 @@ struct Direction {
 }
 
 impl Direction {
+    /// The one with the least doubt, from the first of `points` or from one of those that follow within
+    /// [`SKIPPED`]: a step to the side of 0.01 mm tells nothing of where a course goes.
+    fn surest(points: &[Vector3<f64>]) -> Self {
+        let first = Self::of(points);
+        let further = (2..points.len().saturating_sub(2)).step_by(2);
+        further
+            .take_while(|&k| (points[k] - points[0]).norm() <= SKIPPED)
+            .map(|k| {
+                let skipped = (points[k] - points[0]).norm();
+                let from_there = Self::of(&points[k..]);
+                Self { doubt: from_there.doubt + from_there.curvature * skipped, ..from_there }
+            })
+            .fold(first, |best, next| if next.doubt < best.doubt { next } else { best })
+    }
+
     /// By the longest parabola from the first of `points`, or by the first move, the first three,
     /// whichever leaves less doubt.
     fn of(points: &[Vector3<f64>]) -> Self {

@@ -6,6 +6,7 @@ mod cutting;
 mod statics;
 mod motion;
 mod uncertainty;
+mod reserved;
 pub mod program;
 
 pub use cutting::ResolvedMaterial;

@@ -13,6 +13,7 @@
 //! Where nothing is blended, the tool comes to rest, and the next move starts in the next cycle of the
 //! controller, for which the job's sample time is taken.
 
+use crate::export::chain::WAY_BACK;
 use crate::export::command::Command;
 use crate::export::style::Junctions;
 use crate::math;
@@ -22,10 +23,11 @@ use crate::path::{Move, MovePace, Program, Segment};
 use crate::units::DEG;
 use nalgebra::Vector3;
 
-/// A sharper corner is a way back, at which the tool comes to rest in any case [rad].
-const WAY_BACK: f64 = 168.0 * DEG;
-/// A parabola is run in chords that turn by at most this share of the angle that is a stop.
+/// A parabola is run in chords that turn by at most this share of the angle that is a stop, of which no
+/// more than [`COARSEST`] counts.
 const CHORD: f64 = 0.3;
+/// See [`CHORD`] [rad].
+const COARSEST: f64 = 5.0 * DEG;
 
 /// The program of a robot's command, with its corners as they are run.
 pub fn as_run(command: &Command, limits: &MotionLimits) -> Program {
@@ -109,8 +111,10 @@ impl BlendedCorner {
         // At its vertex the radius is d cos^2(turn / 2) / sin(turn / 2).
         let (sin, cos) = math::sin_cos(corner / 2.0);
         let slowest = (limits.acceleration * reach * cos * cos / sin.max(f64::MIN_POSITIVE)).sqrt();
-        let turn = math::angle_between(&arriving, &leaving);
-        let count = (turn / (CHORD * limits.corner_angle)).ceil().max(2.0);
+        // On arcs it turns with them, there and back where they bend in turn.
+        let turn = corner + reach * (before.segment.curvature() + after.segment.curvature());
+        // An even number, so that the vertex is among their ends.
+        let count = 2.0 * (turn / (2.0 * CHORD * limits.corner_angle.min(COARSEST))).ceil().max(1.0);
         // As a cubic, the parabola between two straight moves has its inner points at two thirds of the
         // way to the corner; beside an arc, that touches the arc.
         let inner = [start + arriving * (reach * 2.0 / 3.0), end - leaving * (reach * 2.0 / 3.0)];
