@@ -135,7 +135,7 @@ fn a_step_to_the_side_does_not_hide_a_way_back() {
             .flat_map(|line: u32| {
                 let y = f64::from(line) * step;
                 let ends = [[1700.0, y], [1720.0, y]];
-                if line % 2 == 0 { ends } else { [ends[1], ends[0]] }
+                if line.is_multiple_of(2) { ends } else { [ends[1], ends[0]] }
             })
             .collect();
         let stops = travelled(&csv(&raster, 6)).plan.trajectory.stops.len();
