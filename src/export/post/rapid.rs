@@ -3,7 +3,7 @@
 //! `MoveL` and `MoveC` in a work object, with the tip as tool; lengths in mm, quaternions with the
 //! scalar first, speeds in mm/s. Stops are `fine`; elsewhere a zone of the program's own, within which
 //! the path is a parabola, half the distance to the next point at most. The first move is by axes;
-//! after it, `ConfL\\Off` keeps the nearest configuration, and the one simulated stands in each target.
+//! after it, `ConfL\Off` keeps the nearest configuration, and the one simulated stands in each target.
 //! Parts are loaded one after the other, which needs the tool at rest.
 //!
 //! The layout of data types and zones follows ABB's RAPID reference manual, that of the package
