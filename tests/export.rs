@@ -257,7 +257,8 @@ fn the_parts_frame_is_counted_as_the_controller_counts() {
     }
     let staubli = line_of(json!({"preset":"staubli-tx2-90"}), zero.clone(), at([500.0, 0.0, 0.0], [0.0; 3]));
     let package = armill::verification::Programs::default().package(&staubli, None).unwrap();
-    let data = &package.files.iter().find(|file| file.path.ends_with(".dtx")).unwrap().text;
+    let data =
+        package.files.iter().find(|file| file.path.ends_with(".dtx")).unwrap().text.replace("\r\n", "\n");
     let part = "type=\"frame\" size=\"1\">\n      \
                 <Value key=\"0\" x=\"500.0\" y=\"0.0\" z=\"-478.0\" rx=\"0.0\" ry=\"0.0\" rz=\"0.0\" fatherId=\"world[0]\"";
     assert!(data.contains(part), "{data}");

@@ -149,6 +149,10 @@ fn force(plan: &Plan, timing: &TimingLaw, share: &[f64], acting: Sources) -> Vec
     force
 }
 
+/// A command may turn back by so much while a correction changes [m]; further, it is the path that
+/// comes back.
+const BEHIND: f64 = 0.2e-3;
+
 /// For each sample of the program's own motion, the corresponding instant of the report's run, in
 /// samples.
 fn instants(commanded: &[Vector3<f64>], own: &Trajectory) -> Option<Vec<f64>> {
@@ -167,12 +171,18 @@ fn instants(commanded: &[Vector3<f64>], own: &Trajectory) -> Option<Vec<f64>> {
     }
     let path = Path::new(segments)?;
     let rests = rests(own);
-    let mut near = 0.0;
+    let (mut near, mut furthest) = (0.0, 0.0_f64);
     let mut last = own.position[0];
     let instant = |(k, position): (usize, &Vector3<f64>)| {
         let radius = 3.0 * ((position - last).norm() + (position - path.point(near)).norm()) + 1e-6;
+        near = path.closest(position, near, radius).s.clamp(0.0, length);
         // The program goes on: where it comes back the way it went, the way out is behind it.
-        near = path.closest(position, near + radius / 2.0, radius / 2.0).s.clamp(near, length.max(near));
+        let behind = furthest - near;
+        if behind > BEHIND {
+            let ahead = behind + radius / 2.0;
+            near = path.closest(position, furthest + ahead, ahead).s.clamp(0.0, length);
+        }
+        furthest = furthest.max(near);
         last = *position;
         // Where the report's command rests, many instants share one place: they elapse in step with
         // the program's own rest.
