@@ -26,6 +26,8 @@ const methods = {
   track: [result.track(100)],
   export: [result.export("krl")],
   columns_csv: [result.columns_csv(0, 3)],
+  package: [result.package(), other.package("gcode")],
+  package_zip: [result.package_zip("kuka")],
   promise: [result.promise(), result.promise("krl")],
   replay: [other.replay("gcode")],
   fingerprint: [result.fingerprint()],
@@ -39,6 +41,7 @@ const identified = [armill.identify_stiffness(armill.default_job(), poses, "tabl
 
 const literal = (value) => {
   if (value instanceof Float64Array) return `new Float64Array([${value.slice(0, 3)}])`;
+  if (value instanceof Uint8Array) return `new Uint8Array([${value.slice(0, 3)}])`;
   if (Array.isArray(value)) return `[${value.map(literal)}]`;
   if (value === null || typeof value !== "object") return JSON.stringify(value);
   return `{${Object.entries(value).map(([key, each]) => `${JSON.stringify(key)}: ${literal(each)}`)}}`;
