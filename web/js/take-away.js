@@ -74,8 +74,12 @@ function showOutline(line, { met, sentence, remarks }) {
   showRemarks(remarks);
 }
 
-/** In a line of its own that is always there: the text comes late, and nothing below it may move. */
+/** In a list that an export opens: the text comes late, and until then nothing below may move. */
 function showRemarks(remarks) {
+  const shaper = remarks.some((remark) => remark.includes("input shaper"));
+  byId("download-program").title = shaper ? remarks[0] : "";
+  byId("download-program").classList.toggle("needs-shaper", shaper);
+  byId("remarks").hidden = true;
   byId("remarks-first").textContent = remarks.length ? `: ${remarks[0]}` : "";
   byId("remarks-list").replaceChildren(...remarks.map((remark) => make("li", {}, remark)));
 }
@@ -89,6 +93,7 @@ async function save(say, warn) {
     download(file.name, file.type, file.content);
     if (core.shownJob() === json) showOutline(byId("as-program"), outline);
     byId("remarks").open = outline.remarks.length > 0;
+    byId("remarks").hidden = outline.remarks.length === 0;
     say(`Saved ${file.name}${outline.files.length > 1 ? `: ${outline.files.join(", ")}` : ""}`);
   } catch (error) {
     if (!error.fatal && error.code !== "cancelled") warn(`The program could not be made: ${error.message}`);
