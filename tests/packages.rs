@@ -10,7 +10,7 @@ use armill::robot::forward;
 use armill::setup::Controller;
 use armill::verification::{Package, Programs};
 use common::run;
-use controllers::{Blend, ControllerProgram, File, Motion, Target};
+use controllers::{Blend, ControllerProgram, Motion, Target};
 use nalgebra::{Matrix3, Vector3};
 use serde_json::{Value, json};
 
@@ -57,23 +57,14 @@ fn paths() -> Vec<(&'static str, Value)> {
 
 fn package(report: &Report, controller: Controller) -> (Package, ControllerProgram) {
     let package = Programs::default().package(report, Some(controller)).unwrap();
-    let program = read(&package, controller);
+    let program = read(&package);
     (package, program)
 }
 
-fn read(package: &Package, controller: Controller) -> ControllerProgram {
-    let of = |file: &armill::export::post::robot::PackageFile| File {
-        path: file.path.clone(),
-        text: file.text.clone(),
-    };
-    let files: Vec<File> = package.files.iter().map(of).collect();
-    let read = match controller {
-        Controller::Kuka => controllers::krl(&files),
-        Controller::Abb => controllers::rapid(&files),
-        Controller::Staubli => controllers::val3(&files),
-        _ => controllers::fanuc(&files),
-    };
-    read.unwrap_or_else(|error| panic!("{error}\n{}", package.files[0].text))
+fn read(package: &Package) -> ControllerProgram {
+    let files = package.files.iter().map(|file| (file.path.as_str(), file.text.as_str()));
+    controllers::read(package.controller, files)
+        .unwrap_or_else(|error| panic!("{error}\n{}", package.files[0].text))
 }
 
 /// The base of a program in the robot's own base, at the foot of the arm [mm].

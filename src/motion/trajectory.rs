@@ -115,6 +115,9 @@ pub struct Trajectory {
     pub axis: Axes,
     /// Corners with a full stop.
     pub stops: Vec<Corner>,
+    /// Time that the sharp ones among them take [s]: braking, rest and starting again, compared with
+    /// passing them.
+    pub time_of_corners: f64,
     /// Number of samples up to and including the exact end of the path; the rest is settling.
     pub moving: usize,
 }
@@ -130,20 +133,15 @@ impl Trajectory {
         stretches(path, limits).iter().map(Stretch::duration).sum()
     }
 
-    /// Time that the corners with a full stop take [s]: braking, rest and starting again, compared
-    /// with passing them.
-    pub fn time_of_stops(path: &Path, limits: &MotionLimits) -> f64 {
-        let passing = MotionLimits { corner_angle: PI, ..*limits };
-        Self::moving_time(path, limits) - Self::moving_time(path, &passing)
-    }
-
     /// Travels the path with trapezoidal profiles, from rest to rest between full stops: sharp
     /// corners and the program's waits.
     pub fn new(path: &Path, limits: &MotionLimits) -> Self {
         let stretches = stretches(path, limits);
+        let duration = stretches.iter().map(Stretch::duration).sum::<f64>();
+        let passing = Self::moving_time(path, &MotionLimits { corner_angle: PI, ..*limits });
         let dt = limits.sample_time;
         let settling = (limits.settle / dt).ceil() as usize;
-        let most = (stretches.iter().map(Stretch::duration).sum::<f64>() / dt) as usize + settling + 2;
+        let most = (duration / dt) as usize + settling + 2;
         let mut timing = TimingLaw::with_capacity(most);
         let mut position = Vec::with_capacity(most);
         let mut near = 0;
@@ -193,7 +191,7 @@ impl Trajectory {
         }
         let stops = stretches.iter().filter_map(|stretch| stretch.stop.map(|stop| stop.corner)).collect();
         let axis = Axes::along(path, &timing.arc_length, &timing.index);
-        Self { sample_time: dt, timing, position, axis, stops, moving }
+        Self { sample_time: dt, timing, position, axis, stops, time_of_corners: duration - passing, moving }
     }
 
     /// A few stations instead of every sample, for searches over many poses. They are evenly spaced
@@ -213,7 +211,8 @@ impl Trajectory {
             position.push(path.point_at(place));
         }
         let axis = Axes::along(path, &timing.arc_length, &timing.index);
-        Self { sample_time: limits.sample_time, timing, position, axis, stops: Vec::new(), moving: count }
+        let (sample_time, stops) = (limits.sample_time, Vec::new());
+        Self { sample_time, timing, position, axis, stops, time_of_corners: 0.0, moving: count }
     }
 
     /// The number of samples.

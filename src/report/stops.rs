@@ -20,9 +20,8 @@ const MANY: usize = 20;
 
 impl Stops {
     pub(super) fn of(report: &Report) -> Self {
-        let Report { plan, .. } = report;
-        let corners_s = Trajectory::time_of_stops(&plan.path, &plan.setup.limits);
-        Self { count: plan.trajectory.stops.len(), corners_s }
+        let Trajectory { stops, time_of_corners, .. } = &*report.plan.trajectory;
+        Self { count: stops.len(), corners_s: *time_of_corners }
     }
 
     /// Many corners that take more time than all the rest.

@@ -2,10 +2,10 @@
 
 use crate::error::Error;
 use crate::export::command::ProgramRun;
-use crate::export::post;
 use crate::export::post::robot::PackageFile;
 use crate::export::style::{Junctions, PostStyle};
 use crate::export::{self, Export, ExportOptions, Format};
+use crate::export::{post, posture};
 use crate::report::{Report, VerdictState, millimetres};
 use crate::setup::Controller;
 use crate::units::MM;
@@ -141,8 +141,9 @@ impl Programs {
         let style = PostStyle::of(format, report)
             .ok_or_else(|| Error::invalid("controller", controller.id(), "one that runs programs"))?;
         let Rehearsal { commanded_path, command, run } = self.rehearsal(report, style)?;
+        let joints = if style.is_robot() { posture::joints(report, command)? } else { Vec::new() };
         let files = if style.is_robot() {
-            post::robot::package(report, command, controller, false)?
+            post::robot::package(report, command, &joints, controller, false)?
         } else {
             let text = export::program(report, format, commanded_path, command)?.text;
             vec![PackageFile { path: format!("{}.{}", options.name, format.extension), text }]
@@ -163,7 +164,7 @@ impl Programs {
             points: command.points(),
             stops: run.stops,
             blending,
-            remarks: remarks(report, command, controller)?,
+            remarks: remarks(report, command, &joints, controller),
             sentence: format!(
                 "As {}: {:.1} s with {} {}, {}",
                 in_words(format),

@@ -1,21 +1,20 @@
 //! What to look out for before a package runs.
 
-use crate::error::Error;
 use crate::export::command::Command;
 use crate::export::posture;
 use crate::report::{Report, millimetres};
+use crate::robot::Joints;
 use crate::setup::Controller;
 use crate::units::MM;
 
-/// Everything that a package leaves to the person who runs it, the dangerous first.
-///
-/// # Errors
-/// See [`posture::joints`].
+/// Everything that a package leaves to the person who runs it, the dangerous first. `joints` are those of
+/// [`posture::joints`]; none for a machine.
 pub(super) fn remarks(
     report: &Report,
     command: &Command,
+    joints: &[Joints],
     controller: Controller,
-) -> Result<Vec<String>, Error> {
+) -> Vec<String> {
     let setup = report.setup();
     let mut remarks = Vec::new();
     if setup.mode.is_some() {
@@ -26,19 +25,19 @@ pub(super) fn remarks(
         );
     }
     if command.style.is_robot() {
-        remarks.extend(of_arm(report, command, controller)?);
+        remarks.extend(of_arm(report, command, joints, controller));
         remarks.extend(left_out(report, command));
         remarks.extend(of_controller(report, command, controller));
         remarks.push("Not tried on a controller: run it slowly and without the part first.".into());
     }
-    Ok(remarks)
+    remarks
 }
 
 /// What the arm may not do as simulated.
-fn of_arm(report: &Report, command: &Command, controller: Controller) -> Result<Vec<String>, Error> {
+fn of_arm(report: &Report, command: &Command, joints: &[Joints], controller: Controller) -> Vec<String> {
     let output = &report.setup().output;
     let mut remarks = Vec::new();
-    if posture::changes(&report.plan.robot, &posture::joints(report, command)?) {
+    if posture::changes(&report.plan.robot, joints) {
         remarks.push(
             "The arm changes its posture on the way (wrist, elbow or shoulder), which no linear move does: a controller stops \
              there."
@@ -57,7 +56,7 @@ fn of_arm(report: &Report, command: &Command, controller: Controller) -> Result<
             millimetres(command.deviation)
         ));
     }
-    Ok(remarks)
+    remarks
 }
 
 /// Words of the original program that the package does not have.

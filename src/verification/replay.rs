@@ -255,6 +255,6 @@ fn standing_for(report: &Report, own: &Trajectory, instants: &[f64]) -> (Traject
     };
     let position = timing.points(path);
     let axis = Axes::along(path, &timing.arc_length, &timing.index);
-    let Trajectory { sample_time, ref stops, moving, .. } = *own;
-    (Trajectory { sample_time, timing, position, axis, stops: stops.clone(), moving }, share)
+    let Trajectory { sample_time, ref stops, time_of_corners, moving, .. } = *own;
+    (Trajectory { sample_time, timing, position, axis, stops: stops.clone(), time_of_corners, moving }, share)
 }

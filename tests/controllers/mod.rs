@@ -21,6 +21,21 @@ pub(crate) use val3::val3;
 
 use nalgebra::{Matrix3, Vector3};
 
+/// Reads a package, its paths and texts, by the reader of the controller that a job calls `id`.
+pub(crate) fn read<'t>(
+    id: &str,
+    files: impl Iterator<Item = (&'t str, &'t str)>,
+) -> Result<ControllerProgram, String> {
+    let files: Vec<File> = files.map(|(path, text)| File { path: path.into(), text: text.into() }).collect();
+    match id {
+        "kuka" => krl(&files),
+        "abb" => rapid(&files),
+        "staubli" => val3(&files),
+        "fanuc" => fanuc(&files),
+        _ => Err(format!("no reader for {id}")),
+    }
+}
+
 /// A position [mm] and the orientation there.
 pub(crate) type Frame = (Vector3<f64>, Matrix3<f64>);
 

@@ -2,7 +2,6 @@
 //! message, and every output can be read.
 
 use armill::chart::{self, CATALOG};
-use armill::export::post::robot::PackageFile;
 use armill::export::{Export, ExportOptions, FORMATS};
 use armill::path::program::{MovePace, Program};
 use armill::path::unit::{FeedUnit, LengthUnit};
@@ -16,7 +15,7 @@ use serde_json::{Value, json};
 use std::fs;
 use std::path::PathBuf;
 
-use super::controllers::{self, File};
+use super::controllers;
 
 /// A reader of texts under test.
 pub(crate) struct Target {
@@ -305,27 +304,22 @@ fn check_exports(report: &Report) {
     let programs = Programs::default();
     for controller in [Controller::Kuka, Controller::Abb, Controller::Staubli, Controller::Fanuc] {
         match programs.package(report, Some(controller)) {
-            Ok(package) => check_package(&package, controller),
+            Ok(package) => check_package(&package),
             Err(error) => check_error(&error, "", ""),
         }
     }
 }
 
 /// A package is what its controller's reader takes.
-fn check_package(package: &Package, controller: Controller) {
-    let of = |file: &PackageFile| File { path: file.path.clone(), text: file.text.clone() };
-    let files: Vec<File> = package.files.iter().map(of).collect();
-    let read = match controller {
-        Controller::Kuka => controllers::krl(&files),
-        Controller::Abb => controllers::rapid(&files),
-        Controller::Staubli => controllers::val3(&files),
-        _ => controllers::fanuc(&files),
-    };
+fn check_package(package: &Package) {
+    let files = package.files.iter().map(|file| (file.path.as_str(), file.text.as_str()));
+    let read = controllers::read(package.controller, files);
     // A path through a singularity is said to be no path for a controller.
     if package.remarks.iter().any(|remark| remark.contains("changes its posture")) {
         return;
     }
-    let program = read.unwrap_or_else(|error| panic!("{}: {error}\n{}", package.controller, files[0].text));
+    let program =
+        read.unwrap_or_else(|error| panic!("{}: {error}\n{}", package.controller, package.files[0].text));
     assert_eq!(program.targets.len(), package.points, "{}", package.controller);
 }
 

@@ -5,7 +5,7 @@ import { byId, make } from "./dom.js";
 import { download } from "./download.js";
 
 const QUIET_MS = 400; // inputs that still move are not judged
-const LONG_MS = 3000; // a run that takes longer is judged when it is taken away: several runs are to be made for it
+const LONG_MS = 3000; // a run that takes longer is judged when it is exported: several runs are made for it
 const JOINTS = "joints-csv"; // a table beside the controllers
 
 let names; // controller -> name

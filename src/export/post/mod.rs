@@ -21,6 +21,7 @@ use crate::error::Error;
 use crate::export::arc::Step;
 use crate::export::command::{Command, CommandedMove};
 use crate::export::header::{self, number};
+use crate::export::posture;
 use crate::report::Report;
 use crate::setup::Controller;
 
@@ -51,7 +52,8 @@ fn main_file(
     controller: Controller,
     extension: &str,
 ) -> Result<String, Error> {
-    let files = robot::package(report, command, controller, true)?;
+    let joints = posture::joints(report, command)?;
+    let files = robot::package(report, command, &joints, controller, true)?;
     let main = files.into_iter().find(|file| file.path.ends_with(extension));
     Ok(main.map_or_else(String::new, |file| file.text))
 }

@@ -33,18 +33,12 @@ pub(super) struct Rapid<'r> {
 
 impl<'r> Rapid<'r> {
     pub(super) fn new(brief: &Brief<'r>) -> Self {
-        let mut speeds = Vec::new();
-        for commanded in &brief.command.moves {
-            if !speeds.contains(&commanded.feed) && !commanded.steps.is_empty() {
-                speeds.push(commanded.feed);
-            }
-        }
         let given = brief.options.external.iter().map(|axis| number(*axis, 4));
         let external: Vec<_> =
             given.chain(std::iter::repeat_n("9E9".to_owned(), EXTERNAL)).take(EXTERNAL).collect();
         Self {
             robot: &brief.report.plan.robot,
-            speeds,
+            speeds: brief.speeds(),
             zone: brief.command.blend / MM,
             external: format!("[{}]", external.join(",")),
         }

@@ -9,7 +9,6 @@ use crate::error::Error;
 use crate::export::chain;
 use crate::export::command::Command;
 use crate::export::header::{self, number};
-use crate::export::posture;
 use crate::math::Pose;
 use crate::report::Report;
 use crate::robot::Joints;
@@ -44,6 +43,17 @@ impl Brief<'_> {
     /// Joint values at the start, as the controller shows them.
     pub(super) fn start_deg(&self) -> [f64; 6] {
         self.start.map(|q| q / DEG).into()
+    }
+
+    /// The different speeds [m/s], in the order in which they come.
+    pub(super) fn speeds(&self) -> Vec<f64> {
+        let mut speeds = Vec::new();
+        for commanded in &self.command.moves {
+            if !speeds.contains(&commanded.feed) && !commanded.steps.is_empty() {
+                speeds.push(commanded.feed);
+            }
+        }
+        speeds
     }
 
     /// Names of the parts: the program's with a number.
@@ -105,18 +115,19 @@ pub(super) trait Language {
     fn files(&self, brief: &Brief, parts: &[Vec<String>]) -> Vec<PackageFile>;
 }
 
-/// The package of a command for a controller that runs robots; in one part if `whole`.
+/// The package of a command for a controller that runs robots; in one part if `whole`. `joints` are those
+/// of [`posture::joints`](crate::export::posture::joints).
 ///
 /// # Errors
-/// [`Error::Invalid`] for a name that the controller does not take; see also [`posture::joints`].
+/// [`Error::Invalid`] for what the controller does not take.
 pub fn package(
     report: &Report,
     command: &Command,
+    joints: &[Joints],
     controller: Controller,
     whole: bool,
 ) -> Result<Vec<PackageFile>, Error> {
     let options = &report.setup().output;
-    let joints = posture::joints(report, command)?;
     let brief = Brief {
         report,
         command,
@@ -139,7 +150,7 @@ pub fn package(
             return Err(Error::invalid("controller", format!("\"{}\"", controller.id()), expected));
         }
     };
-    let parts = parts(command, &joints, whole, language);
+    let parts = parts(command, joints, whole, language);
     let files = language.files(&brief, &parts);
     // Controllers run Windows: their own files have its line ends, and Staubli's a mark of UTF-8.
     let mark = if controller == Controller::Staubli { "\u{feff}" } else { "" };

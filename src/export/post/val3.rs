@@ -31,13 +31,7 @@ pub(super) struct Val3 {
 
 impl Val3 {
     pub(super) fn new(brief: &Brief) -> Self {
-        let mut speeds = Vec::new();
-        for commanded in &brief.command.moves {
-            if !speeds.contains(&commanded.feed) && !commanded.steps.is_empty() {
-                speeds.push(commanded.feed);
-            }
-        }
-        Self { speeds, blend: brief.command.blend / MM, points: Vec::new() }
+        Self { speeds: brief.speeds(), blend: brief.command.blend / MM, points: Vec::new() }
     }
 
     /// Adds a point, and names it.
