@@ -127,7 +127,7 @@ fn blended(report: &Report, thinning: Option<f64>, style: PostStyle, blend: f64)
     }
     let (commanded_path, command, outcome) = best;
     match sought {
-        Sources::ALL => Ok(rehearsed(commanded_path, command, &outcome)),
+        Sources::ALL => Ok(rehearsed(report, commanded_path, command, &outcome)),
         _ => run(report, commanded_path, command),
     }
 }
@@ -140,13 +140,19 @@ fn as_it_runs(report: &Report, command: &Command) -> Program {
 /// A command, run with every source acting.
 fn run(report: &Report, commanded_path: CommandedPath, command: Command) -> Result<Rehearsal, Error> {
     let outcome = replay::run(report, &commanded_path, &as_it_runs(report, &command))?;
-    Ok(rehearsed(commanded_path, command, &outcome))
+    Ok(rehearsed(report, commanded_path, command, &outcome))
 }
 
-fn rehearsed(commanded_path: CommandedPath, command: Command, outcome: &Replay) -> Rehearsal {
+/// How a command ran.
+fn rehearsed(
+    report: &Report,
+    commanded_path: CommandedPath,
+    command: Command,
+    outcome: &Replay,
+) -> Rehearsal {
     let Trajectory { moving, sample_time, ref stops, .. } = *outcome.trajectory;
     let duration = (moving - 1) as f64 * sample_time;
-    let missed = if command.style.is_robot() { outcome.missed } else { 0.0 };
+    let missed = if command.style.is_robot() { outcome.missed(&report.plan.path) } else { 0.0 };
     let run = ProgramRun { reached: outcome.largest(), missed, duration, stops: stops.len() };
     Rehearsal { commanded_path, command: Command { run: Some(run), ..command }, run }
 }

@@ -38,15 +38,17 @@ pub struct Replay {
     /// For each sample, the corresponding instant of the report's run, in samples; never
     /// decreasing.
     pub instants: Vec<f64>,
-    /// Largest distance from a point of the desired path to the nearest place that the tip passes
-    /// [m].
-    pub missed: f64,
 }
 
 impl Replay {
     /// Largest contour error [m].
     pub fn largest(&self) -> f64 {
         self.deviation.statistics.max
+    }
+
+    /// Largest distance from a point of the desired `path` to the nearest place that the tip passes [m].
+    pub fn missed(&self, path: &Path) -> f64 {
+        missed(path, &self.trajectory.timing.arc_length, &self.deviation.actual).max
     }
 
     /// Largest error by which the compensation judges [m].
@@ -131,8 +133,7 @@ pub fn run_under(
     let deviation = simulate(&plan, &reference, &q, &mut Progress::none());
     let Reference { target, axis, .. } = reference;
     let target = target.into_owned();
-    let missed = missed(&plan.path, &plan.trajectory.timing.arc_length, &deviation.actual).max;
-    Ok(Replay { target, axis, deviation, instants, missed, trajectory: plan.trajectory })
+    Ok(Replay { target, axis, deviation, instants, trajectory: plan.trajectory })
 }
 
 /// Force on the tool [N] along a timing law, of which `share` acts across the tool axis.
