@@ -234,6 +234,18 @@ impl Page {
         self.js(&format!("return {scripts}.then((scripts) => ({function})({module}))")).await
     }
 
+    /// How many pixels the page is wider than its screen, and the elements that are.
+    ///
+    /// # Errors
+    /// If the browser does not answer.
+    pub async fn wider(&self) -> Result<Value> {
+        self.js("const root = document.documentElement, over = root.scrollWidth - root.clientWidth; \
+             const name = (element) => element.id || element.getAttribute('class') || element.tagName; \
+             return over <= 0 ? null : [over, [...document.querySelectorAll('body *')].filter(element => \
+             element.checkVisibility() && element.getBoundingClientRect().right > root.clientWidth).map(name)]")
+            .await
+    }
+
     /// Waits until a JavaScript expression is true; one that throws is not true yet.
     ///
     /// # Errors

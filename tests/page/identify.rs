@@ -172,11 +172,7 @@ fn it_fits_a_phone() -> Result {
         )
         .await?;
         page.screenshot("identify-phone.png").await?;
-        assert_eq!(
-            page.js("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
-                .await?,
-            0
-        );
+        assert_eq!(page.wider().await?, Value::Null);
         Ok(())
     })
 }

@@ -7,6 +7,27 @@ use crate::{current, number, shows, text};
 use serde_json::json;
 
 #[test]
+fn no_panel_is_wider_than_its_screen() -> Result {
+    // The first is a small phone of 320 px beside the scroll bar of a desktop browser.
+    for width in [335, 390, 768, 1280] {
+        visit("/", (width, 844), async |page| {
+            current(page).await?;
+            let tabs =
+                page.js("return [...document.querySelectorAll('[role=tab]')].map(tab => tab.id)").await?;
+            let tabs: Vec<String> = serde_json::from_value(tabs)?;
+            assert!(tabs.len() >= 10, "{tabs:?}");
+            for tab in tabs {
+                page.js(&format!("document.getElementById('{tab}').click()")).await?;
+                page.js("for (const part of document.querySelectorAll('details')) part.open = true").await?;
+                assert_eq!(page.wider().await?, json!(null), "{tab} at {width}");
+            }
+            Ok(())
+        })?;
+    }
+    Ok(())
+}
+
+#[test]
 fn units_colours_and_open_panels_are_remembered() -> Result {
     visit("/", DESKTOP, async |page| {
         current(page).await?;
