@@ -43,6 +43,7 @@ pub mod progress;
 pub mod robot;
 pub mod path;
 pub mod motion;
+pub mod stock;
 pub mod cutting;
 pub mod job;
 pub mod setup;

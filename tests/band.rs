@@ -4,6 +4,7 @@
 #[path = "common/plant.rs"]
 mod plant;
 
+use armill::cutting::MeanForces;
 use armill::deviation::{Reference, Sources, simulate};
 use armill::job::Job;
 use armill::plan::Plan;
@@ -35,7 +36,12 @@ fn rerun(report: &Report, draw: &Draw) -> Vec<f64> {
         armill::robot::Robot::new(setup.robot.name(), *setup.robot.links(), limits, compliance).unwrap();
     let robot = robot.with_tool(*setup.robot.tool());
     let cut = drawn_cut(&setup.cut, draw);
-    let drawn = Setup { robot: robot.clone(), mean_force: cut.mean_force(), cut, ..setup.clone() };
+    let drawn = Setup {
+        robot: robot.clone(),
+        mean_force: MeanForces::of(&cut, setup.contacts.as_ref()),
+        cut,
+        ..setup.clone()
+    };
     let plan = Plan { setup: Arc::new(drawn), robot, ..report.plan.clone() };
     let reference = Reference::along(&plan, Sources::ALL);
     let errors = simulate(&plan, &reference, &report.compensation.q, &mut Progress::none()).contour_error;

@@ -74,6 +74,7 @@ fn every_number_is_checked_against_its_range() {
                 "path" => path_of(field.when.as_ref().unwrap().is[0]),
                 "material" => json!({"ktc_n_mm2":1,"krc_n_mm2":1,"kac_n_mm2":1}),
                 "shaper" => json!({"kind":"zvd","damping":0.1}),
+                "stock" => json!({"kind": field.when.as_ref().unwrap().is[0]}),
                 other => serde_json::to_value(Job::default()).unwrap()[other].clone(),
             };
             given[key] = number;

@@ -6,6 +6,7 @@ mod common;
 #[path = "common/plant.rs"]
 mod plant;
 
+use armill::cutting::MeanForces;
 use armill::deviation::{Reference, Sources, simulate};
 use armill::plan::Plan;
 use armill::setup::Setup;
@@ -41,7 +42,7 @@ fn rerun(report: &Report, changes: &[(&'static str, Value)], draw: &Draw) -> Vec
     let cut = drawn_cut(&setup.cut, draw);
     let shaper = setup.shaper.tuned(draw.frequency);
     let robot = setup.robot.clone().touched_off_at(&report.q[0]);
-    let drawn = Setup { mean_force: cut.mean_force(), cut, shaper, ..setup };
+    let drawn = Setup { mean_force: MeanForces::of(&cut, setup.contacts.as_ref()), cut, shaper, ..setup };
     let plan = Plan { setup: Arc::new(drawn), robot, ..report.plan.clone() };
     let reference = Reference::along(&plan, Sources::ALL);
     let errors = simulate(&plan, &reference, &report.compensation.q, &mut Progress::none()).contour_error;

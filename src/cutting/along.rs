@@ -1,6 +1,6 @@
 //! Milling force along the path, in the base frame (thesis eq. 4.11, Fig. 4.6).
 
-use crate::cutting::{LinearForce, Loading};
+use crate::cutting::{LinearForce, Loading, MeanForces};
 use crate::motion::TimingLaw;
 use crate::path::Path;
 use nalgebra::Vector3;
@@ -11,11 +11,11 @@ use nalgebra::Vector3;
 /// {T} follows the local feed: x = feed across the tool axis, z = tool axis, y = z x x (eq. 4.11).
 /// Where the tool moves along its own axis, x is undefined: the last direction is kept (at the
 /// start, the first one that follows), and the report warns.
-pub fn forces(path: &Path, timing: &TimingLaw, mean: &LinearForce, loading: &Loading) -> Vec<Vector3<f64>> {
+pub fn forces(path: &Path, timing: &TimingLaw, mean: &MeanForces, loading: &Loading) -> Vec<Vector3<f64>> {
     let mut forces = Vec::with_capacity(timing.heading.len());
     let loads = loading.along(path);
     each(path, timing, |k, x, axis| {
-        let f = mean.under(&loads.at(timing, k));
+        let f = mean_at(mean, path, timing, k).under(&loads.at(timing, k));
         forces.push(in_base(&f, &x, &axis));
     });
     forces
@@ -26,7 +26,7 @@ pub fn forces(path: &Path, timing: &TimingLaw, mean: &LinearForce, loading: &Loa
 pub fn parts<const N: usize>(
     path: &Path,
     timing: &TimingLaw,
-    parts: &[LinearForce; N],
+    parts: &[MeanForces; N],
     loading: &Loading,
     at: &[usize],
 ) -> Vec<[Vector3<f64>; N]> {
@@ -35,10 +35,17 @@ pub fn parts<const N: usize>(
     each(path, timing, |k, x, axis| {
         if at.get(forces.len()) == Some(&k) {
             let load = loads.at(timing, k);
-            forces.push(parts.map(|part| in_base(&part.under(&load), &x, &axis)));
+            let part = |part: &MeanForces| in_base(&mean_at(part, path, timing, k).under(&load), &x, &axis);
+            forces.push(parts.each_ref().map(part));
         }
     });
     forces
+}
+
+/// The mean force where the tool is at the sample `k`.
+pub fn mean_at(mean: &MeanForces, path: &Path, timing: &TimingLaw, k: usize) -> LinearForce {
+    let index = timing.index[k] as usize;
+    mean.at(index, timing.arc_length[k] - path.start(index))
 }
 
 /// A force in {T}, whose x and z point along `x` and `axis`, in the base frame (eq. 4.11).

@@ -54,8 +54,13 @@ impl LinearForce {
         self.cutting * load.chip + self.edge * load.edge
     }
 
-    fn zero() -> Self {
+    pub(super) fn zero() -> Self {
         Self { cutting: Vector3::zeros(), edge: Vector3::zeros() }
+    }
+
+    /// The force at the share `share` of the way to another one.
+    pub(super) fn towards(&self, other: &Self, share: f64) -> Self {
+        Self { cutting: self.cutting.lerp(&other.cutting, share), edge: self.edge.lerp(&other.edge, share) }
     }
 
     fn add(&mut self, from: (Vector3<f64>, Vector3<f64>), to: (Vector3<f64>, Vector3<f64>), scale: f64) {
@@ -119,8 +124,13 @@ impl Cut {
     /// passes without cutting misses its edge force. In aluminium, that is up to 3 % of the mean at
     /// 15 um and 12 to 17 % at 50 um.
     pub fn mean_force(&self) -> LinearForce {
+        self.mean_of(&self.profile())
+    }
+
+    /// [`Cut::mean_force`] of slices of the edge.
+    pub(super) fn mean_of(&self, slices: &[Slice]) -> LinearForce {
         let mut mean = LinearForce::zero();
-        for slice in self.profile() {
+        for slice in slices {
             let k = &slice.coefficients;
             let scale = f64::from(self.flutes) * slice.height / TAU;
             mean.add(primitive(k, slice.entry), primitive(k, slice.exit), scale);
@@ -131,6 +141,11 @@ impl Cut {
     /// The mean force by the tangential, the radial and the axial coefficients alone; they add up to
     /// [`mean_force`](Cut::mean_force), which is linear in them.
     pub fn mean_force_parts(&self) -> [LinearForce; 3] {
+        self.alone().map(|cut| cut.mean_force())
+    }
+
+    /// The cut by the tangential, the radial and the axial coefficients alone.
+    pub(super) fn alone(&self) -> [Self; 3] {
         let k = &self.coefficients;
         let none = Coefficients::default();
         let alone = [
@@ -138,7 +153,7 @@ impl Cut {
             Coefficients { krc: k.krc, kre: k.kre, ..none },
             Coefficients { kac: k.kac, kae: k.kae, ..none },
         ];
-        alone.map(|coefficients| Cut { coefficients, ..*self }.mean_force())
+        alone.map(|coefficients| Cut { coefficients, ..*self })
     }
 
     /// Force [N] in {T} at the instant when the first tooth's tip is at the immersion angle `phi`,

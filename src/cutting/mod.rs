@@ -12,11 +12,15 @@ pub mod spindle;
 pub mod surface;
 pub mod run_in;
 pub mod load;
+pub mod in_stock;
+pub mod mean_forces;
 pub mod along;
 
 pub use engagement::Engagement;
 pub use force::{Cut, LinearForce};
+pub use in_stock::PlaceFigures;
 pub use kienzle::Kienzle;
-pub use load::{ChipLoad, CutLoad, Loading};
+pub use load::{ChipLoad, CutLoad, Loading, Loads};
 pub use material::Coefficients;
+pub use mean_forces::{HeaviestPlace, MeanForces};
 pub use tool::{Bending, Hand};

@@ -36,17 +36,22 @@ impl Cut {
             let angles = (0..=steps as usize).map(|k| TAU * k as f64 / steps).collect();
             return largest(angles, size, size, 0.0);
         }
-        let (slices, fine) = (self.coarse(), self.profile());
+        self.peak_of(&self.coarse(), &self.profile(), c)
+    }
+
+    /// [`Cut::peak_force`] without runout of slices of the edge, found in coarse ones and closed in on
+    /// in fine ones.
+    pub(super) fn peak_of(&self, slices: &[Slice], fine: &[Slice], c: f64) -> f64 {
         // All teeth are alike, so one pitch is enough.
         let pitch = TAU / f64::from(self.flutes);
-        let mut angles = self.kinks(&slices, pitch);
+        let mut angles = self.kinks(slices, pitch);
         let steps = (pitch / STEP).ceil();
         angles.extend((0..=steps as usize).map(|k| pitch * k as f64 / steps));
         angles.sort_by(f64::total_cmp);
         let size = |slices: &[Slice], phi: f64| self.instant(slices, phi).at(c).norm();
         // The slices of a corner enter as wholes, fine ones elsewhere than coarse ones.
         let beyond = if self.corner_radius > 0.0 { STEP } else { 0.0 };
-        largest(angles, |phi| size(&slices, phi), |phi| size(&fine, phi), beyond)
+        largest(angles, |phi| size(slices, phi), |phi| size(fine, phi), beyond)
     }
 
     /// Both sides of each immersion angle within a pitch [rad] at which an end of a slice meets its

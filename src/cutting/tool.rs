@@ -62,12 +62,7 @@ impl Cut {
     /// are those of a cylinder with other coefficients.
     pub(super) fn slices(&self, count: usize, above: usize) -> Vec<Slice> {
         let (outer, corner, depth) = (self.radius(), self.corner_radius, self.axial_depth);
-        let down = self.hand.sign();
-        let own = Coefficients {
-            kac: -down * self.coefficients.kac,
-            kae: -down * self.coefficients.kae,
-            ..self.coefficients
-        };
+        let own = self.towards_spindle();
         let mut slices = Vec::new();
         let mut add = |from: f64, height: f64, edge: f64, radius: f64, coefficients: Coefficients| {
             if height > 0.0 {
@@ -81,16 +76,7 @@ impl Cut {
                 let (low, high) = (pair[0], pair[1]);
                 let from = height(low);
                 let tall = height(high) - from;
-                let (sin, cos) = math::sin_cos((low + high) / 2.0);
-                let edge = corner * (high - low) / tall;
-                let turned = Coefficients {
-                    ktc: own.ktc,
-                    krc: own.krc * sin - own.kac * cos,
-                    kac: own.kac * sin + own.krc * cos,
-                    kte: own.kte * edge,
-                    kre: (own.kre * sin - own.kae * cos) * edge,
-                    kae: (own.kae * sin + own.kre * cos) * edge,
-                };
+                let (turned, sin) = self.turned(&own, (low, high), tall);
                 add(from, tall, corner * (high - low), outer - corner + corner * sin, turned);
             }
         }
@@ -100,6 +86,37 @@ impl Cut {
             add(corner + tall * k as f64, tall, tall, outer, own);
         }
         slices
+    }
+
+    /// The coefficients with those of the axial force for the one towards the spindle.
+    pub(super) fn towards_spindle(&self) -> Coefficients {
+        let down = self.hand.sign();
+        Coefficients {
+            kac: -down * self.coefficients.kac,
+            kae: -down * self.coefficients.kae,
+            ..self.coefficients
+        }
+    }
+
+    /// The coefficients `own` on the corner between two angles kappa [rad], `tall` [m] apart in height,
+    /// and the sine of their middle.
+    pub(super) fn turned(
+        &self,
+        own: &Coefficients,
+        (low, high): (f64, f64),
+        tall: f64,
+    ) -> (Coefficients, f64) {
+        let (sin, cos) = math::sin_cos((low + high) / 2.0);
+        let edge = self.corner_radius * (high - low) / tall;
+        let turned = Coefficients {
+            ktc: own.ktc,
+            krc: own.krc * sin - own.kac * cos,
+            kac: own.kac * sin + own.krc * cos,
+            kte: own.kte * edge,
+            kre: (own.kre * sin - own.kae * cos) * edge,
+            kae: (own.kae * sin + own.kre * cos) * edge,
+        };
+        (turned, sin)
     }
 
     /// The borders of `count` slices of the corner as angles kappa [rad].

@@ -36,6 +36,8 @@ choice! {
         Conventional = "conventional",
         /// Material on both sides.
         Slot = "slot",
+        /// Where the tool is in the stock.
+        FromStock = "from-stock",
     }
 }
 choice! {
@@ -156,7 +158,7 @@ pub struct Material {
 pub struct Cutting {
     /// Axial depth of cut.
     pub axial_depth_mm: f64,
-    /// How the engagement is given; default: entry and exit.
+    /// How the engagement is given; default: from the stock if there is one, else entry and exit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub engagement: Option<Engaged>,
     /// Radial depth of cut, for climb and conventional milling.

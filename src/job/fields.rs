@@ -193,22 +193,35 @@ fn check(field: String, value: &Value, min: f64, max: f64, unit: &'static str) -
 pub(crate) fn check_path_keys(job: &Job) -> Result<(), Error> {
     let Ok(given) = serde_json::to_value(outline(job).path) else { return Ok(()) };
     let kind = job.path.kind.word();
-    for field in table() {
-        let Some((key, when)) = field.path.strip_prefix("path.").zip(field.when.as_ref()) else { continue };
-        if given.get(key).is_some() && !when.is.contains(&kind) {
-            let kinds = when.is.join(", ");
-            return Err(Error::invalid(
-                field.path,
-                "given",
-                format!("a path of kind {kind} has no {key}; it belongs to {kinds}"),
-            ));
-        }
-    }
+    check_keys("path", &given, kind)?;
     // They have no field in the form.
     for key in ["block_delete", "start_mm"] {
         if given.get(key).is_some() && job.path.kind != PathKind::Gcode {
             let expected = format!("a path of kind {kind} has no {key}; it belongs to gcode");
             return Err(Error::invalid(format!("path.{key}"), "given", expected));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses keys of the stock that its kind does not use.
+pub(crate) fn check_stock_keys(job: &Job) -> Result<(), Error> {
+    let Ok(given) = serde_json::to_value(&job.stock) else { return Ok(()) };
+    check_keys("stock", &given, job.stock.kind.word())
+}
+
+/// Refuses keys of a section that its kind does not use.
+fn check_keys(section: &str, given: &Value, kind: &str) -> Result<(), Error> {
+    for field in table() {
+        let key = field.path.strip_prefix(section).and_then(|rest| rest.strip_prefix('.'));
+        let Some((key, when)) = key.zip(field.when.as_ref()) else { continue };
+        if given.get(key).is_some() && !when.is.contains(&kind) {
+            let kinds = when.is.join(", ");
+            return Err(Error::invalid(
+                field.path,
+                "given",
+                format!("a {section} of kind {kind} has no {key}; it belongs to {kinds}"),
+            ));
         }
     }
     Ok(())

@@ -8,6 +8,7 @@ use crate::job::path::{Path, PathKind};
 use crate::job::program::RobotProgram;
 use crate::job::source::Source;
 use crate::job::spin::Spin;
+use crate::job::stock::Stock;
 use crate::job::uncertainty::Uncertainty;
 use serde::Serialize;
 
@@ -35,6 +36,9 @@ pub struct Job {
     pub start_branch: Branch,
     /// The desired path in the workpiece frame.
     pub path: Path,
+    /// What the program starts from.
+    #[serde(skip_serializing_if = "Stock::is_none")]
+    pub stock: Stock,
     /// Speed and sampling.
     pub motion: Motion,
     /// The end mill.
@@ -70,6 +74,7 @@ impl Default for Job {
                 normal: Some([0.2, 0.3, 0.5]),
                 ..Path::of(PathKind::Circle)
             },
+            stock: Stock::default(),
             motion: Motion::default(),
             tool: Tool::default(),
             material: Material { preset: Some("thesis".into()), ..Material::default() },
@@ -386,6 +391,7 @@ keys!(Job {
     spin,
     start_branch,
     path,
+    stock,
     motion,
     tool,
     material,

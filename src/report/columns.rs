@@ -23,7 +23,7 @@ pub struct Series<'a> {
 }
 
 impl<'a> Series<'a> {
-    fn new(
+    pub(super) fn new(
         key: impl Into<String>,
         label: impl Into<String>,
         unit: &'static str,
@@ -104,6 +104,7 @@ impl Report {
                 timing.arc_length[samples].iter().map(|&s| path.roll(s) / DEG).collect()
             }));
         }
+        series.extend(self.in_stock());
         series
     }
 

@@ -3,7 +3,7 @@
 
 use crate::cutting::material::Model;
 use crate::cutting::surface::Wall;
-use crate::cutting::{CutLoad, along};
+use crate::cutting::{CutLoad, PlaceFigures, along};
 use crate::deviation::Sources;
 use crate::math;
 use crate::plan::Plan;
@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 /// Cutting figures at the programmed feed; of a program, at that of its move with the largest feed
-/// per tooth.
+/// per tooth; in a stock, where the mean force is largest.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct CutFigures {
     /// Tangential cutting coefficient [N/mm^2].
@@ -57,6 +57,16 @@ pub struct CutFigures {
     pub exit_deg: f64,
     /// Radial depth of cut [mm].
     pub radial_depth_mm: f64,
+    /// Volume that the program removes from the stock [cm^3], if one is given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub removed_cm3: Option<f64>,
+    /// Share of the length of the cutting moves on which the tool touches nothing, if a stock is
+    /// given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub air_share: Option<f64>,
+    /// Largest angle in material at the tip [deg], if a stock is given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_engaged_deg: Option<f64>,
     /// Rated power of the spindle [kW], if given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spindle_power_kw: Option<f64>,
@@ -75,6 +85,18 @@ pub struct CutFigures {
     /// Exponent mc, for a Kienzle material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mc: Option<f64>,
+}
+
+/// The cut at a place, in SI.
+struct LocalCut {
+    axial: f64,
+    radial: f64,
+    /// Entry and exit [rad].
+    angles: (f64, f64),
+    chip: f64,
+    section: f64,
+    peak: f64,
+    torque: f64,
 }
 
 /// A wall left by the cut: the forces across it, and the static deviation into the part (negative:
@@ -103,14 +125,46 @@ pub struct WallFigures {
 impl Report {
     /// Feed per tooth at the programmed feed [m]; of a program, that of its move with the largest.
     pub fn feed_per_tooth(&self) -> f64 {
-        self.setup().loading.largest_chip(&self.setup().path)
+        let setup = self.setup();
+        setup.heaviest.map_or_else(|| setup.loading.largest_chip(&setup.path), |place| place.chip)
     }
 
     /// Mean cutting power [W] at [`Report::feed_per_tooth`] and the job's spindle speed: torque
     /// times speed.
     pub fn spindle_power(&self) -> f64 {
         let turns = self.setup().teeth_per_second / f64::from(self.setup().cut.flutes);
-        self.setup().cut.torque(self.feed_per_tooth()) * turns * math::TAU
+        self.local_cut().torque * turns * math::TAU
+    }
+
+    /// The cut at [`Report::feed_per_tooth`]: the stated one, or where it is heaviest in the stock.
+    fn local_cut(&self) -> LocalCut {
+        let (setup, c) = (self.setup(), self.feed_per_tooth());
+        let cut = &setup.cut;
+        let radius = cut.radius();
+        let Some(contact) = self.heaviest_contact() else {
+            // On the cylinder: at the full radius, which the corner does not reach, it is exact. A stock
+            // that is never touched takes no depth.
+            let (entry, exit) = cut.engagement.at(radius);
+            return LocalCut {
+                axial: cut.axial_depth,
+                radial: radius * (math::cos(entry) - math::cos(exit)),
+                angles: (entry, exit),
+                chip: cut.mean_chip(c),
+                section: cut.section(),
+                peak: cut.peak_force(c),
+                torque: cut.torque(c),
+            };
+        };
+        let PlaceFigures { section, chip, torque } = cut.figures_in(&contact);
+        LocalCut {
+            axial: contact.axial_depth(),
+            radial: contact.radial_depth(radius),
+            angles: contact.bounds().unwrap_or_default(),
+            chip: chip * c,
+            section,
+            peak: cut.peak_force_in(&contact, c),
+            torque: torque[0] * c + torque[1],
+        }
     }
 
     /// The cutting figures of the job.
@@ -120,9 +174,8 @@ impl Report {
         let k = &cut.coefficients;
         let c = self.feed_per_tooth();
         let feed = c * setup.teeth_per_second;
-        // On the cylinder: at the full radius, which the corner does not reach, it is exact.
-        let radius = cut.radius();
-        let (entry, exit) = cut.engagement.at(radius);
+        let local = self.local_cut();
+        let whole = self.whole_cut();
         let kienzle = match &setup.material.model {
             Model::Kienzle(kienzle) => Some(kienzle),
             _ => None,
@@ -136,18 +189,21 @@ impl Report {
             kae_n_mm: k.kae / N_PER_MM,
             diameter_mm: cut.diameter / MM,
             corner_radius_mm: cut.corner_radius / MM,
-            axial_depth_mm: cut.axial_depth / MM,
+            axial_depth_mm: local.axial / MM,
             feed_per_tooth_mm: c / MM,
-            mean_chip_mm: cut.mean_chip(c) / MM,
-            section_mm2: cut.section() / (MM * MM),
-            removal_cm3_min: cut.section() * feed * MINUTE * 1e6,
-            peak_force_n: cut.peak_force(c),
-            torque_nm: cut.torque(c),
+            mean_chip_mm: local.chip / MM,
+            section_mm2: local.section / (MM * MM),
+            removal_cm3_min: local.section * feed * MINUTE * 1e6,
+            peak_force_n: local.peak,
+            torque_nm: local.torque,
             tooth_passing_hz: setup.teeth_per_second,
             power_kw: self.spindle_power() / KILOWATT,
-            entry_deg: entry / DEG,
-            exit_deg: exit / DEG,
-            radial_depth_mm: radius * (math::cos(entry) - math::cos(exit)) / MM,
+            entry_deg: local.angles.0 / DEG,
+            exit_deg: local.angles.1 / DEG,
+            radial_depth_mm: local.radial / MM,
+            removed_cm3: whole.map(|whole| whole.removed * 1e6),
+            air_share: whole.map(|whole| whole.air),
+            largest_engaged_deg: whole.map(|whole| whole.engaged / DEG),
             spindle_power_kw: setup.spindle_power.map(|power| power / KILOWATT),
             tool_bending_um_n: setup.bending.map(|bending| bending.displacement / (1e-3 * MM)),
             made_at_chip_mm: setup.material.chip.map(|chip| chip / MM),
@@ -168,7 +224,9 @@ impl Report {
         let timing = self.plan.timing(Sources::ALL);
         let mut budget = budget::Sum::default();
         let loads = self.setup().loading.along(path);
-        let mut walls: Vec<_> = self.setup().cut.walls().into_iter().map(Standing::new).collect();
+        // In a stock the walls change along the path.
+        let stated = self.setup().contacts.is_none().then(|| self.setup().cut.walls());
+        let mut walls: Vec<_> = stated.unwrap_or_default().into_iter().map(Standing::new).collect();
         let shaped = self.shaped(&self.q);
         along::each(path, &timing, |k, x, axis| {
             let q = shaped.at(k);
@@ -181,7 +239,7 @@ impl Report {
                 return;
             }
             let y = axis.cross(&x);
-            let mean_of_turn = self.setup().mean_force.under(&load);
+            let mean_of_turn = along::mean_at(&self.setup().mean_force, path, &timing, k).under(&load);
             let base = x * mean_of_turn.x + y * mean_of_turn.y + axis * mean_of_turn.z;
             let by =
                 |force: Vector3<f64>| compliance::deflection(robot, &q, &frames, &tip.position, &force).0;

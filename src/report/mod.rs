@@ -20,6 +20,7 @@ mod stops;
 mod summary;
 mod verdict;
 mod expected;
+mod in_stock;
 
 pub use budget::{Budget, Parts};
 pub use cut::{CutFigures, WallFigures};

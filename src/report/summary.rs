@@ -1,5 +1,6 @@
 //! The headline figures of a report, as one small object.
 
+use crate::cutting::MeanForces;
 use crate::cutting::material::Material;
 use crate::deviation::contour::MeanMax;
 use crate::deviation::{Deviation, Largest};
@@ -230,9 +231,16 @@ impl ProgramSummary {
 }
 
 impl Report {
-    /// Mean milling force in {T} [N] at [`Report::feed_per_tooth`].
+    /// Mean milling force in {T} [N] at [`Report::feed_per_tooth`]; in a stock where it is largest.
     pub fn mean_force(&self) -> Vector3<f64> {
-        self.setup().mean_force.at(self.feed_per_tooth())
+        let setup = self.setup();
+        let force = match (&setup.mean_force, setup.heaviest) {
+            (MeanForces::Stated(force), _) => *force,
+            (MeanForces::InStock { forces, .. }, Some(place)) => forces[place.station],
+            // All is air.
+            _ => return Vector3::zeros(),
+        };
+        force.at(self.feed_per_tooth())
     }
 
     /// The headline figures.

@@ -2,7 +2,7 @@
 //! reason where they differ.
 
 use crate::compensation::{Compensation, Question, compensate};
-use crate::cutting::{Cut, Hand, Loading, along};
+use crate::cutting::{Cut, Hand, Loading, MeanForces, along};
 use crate::deviation::{Deviation, Reference, Source, Sources, simulate};
 use crate::error::Error;
 use crate::math::Pose;
@@ -75,10 +75,11 @@ impl ConstantForce {
     pub fn of(report: &Report) -> Self {
         let setup = report.setup();
         // On a flat end mill only the hand of the helix decides the direction of the axial force.
-        let mean = Cut { hand: Hand::Left, ..setup.cut }.mean_force();
+        let force = Cut { hand: Hand::Left, ..setup.cut }.mean_force();
+        let mean = MeanForces::Stated(force);
         let loading = Loading { run_in: 0.0, ..setup.loading };
         let plan = Plan {
-            setup: Setup { mean_force: mean, loading, ..setup.clone() }.into(),
+            setup: Setup { mean_force: mean.clone(), loading, ..setup.clone() }.into(),
             ..report.plan.clone()
         };
         let reference = |acting: Sources| {
@@ -92,7 +93,7 @@ impl ConstantForce {
         let before = Arc::new(simulate(&plan, &both, &report.q, &mut Progress::none()));
         let question = Question { reference: &both, q: &report.q, before: &before, goal: setup.goal };
         Self {
-            force: mean.at(report.feed_per_tooth()),
+            force: force.at(report.feed_per_tooth()),
             deflection_only: simulate(&plan, &alone, &report.q, &mut Progress::none()),
             compensation: compensate(&plan, &question, &mut Progress::none()),
             before,

@@ -205,7 +205,13 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
                        to 17 % at 0.05 mm";
         warnings.push(Warning::new("runout", message));
     }
-    warnings.extend(plunge(plan));
+    if setup.tilted_in_stock {
+        let message = "the stock is not followed: the tool axis is not the workpiece's z axis all along the path. The \
+                       stated engagement holds everywhere";
+        warnings.push(Warning::new("stock-unused", message));
+    }
+    // In a stock the bottom cuts as well.
+    warnings.extend(if setup.contacts.is_none() { plunge(plan) } else { None });
     warnings.extend(centripetal(setup, plan));
 }
 

@@ -4,6 +4,7 @@ use crate::cutting::material::{self, Material, Model};
 use crate::cutting::{Bending, ChipLoad, Coefficients, Cut, Engagement, Hand, Kienzle, Loading};
 use crate::error::Error;
 use crate::job::{self, Choice, Engaged, HelixHand, Job, Line, ToolBending};
+use crate::stock::{Contacts, Cutter};
 use crate::units::{DEG, GPA, MM, RPM};
 use std::f64::consts::PI;
 
@@ -33,15 +34,28 @@ pub(super) fn loading(job: &Job, cut: &Cut) -> Loading {
     Loading { chip, feed: job.motion.feed_mm_s * MM, run_in: cut.run_in() }
 }
 
-/// The cut and its material.
-pub(super) fn cut(job: &Job) -> Result<(Cut, ResolvedMaterial), Error> {
-    let tool = &job.tool;
+/// Corner radius of the tool [mm].
+fn corner_radius(tool: &job::Tool) -> Result<f64, Error> {
     let corner_radius = match tool.corner_radius_mm {
         None => 0.0,
         Some(Choice::Word) => tool.diameter_mm / 2.0,
         Some(Choice::Value(radius, _)) => radius,
     };
     at_most("tool.corner_radius_mm", corner_radius, tool.diameter_mm / 2.0)?;
+    Ok(corner_radius)
+}
+
+/// The tool as far as it clears material.
+pub(super) fn cutter(tool: &job::Tool) -> Result<Cutter, Error> {
+    let corner = corner_radius(tool)? * MM;
+    let flutes = tool.flute_length_mm.or(tool.stickout_mm).map_or(f64::INFINITY, |length| length * MM);
+    Ok(Cutter { radius: tool.diameter_mm / 2.0 * MM, corner, flutes })
+}
+
+/// The cut and its material. In a stock, its depth is the largest along the path.
+pub(super) fn cut(job: &Job, contacts: Option<&Contacts>) -> Result<(Cut, ResolvedMaterial), Error> {
+    let tool = &job.tool;
+    let corner_radius = corner_radius(tool)?;
     let cut = Cut {
         diameter: tool.diameter_mm * MM,
         flutes: tool.flutes,
@@ -53,11 +67,17 @@ pub(super) fn cut(job: &Job) -> Result<(Cut, ResolvedMaterial), Error> {
         corner_radius: corner_radius * MM,
         runout: tool.runout_mm.unwrap_or(0.0) * MM,
         coefficients: Coefficients::default(),
-        axial_depth: job.cutting.axial_depth_mm * MM,
-        engagement: engagement(job)?,
+        axial_depth: match contacts {
+            None => job.cutting.axial_depth_mm * MM,
+            Some(contacts) => contacts.deepest(),
+        },
+        engagement: match contacts {
+            None => engagement(job)?,
+            Some(_) => Engagement::Slot,
+        },
     };
     let (material, model) = material_model(&job.material)?;
-    let chip = model.needs_chip().then(|| chip_thickness(job, &cut)).transpose()?;
+    let chip = model.needs_chip().then(|| chip_thickness(job, &cut, contacts)).transpose()?;
     let rake = tool.rake_deg.unwrap_or(0.0) * DEG;
     let h0 = chip.unwrap_or(0.0);
     let coefficients = match &model {
@@ -93,6 +113,8 @@ fn engagement(job: &Job) -> Result<Engagement, Error> {
         Engaged::Angles => angles(cutting),
         Engaged::Climb => depth().map(Engagement::Climb),
         Engaged::Conventional => depth().map(Engagement::Conventional),
+        // A stock that the path does not allow to be followed: the stated engagement holds.
+        Engaged::FromStock => angles(cutting),
         Engaged::Slot => Ok(Engagement::Slot),
     }
 }
@@ -161,13 +183,17 @@ fn material_model(given: &job::Material) -> Result<(Option<&'static Material>, M
 }
 
 /// The chip thickness for which the coefficients are derived [m].
-fn chip_thickness(job: &Job, cut: &Cut) -> Result<f64, Error> {
+fn chip_thickness(job: &Job, cut: &Cut, contacts: Option<&Contacts>) -> Result<f64, Error> {
     if let Some(Choice::Value(given, _)) = job.material.chip_thickness_mm {
         return Ok(given * MM);
     }
     let feed = loading(job, cut).feed_per_tooth();
-    // Without axial depth, the lowest micrometre of the edge stands in for it.
-    let mean = Cut { axial_depth: cut.axial_depth.max(THINNEST), ..*cut }.mean_chip(feed);
+    let mean = match contacts {
+        // Without axial depth, the lowest micrometre of the edge stands in for it.
+        None => Cut { axial_depth: cut.axial_depth.max(THINNEST), ..*cut }.mean_chip(feed),
+        // Where all is air, no force depends on it.
+        Some(contacts) => feed * cut.mean_chip_along(contacts).unwrap_or(1.0),
+    };
     if mean >= THINNEST {
         return Ok(mean);
     }

@@ -4,16 +4,19 @@ mod robot;
 mod path;
 mod cutting;
 mod statics;
+mod stock;
 mod motion;
 mod uncertainty;
 mod reserved;
 pub mod program;
 
+use stock::StockEngagement;
+
 pub use cutting::ResolvedMaterial;
 pub use program::{Controller, ProgramOptions};
 pub use robot::robot;
 
-use crate::cutting::{Bending, Cut, LinearForce, Loading};
+use crate::cutting::{Bending, Cut, HeaviestPlace, Loading, MeanForces};
 use crate::error::Error;
 use crate::job::{Choice, CompensateAt, Frame, Job, Source, Sources, fields};
 use crate::math::Pose;
@@ -26,8 +29,10 @@ use crate::path::{Path, Roll, SourceProgram};
 use crate::progress::Progress;
 use crate::robot::{Joints, Robot, World};
 use crate::spread::Spreads;
+use crate::stock::Contacts;
 use crate::units::{DEG, KILOWATT, MM, RPM};
 use nalgebra::Vector3;
+use std::sync::Arc;
 
 /// Most samples in a job; half an hour at 1 ms.
 const MAX_SAMPLES: f64 = 2e6;
@@ -71,7 +76,13 @@ pub struct Setup {
     /// The cut.
     pub cut: Cut,
     /// Mean milling force in {T}.
-    pub mean_force: LinearForce,
+    pub mean_force: MeanForces,
+    /// What the tool meets along the path, if the engagement follows from a stock.
+    pub contacts: Option<Arc<Contacts>>,
+    /// Whether a stock cannot be followed because the tool axis is not the workpiece's z axis.
+    pub tilted_in_stock: bool,
+    /// Where the force in the stock is largest.
+    pub heaviest: Option<HeaviestPlace>,
     /// The material, and how its coefficients were derived.
     pub material: ResolvedMaterial,
     /// Normal rake of the tool [rad].
@@ -139,12 +150,22 @@ impl Setup {
         let robot = statics.into_iter().fold(robot, Robot::with_statics);
         let workpiece = base.inverse().compose(&frame(&job.workpiece_frame));
         let (path, program) = path::desired(job, progress)?;
+        let cutter = cutting::cutter(&job.tool)?;
+        let (contacts, tilted_in_stock) = match stock::engagement(job, &path, &cutter, progress)? {
+            StockEngagement::Stated => (None, false),
+            StockEngagement::Tilted => (None, true),
+            StockEngagement::Followed(contacts) => (Some(Arc::new(contacts)), false),
+        };
         let roll = job.spin.angle_deg * DEG;
         let path = motion::with_reference(path, &job.spin)?;
         let path = path.placed(&workpiece).with_roll(Roll::fixed(roll));
         let roll_range = motion::roll_range(&job.spin)?;
         let (shaper, mode) = motion::shaper(&job.shaper)?;
-        let (cut, material) = cutting::cut(job)?;
+        let (cut, material) = cutting::cut(job, contacts.as_deref())?;
+        let loading = cutting::loading(job, &cut);
+        // The stock says where a cut begins.
+        let loading = if contacts.is_some() { Loading { run_in: 0.0, ..loading } } else { loading };
+        let mean_force = MeanForces::of(&cut, contacts.as_ref());
         let bending = cutting::bending(&job.tool)?;
         let limits = motion::limits(&job.motion, &shaper);
         check_samples(&path, &limits)?;
@@ -163,6 +184,7 @@ impl Setup {
             payload,
             stiffness_note,
             stiffness_assumed,
+            heaviest: mean_force.heaviest(&loading, &path),
             path,
             base,
             workpiece,
@@ -172,7 +194,7 @@ impl Setup {
             limits,
             shaper,
             mode,
-            mean_force: cut.mean_force(),
+            mean_force,
             material,
             rake: job.tool.rake_deg.unwrap_or(0.0) * DEG,
             bending,
@@ -180,7 +202,9 @@ impl Setup {
                 Some(Choice::Value(power, _)) => Some(power * KILOWATT),
                 _ => None,
             },
-            loading: cutting::loading(job, &cut),
+            loading,
+            contacts,
+            tilted_in_stock,
             cut,
             teeth_per_second: job.cutting.spindle_rpm * RPM * f64::from(job.tool.flutes),
             start: motion::start(job.start_branch),

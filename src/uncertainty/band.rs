@@ -1,6 +1,7 @@
 //! The band of the largest contour error over the drawn plants, what widens it, and what it would
 //! be otherwise.
 
+use crate::cutting::MeanForces;
 use crate::deviation::Largest;
 use crate::job::Sources;
 use crate::plan::Plan;
@@ -127,7 +128,10 @@ pub fn band(plan: &Plan, (desired, kept): (&[Joints], &[Joints]), errors: &Nomin
     let plans = filtered(plan);
     let timings: Vec<_> = plans.iter().map(|(_, plan)| plan.timing(Sources::ALL)).collect();
     let filtered = plans.iter().zip(&timings).map(|((factor, plan), timing)| (*factor, plan, &**timing));
-    let plants = Plants { filtered: filtered.collect(), parts: plan.setup.cut.mean_force_parts() };
+    let plants = Plants {
+        filtered: filtered.collect(),
+        parts: MeanForces::parts(&plan.setup.cut, plan.setup.contacts.as_ref()),
+    };
     let DrawnColumn { samples, p95, largest, outcomes: compensated } =
         DrawnColumn::new(&plants, (kept, &draws), (first, &estimate), PLACES);
     let decisive = most(&p95, |_| true);

@@ -4,7 +4,7 @@
 //! the parts of the force: bilinear in the factors on both. Springs that are not linear and weight
 //! are kept, with the levers held as they are under the nominal force (they turn by less than 1e-3).
 
-use crate::cutting::{LinearForce, along};
+use crate::cutting::{MeanForces, along};
 use crate::deviation::near::NearMove;
 use crate::motion::TimingLaw;
 use crate::plan::Plan;
@@ -40,7 +40,7 @@ pub struct DrawnPlace {
 /// force.
 pub fn places(
     plan: &Plan,
-    (timing, parts): (&TimingLaw, &[LinearForce; 3]),
+    (timing, parts): (&TimingLaw, &[MeanForces; 3]),
     (q, at): (&[Joints], &[usize]),
     height: f64,
 ) -> Vec<DrawnPlace> {

@@ -19,7 +19,8 @@ fn by_hand(changes: &[(&str, Value)], feed: f64, length_mm: f64) {
         let w = 3.0 * u * u - 2.0 * u * u * u;
         assert!((run_in[k] - w).abs() < 1e-9, "{} after {} mm, by hand {w}", run_in[k], s[k]);
         let ratio = speed[k] / feed;
-        let mean = setup.mean_force.cutting * (c * ratio) + setup.mean_force.edge * (10.0 * ratio).min(1.0);
+        let mean = setup.cut.mean_force();
+        let mean = mean.cutting * (c * ratio) + mean.edge * (10.0 * ratio).min(1.0);
         let (ours, expected) = (report.force[k].norm(), mean.norm() * w);
         assert!((ours - expected).abs() < 1e-9 * report.mean_force().norm(), "{k}: {ours} N, {expected} N");
     }

@@ -1,0 +1,134 @@
+//! The cut where the tool is in the stock: the side by its arcs in material, the bottom where the
+//! tool dives.
+//!
+//! A tooth's chip is the feed's part along the normal of its edge. On the side it is c sin(phi) with
+//! the feed's part across the axis. The bottom's edges, whose normal is the axis, take the feed's part
+//! down it: the corner's limit kappa = 0 of the same mechanics (S. Engin, Y. Altintas, Int. J. Mach.
+//! Tools Manufact. 41 (2001), eqs. 12 to 19), with the tangential force K_tc c + K_te and the axial
+//! one K_rc c + K_re on each metre of edge. A whole bottom thus pushes the tool up by N R (K_rc c +
+//! K_re). Left out: the chisel edge, where the cutting speed is none, and a core that is not cut.
+
+use crate::cutting::tool::Slice;
+use crate::cutting::{Cut, LinearForce};
+use crate::math::{self, TAU};
+use crate::stock::{Contact, Contacts, FloorArc, SideArc};
+use nalgebra::Vector3;
+
+/// Slope from which the bottom's edges cut with their whole edge force; less steep ramps rub less. As
+/// for slow feeds, an assumption.
+const STEEP: f64 = 0.1;
+
+/// Figures of the cut at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PlaceFigures {
+    /// Material removed for 1 m of path [m^2].
+    pub section: f64,
+    /// Mean chip thickness for 1 m of feed per tooth.
+    pub chip: f64,
+    /// Mean torque for 1 m of feed per tooth [N], and by the edges [N m].
+    pub torque: [f64; 2],
+}
+
+impl Cut {
+    /// The edge in material around the side.
+    fn engaged(&self, contact: &Contact) -> Vec<Slice> {
+        contact.sides.iter().map(|arc| self.piece(arc)).collect()
+    }
+
+    /// The piece of the edge in an arc, which lies on the corner or on the cylinder.
+    fn piece(&self, arc: &SideArc) -> Slice {
+        let SideArc { from, to, entry, exit } = *arc;
+        let (height, corner, own) = (to - from, self.corner_radius, self.towards_spindle());
+        if (from + to) / 2.0 >= corner {
+            let radius = self.radius();
+            return Slice { from, height, edge: height, radius, coefficients: own, entry, exit };
+        }
+        let kappa = |height: f64| math::acos((1.0 - height / corner).max(0.0));
+        let (low, high) = (kappa(from), kappa(to));
+        let (coefficients, sin) = self.turned(&own, (low, high), height);
+        let radius = self.radius() - corner + corner * sin;
+        Slice { from, height, edge: corner * (high - low), radius, coefficients, entry, exit }
+    }
+
+    /// Mean force over a revolution at a contact, in {T}, for the feed per tooth along the path.
+    pub fn mean_force_in(&self, contact: &Contact) -> LinearForce {
+        let side = self.mean_of(&self.engaged(contact));
+        let bottom = self.bottom(contact.floors);
+        let rubbing = (contact.down / STEEP).min(1.0);
+        LinearForce {
+            cutting: side.cutting * contact.across + bottom.cutting * contact.down,
+            edge: side.edge + bottom.edge * rubbing,
+        }
+    }
+
+    /// Mean force of the bottom's edges over a revolution.
+    fn bottom(&self, floors: &[FloorArc]) -> LinearForce {
+        let k = &self.coefficients;
+        let mut mean = LinearForce::zero();
+        for arc in floors {
+            let (from, to) = (math::sin_cos(arc.entry), math::sin_cos(arc.exit));
+            // Integrals of the tangent's direction and of 1 over the angle (eq. 4.3).
+            let along = Vector3::new(from.0 - to.0, from.1 - to.1, 0.0);
+            let up = Vector3::z() * (arc.exit - arc.entry);
+            let scale = f64::from(self.flutes) * arc.width / TAU;
+            mean.cutting += (along * k.ktc + up * k.krc) * scale;
+            mean.edge += (along * k.kte + up * k.kre) * scale;
+        }
+        mean
+    }
+
+    /// Largest force on the tool within a revolution [N] at a contact and the feed per tooth `c` [m];
+    /// that of the bottom is its mean, and runout is left out.
+    pub fn peak_force_in(&self, contact: &Contact, c: f64) -> f64 {
+        let slices = self.engaged(contact);
+        let bottom = self.bottom(contact.floors);
+        let rubbing = (contact.down / STEEP).min(1.0);
+        let below = bottom.cutting * (c * contact.down) + bottom.edge * rubbing;
+        if slices.is_empty() {
+            below.norm()
+        } else {
+            self.peak_of(&slices, &slices, c * contact.across) + below.norm()
+        }
+    }
+
+    /// Figures of the cut at a contact.
+    pub fn figures_in(&self, contact: &Contact) -> PlaceFigures {
+        let Contact { across, down, .. } = *contact;
+        let slices = self.engaged(contact);
+        let [chip, edge] = self.chip_in(contact);
+        let rubbing = self.torque_of(&slices, 0.0);
+        let (mut section, mut turning) = (Self::section_of(&slices) * across, 0.0);
+        for floor in contact.floors {
+            let area = floor.radius * floor.width * (floor.exit - floor.entry);
+            section += area * down;
+            turning += area * f64::from(self.flutes) / TAU;
+        }
+        let cutting =
+            (self.torque_of(&slices, 1.0) - rubbing) * across + turning * self.coefficients.ktc * down;
+        let edges = rubbing + turning * self.coefficients.kte * (down / STEEP).min(1.0);
+        PlaceFigures { section, chip: if edge > 0.0 { chip / edge } else { 0.0 }, torque: [cutting, edges] }
+    }
+
+    /// The chip of a tooth for 1 m of feed per tooth [m], and its engaged edge times arc [m].
+    fn chip_in(&self, contact: &Contact) -> [f64; 2] {
+        let [chip, edge] = Self::chip_of(&self.engaged(contact));
+        let floor = contact
+            .floors
+            .iter()
+            .map(|arc| arc.width * (arc.exit - arc.entry))
+            .fold(0.0, |sum, arc| sum + arc);
+        [chip * contact.across + floor * contact.down, edge + floor]
+    }
+
+    /// Mean chip thickness along a path, for 1 m of feed per tooth; `None` in the air.
+    pub fn mean_chip_along(&self, contacts: &Contacts) -> Option<f64> {
+        let (mut chip, mut edge) = (0.0, 0.0);
+        for ((index, station), contact) in contacts.each() {
+            let length = contacts.share(index, station);
+            let here = self.chip_in(&contact);
+            chip += here[0] * length;
+            edge += here[1] * length;
+        }
+        (edge > 0.0).then(|| chip / edge)
+    }
+}

@@ -1,0 +1,81 @@
+//! The mean force along a path: the same everywhere, or as the stock makes it.
+
+use crate::cutting::{Cut, LinearForce, Loading};
+use crate::path::Path;
+use crate::stock::{Contact, Contacts};
+use std::sync::Arc;
+
+/// Mean force in {T} by the place on a path.
+#[derive(Debug, Clone, PartialEq)]
+pub enum MeanForces {
+    /// Of a stated engagement.
+    Stated(LinearForce),
+    /// At the stations of the contacts with the stock, between which it is linear.
+    InStock {
+        /// The contacts.
+        contacts: Arc<Contacts>,
+        /// One force a station.
+        forces: Arc<[LinearForce]>,
+    },
+}
+
+/// The place where the mean force is largest at the programmed feed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeaviestPlace {
+    /// Its move.
+    pub index: usize,
+    /// Its station.
+    pub station: usize,
+    /// Feed per tooth there [m].
+    pub chip: f64,
+}
+
+impl HeaviestPlace {
+    /// The contact there.
+    pub fn contact<'a>(&self, contacts: &'a Contacts) -> Contact<'a> {
+        contacts.at(self.station)
+    }
+}
+
+impl MeanForces {
+    /// The mean force of a cut in the stock, or with its own engagement.
+    pub fn of(cut: &Cut, contacts: Option<&Arc<Contacts>>) -> Self {
+        let Some(contacts) = contacts else { return Self::Stated(cut.mean_force()) };
+        let forces = contacts.each().map(|(_, contact)| cut.mean_force_in(&contact)).collect();
+        Self::InStock { contacts: contacts.clone(), forces }
+    }
+
+    /// As [`MeanForces::of`], by the tangential, the radial and the axial coefficients alone.
+    pub fn parts(cut: &Cut, contacts: Option<&Arc<Contacts>>) -> [Self; 3] {
+        cut.alone().map(|alone| Self::of(&alone, contacts))
+    }
+
+    /// The force at the arc length `within` [m] of the move `index`.
+    pub fn at(&self, index: usize, within: f64) -> LinearForce {
+        match self {
+            Self::Stated(force) => *force,
+            Self::InStock { contacts, forces } => {
+                let Some((from, to, share)) = contacts.around(index, within) else {
+                    return LinearForce::zero();
+                };
+                forces[from].towards(&forces[to], share)
+            }
+        }
+    }
+
+    /// The heaviest place in a stock, one where the side cuts if it does anywhere; `None` if all is air, or the engagement is stated.
+    pub fn heaviest(&self, loading: &Loading, path: &Path) -> Option<HeaviestPlace> {
+        let Self::InStock { contacts, forces } = self else { return None };
+        let mut most = ((false, 0.0), None);
+        for ((index, station), contact) in contacts.each() {
+            let step = &path.moves()[index];
+            let Some(feed) = loading.programmed(step) else { continue };
+            let chip = loading.chip.at(feed, step.spindle);
+            let size = (!contact.sides.is_empty(), forces[station].at(chip).norm());
+            if size.1 > 0.0 && size > most.0 {
+                most = (size, Some(HeaviestPlace { index, station, chip }));
+            }
+        }
+        most.1
+    }
+}

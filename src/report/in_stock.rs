@@ -1,0 +1,144 @@
+//! The cut along the path where a stock is given: columns and figures. They are those of the nominal
+//! cut, with the tool where it should be.
+
+use crate::cutting::{Loads, PlaceFigures};
+use crate::deviation::Sources;
+use crate::math::TAU;
+use crate::motion::TimingLaw;
+use crate::path::MovePace;
+use crate::report::Report;
+use crate::report::columns::Series;
+use crate::stock::{Contact, Contacts};
+use crate::units::{DEG, KILOWATT, MINUTE, MM};
+use std::borrow::Cow;
+use std::sync::Arc;
+
+/// Figures of all that a program cuts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct WholeCut {
+    /// Volume removed [m^3].
+    pub(super) removed: f64,
+    /// Share of the length of the moves that cut on which the tool touches nothing.
+    pub(super) air: f64,
+    /// Largest angle in material at the tip [rad].
+    pub(super) engaged: f64,
+}
+
+/// The cut at a sample.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct SampleCut {
+    entry: f64,
+    exit: f64,
+    engaged: f64,
+    axial: f64,
+    radial: f64,
+    removal: f64,
+    chip: f64,
+    power: f64,
+    torque: f64,
+}
+
+/// A column: key, label, unit, and its value in that unit.
+type CutColumn = (&'static str, &'static str, &'static str, fn(&SampleCut) -> f64);
+
+const COLUMNS: [CutColumn; 9] = [
+    ("entry_deg", "Entry angle", "deg", |cut| cut.entry / DEG),
+    ("exit_deg", "Exit angle", "deg", |cut| cut.exit / DEG),
+    ("engaged_deg", "Engaged angle", "deg", |cut| cut.engaged / DEG),
+    ("axial_depth_mm", "Axial depth", "mm", |cut| cut.axial / MM),
+    ("radial_depth_mm", "Radial depth", "mm", |cut| cut.radial / MM),
+    ("removal_cm3_min", "Material removal rate", "cm³/min", |cut| cut.removal * MINUTE * 1e6),
+    ("chip_mm", "Mean chip thickness", "mm", |cut| cut.chip / MM),
+    ("power_kw", "Cutting power", "kW", |cut| cut.power / KILOWATT),
+    ("torque_nm", "Torque on the tool", "N m", |cut| cut.torque),
+];
+
+impl Report {
+    /// The columns of the cut in the stock; none without one.
+    pub(super) fn in_stock(&self) -> Vec<Series<'_>> {
+        let Some(contacts) = &self.setup().contacts else { return Vec::new() };
+        let timing: Arc<Cow<TimingLaw>> = self.plan.timing(Sources::ALL).into();
+        let loads = Arc::new(self.setup().loading.along(&self.plan.path));
+        let column = |(key, label, unit, value): CutColumn| {
+            let (timing, loads) = (timing.clone(), loads.clone());
+            let at = move |k: usize| value(&self.sample_cut(contacts, &timing, &loads, k));
+            Series::new(key, label, unit, self.samples(), move |samples| samples.map(&at).collect())
+        };
+        COLUMNS.into_iter().map(column).collect()
+    }
+
+    /// The cut where the tool is by `timing` at the sample `k`.
+    fn sample_cut(&self, contacts: &Contacts, timing: &TimingLaw, loads: &Loads, k: usize) -> SampleCut {
+        let (setup, path) = (self.setup(), &self.plan.path);
+        let index = timing.index[k] as usize;
+        let Some((from, to, share)) = contacts.around(index, timing.arc_length[k] - path.start(index)) else {
+            return SampleCut::default();
+        };
+        let load = loads.at(timing, k);
+        let spindle =
+            path.moves()[index].spindle.unwrap_or(setup.teeth_per_second / f64::from(setup.cut.flutes));
+        let at = |station: usize| {
+            let contact = contacts.at(station);
+            let PlaceFigures { section, chip, torque } = setup.cut.figures_in(&contact);
+            let torque = torque[0] * load.chip + torque[1] * load.edge;
+            let (entry, exit) = contact.bounds().unwrap_or_default();
+            SampleCut {
+                entry,
+                exit,
+                engaged: contact.engaged(),
+                axial: contact.axial_depth(),
+                radial: contact.radial_depth(setup.cut.radius()),
+                removal: section * timing.speed[k],
+                chip: chip * load.chip,
+                power: torque * spindle * TAU,
+                torque,
+            }
+        };
+        let first = at(from);
+        if share == 0.0 { first } else { first.towards(&at(to), share) }
+    }
+
+    /// Figures of all that the program cuts; `None` without a stock.
+    pub(super) fn whole_cut(&self) -> Option<WholeCut> {
+        let setup = self.setup();
+        let contacts = setup.contacts.as_ref()?;
+        let mut whole = WholeCut { removed: 0.0, air: 0.0, engaged: 0.0 };
+        for ((index, station), contact) in contacts.each() {
+            let length = contacts.share(index, station);
+            whole.removed += setup.cut.figures_in(&contact).section * length;
+            whole.air += if contact.is_air() { length } else { 0.0 };
+            whole.engaged = whole.engaged.max(contact.engaged());
+        }
+        let cuts = setup.path.moves().iter().filter(|step| step.pace != MovePace::Rapid);
+        let length: f64 = cuts.map(|step| step.segment.length()).sum();
+        whole.air /= length.max(f64::MIN_POSITIVE);
+        Some(whole)
+    }
+
+    /// What the tool meets where the force is largest; `None` without a stock, or in the air.
+    pub(super) fn heaviest_contact(&self) -> Option<Contact<'_>> {
+        let setup = self.setup();
+        Some(setup.heaviest?.contact(setup.contacts.as_ref()?))
+    }
+}
+
+impl SampleCut {
+    /// The cut at the share `share` of the way to another one. Where either is in the air, bounds have
+    /// no line between them: those of the other hold.
+    fn towards(&self, other: &Self, share: f64) -> Self {
+        let line = |from: f64, to: f64| from + (to - from) * share;
+        let both = self.engaged > 0.0 && other.engaged > 0.0;
+        let bound = |from: f64, to: f64| if both { line(from, to) } else { from.max(to) };
+        Self {
+            entry: bound(self.entry, other.entry),
+            exit: bound(self.exit, other.exit),
+            engaged: line(self.engaged, other.engaged),
+            axial: if both { line(self.axial, other.axial) } else { self.axial.max(other.axial) },
+            radial: line(self.radial, other.radial),
+            removal: line(self.removal, other.removal),
+            chip: line(self.chip, other.chip),
+            power: line(self.power, other.power),
+            torque: line(self.torque, other.torque),
+        }
+    }
+}

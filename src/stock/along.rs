@@ -1,0 +1,180 @@
+//! The contact along a path: move by move, each against the solid and all that was cut before.
+
+use crate::math;
+use crate::path::{Move, MovePace, Path, Segment};
+use crate::progress::Progress;
+use crate::stock::contact::Contacts;
+use crate::stock::grid::Grid;
+use crate::stock::place::{Around, Cutter, EngagementMeasure, Place, Scene};
+use crate::stock::solid::Solid;
+use crate::stock::swept::Swept;
+use nalgebra::Vector2;
+use std::ops::Range;
+
+/// How far inside its move an end is looked at, as a part of the radius.
+const INSIDE: f64 = 1e-4;
+/// Largest distance of stations, as a part of the radius.
+const FAR: f64 = 0.25;
+/// Least distance of stations, as a part of the radius.
+const NEAR: f64 = 0.002;
+/// Part of the largest engagement by which a station may differ from the middle of its neighbours.
+const BENT: f64 = 0.002;
+
+/// Largest distance of an arc that does not lie across the tool axis from its chords [m].
+const CHORD: f64 = 1e-6;
+
+/// The contacts of a cutter along a path in the workpiece frame whose tool axis is z, starting from a
+/// solid. Rapid moves clear nothing.
+pub fn contacts(path: &Path, solid: &Solid, cutter: &Cutter, progress: &mut Progress) -> Contacts {
+    let legs: Vec<Vec<Leg>> = path.moves().iter().map(|step| legs(&step.segment)).collect();
+    let sweeps: Vec<Swept> = legs.iter().flatten().map(|leg| leg.swept).collect();
+    let mut walk = Walk::new(path, &sweeps, solid, cutter);
+    for (index, legs) in legs.iter().enumerate() {
+        progress.sample(index, path.moves().len());
+        walk.step(index, legs);
+    }
+    walk.contacts
+}
+
+/// A part of a move that sweeps one capsule.
+struct Leg {
+    swept: Swept,
+    /// Arc lengths of its ends within the move [m].
+    within: Range<f64>,
+}
+
+/// The legs of a move: itself, or the chords of an arc that does not lie across the tool axis.
+fn legs(segment: &Segment) -> Vec<Leg> {
+    let length = segment.length();
+    if let Some(swept) = Swept::of(segment) {
+        return vec![Leg { swept, within: 0.0..length }];
+    }
+    // A chord of the angle a is r a^2 / 8 away.
+    let step = (8.0 * CHORD / segment.curvature()).sqrt();
+    let count = (length / step).ceil().max(1.0);
+    let at = |k: usize| length * (k as f64 / count);
+    let chord = |k: usize| Segment::Line { from: segment.point(at(k)), to: segment.point(at(k + 1)) };
+    let leg = |k: usize| Some(Leg { swept: Swept::of(&chord(k))?, within: at(k)..at(k + 1) });
+    (0..count as usize).filter_map(leg).collect()
+}
+
+/// The walk along a path.
+struct Walk<'a> {
+    path: &'a Path,
+    sweeps: &'a [Swept],
+    /// Number of legs before the move.
+    legs: usize,
+    solid: &'a Solid,
+    cutter: &'a Cutter,
+    grid: Grid,
+    /// The last direction across the tool axis.
+    ahead: Vector2<f64>,
+    contacts: Contacts,
+    around: Around,
+}
+
+/// An arc length within a move [m] with what is engaged there.
+type Measured = (f64, EngagementMeasure);
+
+impl<'a> Walk<'a> {
+    fn new(path: &'a Path, sweeps: &'a [Swept], solid: &'a Solid, cutter: &'a Cutter) -> Self {
+        let bounds = sweeps.iter().map(|swept| swept.spine.bounds());
+        let all = bounds.reduce(|a, b| [a[0].inf(&b[0]), a[1].sup(&b[1])]);
+        let ahead = path.moves().iter().find_map(|step| heading(step, 0.0));
+        Self {
+            path,
+            sweeps,
+            legs: 0,
+            solid,
+            cutter,
+            grid: Grid::new(all.unwrap_or_default(), 2.0 * cutter.radius),
+            ahead: ahead.unwrap_or_else(Vector2::x),
+            contacts: Contacts::default(),
+            around: Around::default(),
+        }
+    }
+
+    /// The stations of a move, which then counts as cut.
+    fn step(&mut self, index: usize, legs: &[Leg]) {
+        let step = &self.path.moves()[index];
+        let first = self.legs;
+        self.legs += legs.len();
+        self.contacts.begin();
+        if step.pace == MovePace::Rapid {
+            self.ahead = heading(step, step.segment.length()).unwrap_or(self.ahead);
+            return;
+        }
+        for (number, leg) in (first..).zip(legs) {
+            self.leg(step, leg);
+            self.ahead = heading(step, leg.within.end).unwrap_or(self.ahead);
+            self.grid.add(number as u32, &leg.swept);
+        }
+    }
+
+    /// The stations of a leg.
+    fn leg(&mut self, step: &Move, leg: &Leg) {
+        let Range { start, end } = leg.within;
+        let pieces = ((end - start) / (FAR * self.cutter.radius)).ceil().max(1.0);
+        let mut from = (start, self.find(step, leg, start));
+        self.keep(step, start);
+        for piece in 1..=pieces as usize {
+            let to = start + (end - start) * (piece as f64 / pieces);
+            let to = (to, self.find(step, leg, to));
+            self.refine(step, leg, from, to);
+            self.find(step, leg, to.0);
+            self.keep(step, to.0);
+            from = to;
+        }
+    }
+
+    /// Adds the stations that are needed strictly between two places.
+    fn refine(&mut self, step: &Move, leg: &Leg, from: Measured, to: Measured) {
+        if to.0 - from.0 < 2.0 * NEAR * self.cutter.radius {
+            return;
+        }
+        let middle = (from.0 + to.0) / 2.0;
+        let measure = self.find(step, leg, middle);
+        let height = self.solid.top - step.segment.point(middle).z.max(self.solid.bottom);
+        let most = 2.0 * self.cutter.radius * height;
+        let bent = |k: usize| (measure[k] - (from.1[k] + to.1[k]) / 2.0).abs() > BENT * most;
+        if !(bent(0) || bent(1)) {
+            return;
+        }
+        self.refine(step, leg, from, (middle, measure));
+        self.find(step, leg, middle);
+        self.keep(step, middle);
+        self.refine(step, leg, (middle, measure), to);
+    }
+
+    /// Keeps what was found last.
+    fn keep(&mut self, step: &Move, within: f64) {
+        let feed = step.segment.tangent(within);
+        let lean = [math::hypot(feed.x, feed.y), (-feed.z).max(0.0)];
+        self.contacts.push(within, lean, &self.around.sides, &self.around.floors);
+    }
+
+    /// Finds the contact at the arc length `within` [m] of a move.
+    fn find(&mut self, step: &Move, leg: &Leg, within: f64) -> EngagementMeasure {
+        let Range { start, end } = leg.within;
+        // At the very ends the tool may touch what it does not cut: seen from just inside.
+        let inside = (INSIDE * self.cutter.radius).min((end - start) / 2.0);
+        let within = within.clamp(start + inside, end - inside);
+        let tip = step.segment.point(within);
+        let place = Place {
+            center: tip.xy(),
+            height: tip.z,
+            ahead: heading(step, within).unwrap_or(self.ahead),
+            share: (within - start) / (end - start),
+            dives: step.segment.tangent(within).z < -1e-6,
+            own: &leg.swept,
+        };
+        let scene =
+            Scene { solid: self.solid, cutter: self.cutter, sweeps: self.sweeps, grid: &self.grid, place };
+        scene.find(&mut self.around)
+    }
+}
+
+/// Direction across the tool axis; `None` if the tool only rises or dives.
+fn heading(step: &Move, within: f64) -> Option<Vector2<f64>> {
+    step.segment.tangent(within).xy().try_normalize(1e-6)
+}

@@ -1,0 +1,21 @@
+//! The stock: what is left of it along a path, and where the tool is in it.
+//!
+//! The tool axis is the workpiece's z axis. At each height a tool that is cylindrical there has
+//! cleared all points within its radius of where it was at that height or below. What it meets is
+//! thus the part of a circle about its axis that lies in the solid and in no earlier move: exact for
+//! lines and arcs at a height, and by layers along ramps.
+//!
+//! Left of `cutting`: nothing here knows a force.
+
+pub mod solid;
+mod circle;
+mod swept;
+mod grid;
+pub mod contact;
+mod place;
+mod along;
+
+pub use along::contacts;
+pub use contact::{Contact, Contacts, FloorArc, SideArc};
+pub use place::Cutter;
+pub use solid::{Outline, Solid};

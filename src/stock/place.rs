@@ -1,0 +1,232 @@
+//! What the tool meets at a place: the part of its circle in the solid, less what earlier moves have
+//! cleared, height by height.
+
+use crate::math;
+use crate::stock::circle::{ArcParts, HalfCircle, immersion};
+use crate::stock::contact::{FloorArc, SideArc};
+use crate::stock::grid::{Grid, SAME_HEIGHT};
+use crate::stock::solid::Solid;
+use crate::stock::swept::{Capsule, Spine, Swept};
+use nalgebra::Vector2;
+
+/// The tool as far as it clears material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cutter {
+    /// Radius of its cylinder [m].
+    pub radius: f64,
+    /// Corner radius [m].
+    pub corner: f64,
+    /// Height up to which it cuts [m].
+    pub flutes: f64,
+}
+
+/// Material thinner than this across the feed is none [m]: programs round to a thousandth of a
+/// millimetre.
+const THIN: f64 = 2e-6;
+/// Part of the radius by which a swept region is taken smaller: the edge itself, which touches what
+/// it sweeps, is not in it.
+const TOUCH: f64 = 1e-11;
+/// Most layers in which ramps nearby are seen.
+const LAYERS: f64 = 16.0;
+/// Slices of a corner.
+const CORNER: usize = 16;
+/// Nodes and weights of Gauss and Legendre for six rings of the bottom, in [0, 1].
+const RINGS: [(f64, f64); 6] = [
+    (0.033_765_242_898_423_97, 0.085_662_246_189_585_18),
+    (0.169_395_306_766_867_74, 0.180_380_786_524_069_3),
+    (0.380_690_406_958_401_55, 0.233_956_967_286_345_53),
+    (0.619_309_593_041_598_5, 0.233_956_967_286_345_53),
+    (0.830_604_693_233_132_2, 0.180_380_786_524_069_3),
+    (0.966_234_757_101_576, 0.085_662_246_189_585_18),
+];
+
+/// What was found at a place, with room to find it in.
+#[derive(Default)]
+pub(super) struct Around {
+    pub(super) sides: Vec<SideArc>,
+    pub(super) floors: Vec<FloorArc>,
+    parts: ArcParts,
+    heights: Vec<f64>,
+}
+
+/// Engagement as two numbers whose changes matter [m^2]: the section in the tool's way, and how it is
+/// spread.
+pub(super) type EngagementMeasure = [f64; 2];
+
+/// A place of the tool.
+pub(super) struct Place<'a> {
+    pub(super) center: Vector2<f64>,
+    pub(super) height: f64,
+    pub(super) ahead: Vector2<f64>,
+    /// Share of the own move that lies behind.
+    pub(super) share: f64,
+    pub(super) dives: bool,
+    pub(super) own: &'a Swept,
+}
+
+/// The tool at a place, and what was cut before.
+pub(super) struct Scene<'a> {
+    pub(super) solid: &'a Solid,
+    pub(super) cutter: &'a Cutter,
+    pub(super) sweeps: &'a [Swept],
+    pub(super) grid: &'a Grid,
+    pub(super) place: Place<'a>,
+}
+
+impl Cutter {
+    /// Radius of the tool at a height above its tip [m].
+    pub(super) fn radius_at(&self, height: f64) -> f64 {
+        let below = self.corner - height;
+        if below <= 0.0 {
+            return self.radius;
+        }
+        self.radius - self.corner + (self.corner * self.corner - below * below).max(0.0).sqrt()
+    }
+}
+
+impl Scene<'_> {
+    /// Finds the contact.
+    pub(super) fn find(&self, around: &mut Around) -> EngagementMeasure {
+        around.sides.clear();
+        around.floors.clear();
+        let low = self.place.height.max(self.solid.bottom);
+        let high = self.solid.top.min(self.place.height + self.cutter.flutes);
+        if high - low < SAME_HEIGHT {
+            return [0.0; 2];
+        }
+        let half =
+            HalfCircle { center: self.place.center, radius: self.cutter.radius, ahead: self.place.ahead };
+        if !matches!(self.place.own.spine, Spine::Point(_)) {
+            self.sides(half, (low, high), around);
+        }
+        if self.place.dives && self.place.height > self.solid.bottom {
+            for (node, weight) in RINGS {
+                let radius = node * self.cutter.radius;
+                let half = HalfCircle { radius, ..half };
+                self.ring(half, 0.0, weight * self.cutter.radius, around);
+                self.ring(half.behind(), math::PI, weight * self.cutter.radius, around);
+            }
+        }
+        measure(around, self.cutter.radius)
+    }
+
+    /// The arcs around the side between two heights [m].
+    fn sides(&self, half: HalfCircle, (low, high): (f64, f64), around: &mut Around) {
+        self.borders((low, high), &mut around.heights);
+        let flat = self.cutter.corner == 0.0;
+        for layer in 0..around.heights.len() - 1 {
+            let (from, to) = (around.heights[layer], around.heights[layer + 1]);
+            let middle = (from + to) / 2.0;
+            let half = HalfCircle { radius: self.cutter.radius_at(middle - self.place.height), ..half };
+            let parts = &mut around.parts;
+            if layer == 0 || !flat {
+                parts.fill();
+                parts.keep(&half, &self.solid.outline, true);
+            }
+            self.clear(&half, middle, parts);
+            if parts.is_empty() && flat {
+                break;
+            }
+            let wide = |&(a, b): &(f64, f64)| (b - a) * half.radius > THIN;
+            let (from, to) = (from - self.place.height, to - self.place.height);
+            around.sides.extend(parts.ranges().iter().copied().filter(wide).map(|(a, b)| SideArc {
+                from,
+                to,
+                entry: immersion(a),
+                exit: immersion(b),
+            }));
+        }
+    }
+
+    /// The heights between which the contact is taken as the same [m].
+    fn borders(&self, (low, high): (f64, f64), heights: &mut Vec<f64>) {
+        heights.clear();
+        heights.extend([low, high]);
+        let cell = self.grid.at(&self.place.center);
+        let within = |height: f64| height > low + SAME_HEIGHT && height < high - SAME_HEIGHT;
+        heights.extend(cell.levels.iter().map(|level| level.height).filter(|height| within(*height)));
+        if self.cutter.corner > 0.0 {
+            let slice = |k: usize| {
+                let kappa = math::PI / 2.0 * k as f64 / CORNER as f64;
+                self.place.height + self.cutter.corner * (1.0 - math::cos(kappa))
+            };
+            heights.extend((1..=CORNER).map(slice).filter(|height| within(*height)));
+        }
+        let ramps = cell.ramps.iter().map(|&number| &self.sweeps[number as usize]);
+        let mut span = (high, low);
+        for (from, to) in ramps.chain([self.place.own]).map(Swept::range) {
+            if to > low + SAME_HEIGHT && from < high - SAME_HEIGHT && to - from > SAME_HEIGHT {
+                span = (span.0.min(from.max(low)), span.1.max(to.min(high)));
+            }
+        }
+        if span.1 > span.0 {
+            let step = |k: usize| span.0 + (span.1 - span.0) * k as f64 / LAYERS;
+            heights.extend((0..=LAYERS as usize).map(step).filter(|height| within(*height)));
+        }
+        heights.sort_unstable_by(f64::total_cmp);
+        heights.dedup_by(|a, b| *a - *b < SAME_HEIGHT);
+    }
+
+    /// Takes away what earlier moves have cleared at a height [m].
+    fn clear(&self, half: &HalfCircle, height: f64, parts: &mut ArcParts) {
+        let cell = self.grid.at(&self.place.center);
+        let mut subtract = |spine: &Spine, tip: f64| {
+            let reach = self.cutter.radius_at(height - tip) * (1.0 - TOUCH);
+            parts.subtract(half, &Capsule { spine, reach }, |point| spine.distance(point), reach);
+            parts.is_empty()
+        };
+        let own = self.place.own.below(height, self.place.share);
+        if own.is_some_and(|own| subtract(&own, self.place.height)) {
+            return;
+        }
+        for level in &cell.levels {
+            if level.height > height {
+                break;
+            }
+            for &number in level.moves.iter().rev() {
+                if subtract(&self.sweeps[number as usize].spine, level.height) {
+                    return;
+                }
+            }
+        }
+        for &number in cell.ramps.iter().rev() {
+            let swept = &self.sweeps[number as usize];
+            let (lowest, highest) = swept.range();
+            let Some(spine) = swept.below(height, 1.0) else { continue };
+            if subtract(&spine, (lowest + highest.min(height)) / 2.0) {
+                return;
+            }
+        }
+    }
+
+    /// The arcs of half a ring of the bottom, whose immersion angles begin at `turn` [rad].
+    fn ring(&self, half: HalfCircle, turn: f64, width: f64, around: &mut Around) {
+        let parts = &mut around.parts;
+        parts.fill();
+        parts.keep(&half, &self.solid.outline, true);
+        // What lies right under the tip.
+        self.clear(&half, self.place.height - 2.0 * SAME_HEIGHT, parts);
+        let arc = |&(a, b): &(f64, f64)| FloorArc {
+            radius: half.radius,
+            width,
+            entry: turn + immersion(a),
+            exit: turn + immersion(b),
+        };
+        around.floors.extend(parts.ranges().iter().map(arc));
+    }
+}
+
+/// The measure of what was found.
+fn measure(around: &Around, radius: f64) -> EngagementMeasure {
+    let mut sum = [0.0; 2];
+    for arc in &around.sides {
+        let (enters, leaves) = (math::cos(arc.entry), math::cos(arc.exit));
+        let height = arc.to - arc.from;
+        sum[0] += radius * (enters - leaves) * height;
+        sum[1] += radius * (enters * enters - leaves * leaves) * height;
+    }
+    for arc in &around.floors {
+        sum[0] += arc.radius * arc.width * (arc.exit - arc.entry);
+    }
+    sum
+}

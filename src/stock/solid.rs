@@ -1,0 +1,78 @@
+//! The solid that a program starts from.
+
+use crate::stock::circle::{HalfCircle, Region};
+use nalgebra::Vector2;
+
+/// The outline of a solid seen along the tool axis [m].
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outline {
+    /// A circle.
+    Circle {
+        /// Centre [m].
+        center: Vector2<f64>,
+        /// Radius [m].
+        radius: f64,
+    },
+    /// A polygon; the last corner is joined to the first.
+    Polygon(Vec<Vector2<f64>>),
+}
+
+/// A prism along the tool axis, in the workpiece frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solid {
+    /// Its outline.
+    pub outline: Outline,
+    /// Height of its bottom [m].
+    pub bottom: f64,
+    /// Height of its top [m].
+    pub top: f64,
+}
+
+impl Outline {
+    /// A rectangle between two corners [m].
+    pub fn rectangle(from: Vector2<f64>, to: Vector2<f64>) -> Self {
+        Self::Polygon(vec![from, Vector2::new(to.x, from.y), to, Vector2::new(from.x, to.y)])
+    }
+
+    /// Its area [m^2].
+    pub fn area(&self) -> f64 {
+        match self {
+            Self::Circle { radius, .. } => std::f64::consts::PI * radius * radius,
+            Self::Polygon(_) => self.edges().map(|(from, to)| from.perp(&to)).sum::<f64>().abs() / 2.0,
+        }
+    }
+
+    /// The edges of a polygon.
+    fn edges(&self) -> impl Iterator<Item = (Vector2<f64>, Vector2<f64>)> + '_ {
+        let corners: &[_] = match self {
+            Self::Circle { .. } => &[],
+            Self::Polygon(corners) => corners,
+        };
+        corners.iter().copied().zip(corners.iter().copied().cycle().skip(1))
+    }
+}
+
+impl Region for Outline {
+    fn holds(&self, point: &Vector2<f64>) -> bool {
+        if let Self::Circle { center, radius } = self {
+            return (point - center).norm_squared() < radius * radius;
+        }
+        // A ray along +x crosses the border an odd number of times.
+        let crosses = |(from, to): &(Vector2<f64>, Vector2<f64>)| {
+            (from.y > point.y) != (to.y > point.y)
+                && point.x < from.x + (to.x - from.x) * (point.y - from.y) / (to.y - from.y)
+        };
+        self.edges().filter(crosses).count() % 2 == 1
+    }
+
+    fn meet(&self, half: &HalfCircle, places: &mut Vec<f64>) {
+        if let Self::Circle { center, radius } = self {
+            half.meet_circle(center, *radius, places);
+        }
+        for (from, to) in self.edges() {
+            if let Some(along) = (to - from).try_normalize(0.0) {
+                half.meet_line(&from, &along, places);
+            }
+        }
+    }
+}

@@ -1,0 +1,299 @@
+//! The engagement from the stock: closed forms of slots, walls, circles and corners; volumes; what a
+//! program meets at several heights; plunges.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(clippy::disallowed_methods, reason = "independent values come from the standard library")]
+
+use armill::Progress;
+use armill::path::Path;
+use armill::path::gcode;
+use armill::stock::{Contacts, Cutter, Outline, Solid, contacts};
+use nalgebra::Vector2;
+use std::f64::consts::PI;
+
+const R: f64 = 5e-3;
+
+fn flat() -> Cutter {
+    Cutter { radius: R, corner: 0.0, flutes: f64::INFINITY }
+}
+
+/// A box from `from` to `to` [mm], x, y, z.
+fn block(from: [f64; 3], to: [f64; 3]) -> Solid {
+    let corner = |p: [f64; 3]| Vector2::new(p[0], p[1]) / 1e3;
+    Solid { outline: Outline::rectangle(corner(from), corner(to)), bottom: from[2] / 1e3, top: to[2] / 1e3 }
+}
+
+fn program(text: &str) -> Path {
+    let options = gcode::Options { field: "text".into(), ..Default::default() };
+    Path::of_program(&gcode::program(text, &options, |_| ()).unwrap()).unwrap()
+}
+
+struct Run {
+    path: Path,
+    contacts: Contacts,
+    cutter: Cutter,
+}
+
+fn walk(text: &str, solid: &Solid, cutter: Cutter) -> Run {
+    let path = program(text);
+    let contacts = contacts(&path, solid, &cutter, &mut Progress::none());
+    Run { path, contacts, cutter }
+}
+
+impl Run {
+    /// Number of the first move that ends at a point [mm], and its length [m].
+    fn to(&self, x: f64, y: f64) -> (usize, f64) {
+        let ends = |step: &armill::path::Move| {
+            let length = step.segment.length();
+            let end = step.segment.point(length) * 1e3;
+            ((end.x - x).hypot(end.y - y) < 1e-6).then_some(length)
+        };
+        self.path.moves().iter().enumerate().find_map(|(index, step)| Some((index, ends(step)?))).unwrap()
+    }
+
+    /// Engaged angle at the tip [rad] at each station of a move, with the arc length there [m].
+    fn engaged(&self, index: usize) -> Vec<(f64, f64)> {
+        let stations = self.contacts.of_move(index);
+        stations.map(|k| (self.contacts.within(k), self.contacts.at(k).engaged())).collect()
+    }
+
+    /// Volume removed [m^3]: the section of what is met, along the path.
+    fn removed(&self) -> f64 {
+        let section = |station: usize| {
+            let contact = self.contacts.at(station);
+            let side = |arc: &armill::stock::SideArc| {
+                self.cutter.radius * (arc.entry.cos() - arc.exit.cos()) * (arc.to - arc.from)
+            };
+            let floor = |arc: &armill::stock::FloorArc| arc.radius * arc.width * (arc.exit - arc.entry);
+            contact.sides.iter().map(side).sum::<f64>() * contact.across
+                + contact.floors.iter().map(floor).sum::<f64>() * contact.down
+        };
+        let parts = self
+            .contacts
+            .each()
+            .map(|((index, station), _)| section(station) * self.contacts.share(index, station));
+        parts.sum()
+    }
+}
+
+/// A plate of 200 x 200 x 10 mm around the origin, its top at 0.
+fn plate() -> Solid {
+    block([-100.0, -100.0, -10.0], [100.0, 100.0, 0.0])
+}
+
+#[test]
+fn a_slot_takes_half_a_turn() {
+    let run = walk("G90 F1000\nG0 X0 Y0 Z-2\nG1 X40\n", &plate(), flat());
+    for (_, angle) in run.engaged(run.to(40.0, 0.0).0) {
+        assert!((angle - PI).abs() < 1e-9, "{angle}");
+    }
+    let (index, _) = run.to(40.0, 0.0);
+    let contact = run.contacts.at(run.contacts.of_move(index).start);
+    assert!((contact.axial_depth() - 2e-3).abs() < 1e-12);
+    assert!((contact.radial_depth(R) - 2.0 * R).abs() < 1e-12);
+}
+
+/// phi = acos(1 - a_e / r), left of the feed in up milling, right of it in down milling.
+#[test]
+fn a_wall_takes_its_radial_depth() {
+    for depth in [0.05, 0.5, 2.0, 5.0, 9.0] {
+        for side in [1.0, -1.0] {
+            // The first cut leaves a wall; the second goes along it, `depth` further in.
+            let text = format!(
+                "G90 F1000\nG0 X-120 Y0 Z-2\nG1 X120\nG0 Z5\nX-120 Y{}\nZ-2\nG1 X121\n",
+                side * depth
+            );
+            let run = walk(&text, &plate(), flat());
+            let (index, _) = run.to(121.0, side * depth);
+            let middle = run.contacts.of_move(index).find(|&k| run.contacts.within(k) > 0.12).unwrap();
+            let contact = run.contacts.at(middle);
+            let angle = (1.0 - depth / 5.0_f64).acos();
+            let expected = if side > 0.0 { (0.0, angle) } else { (PI - angle, PI) };
+            let (entry, exit) = contact.bounds().unwrap();
+            assert!(
+                (entry - expected.0).abs() < 1e-7 && (exit - expected.1).abs() < 1e-7,
+                "{depth} {side}: {entry} {exit}"
+            );
+            assert!((contact.radial_depth(R) - depth / 1e3).abs() < 1e-12);
+        }
+    }
+}
+
+/// A circle of the radius c takes the radial depth a from a hole of the radius h, or a shaft: the
+/// border of the rim is where circles of r about the tool and of h about the centre meet (law of
+/// cosines).
+#[test]
+fn circles_inside_and_outside_follow_the_law_of_cosines() {
+    let (c, depth) = (20.0_f64, 1.5);
+    for outside in [false, true] {
+        // The pass before: 1.5 mm nearer to the free side.
+        let before = if outside { c + depth } else { c - depth };
+        let text = format!(
+            "G90 F1000\nG0 X{before} Y0 Z-2\nG3 X{before} Y0 I-{before} J0\nG0 Z5\nX{c} Y0\nZ-2\nG3 X{c} Y0 I-{c} J0\n"
+        );
+        let run = walk(&text, &plate(), flat());
+        let index = run.path.moves().len() - 1;
+        // The swept ring of the pass before: inside it reaches before + r, outside from before - r.
+        let border = if outside { before - 5.0 } else { before + 5.0 };
+        // Angle at the tool between the way to the centre and the border's point.
+        let at_tool = ((25.0 + c * c - border * border) / (2.0 * 5.0 * c)).acos();
+        // Counter-clockwise, the centre is at the left: the angle counts from there.
+        let expected = if outside { at_tool } else { PI - at_tool };
+        let middle = run.contacts.of_move(index).find(|&k| run.contacts.within(k) > 0.04).unwrap();
+        let engaged = run.contacts.at(middle).engaged();
+        assert!((engaged - expected).abs() < 1e-9, "outside {outside}: {engaged} {expected}");
+    }
+}
+
+/// Into a sharp inside corner the engagement rises by a right angle over the length a_e + sqrt(a_e (2
+/// r - a_e)) before it (from the tool's rim meeting the next wall to the corner's end).
+#[test]
+fn into_a_corner_the_engagement_rises_by_a_right_angle() {
+    let (depth, half) = (1.0_f64, 30.0);
+    // A square pocket cleared to `half - depth`, then its outline; the corner is at (half, half).
+    let inner = half - depth;
+    let mut text = format!("G90 F1000\nG0 X-{inner} Y-{inner} Z-2\n");
+    let mut y = -inner;
+    while y < inner {
+        text += &format!("G1 X{inner} Y{y}\nG1 X-{inner} Y{y}\n");
+        y += 4.0;
+    }
+    text += &format!(
+        "G1 X{inner} Y{inner}\nX-{inner}\nY-{inner}\nX{inner}\nY{inner}\nG1 X0 Y0\nG1 X{half} Y0\nX{half} Y{half}\n"
+    );
+    let run = walk(&text, &plate(), flat());
+    let index = run.path.moves().len() - 1;
+    let length = run.path.moves()[index].segment.length();
+    let wall = (1.0 - depth / 5.0).acos();
+    let rise = depth + (depth * (10.0 - depth)).sqrt();
+    let engaged = run.engaged(index);
+    for (s, angle) in &engaged {
+        let left = (length - s) * 1e3;
+        if left > rise + 0.05 && *s > 0.012 {
+            assert!((angle - wall).abs() < 1e-9, "{left} {angle} {wall}");
+        }
+        if left < rise - 0.05 {
+            assert!(*angle > wall + 1e-3, "{left} {angle}");
+        }
+    }
+    let (_, last) = engaged.last().unwrap();
+    // An end is looked at from half a micrometre before it.
+    assert!((last - wall - PI / 2.0).abs() < 3e-4, "{last} {wall}");
+}
+
+/// A trochoidal loop of the radius c, moved on by `step`: the largest engagement is where the circles
+/// of the tool's reach of this loop and the one before meet.
+#[test]
+fn trochoidal_loops_take_what_circle_and_circle_leave() {
+    let (c, step) = (8.0_f64, 1.0);
+    let mut text = String::from("G90 F1000\nG0 X-20 Y0 Z-2\n");
+    for k in 0..3 {
+        let x = k as f64 * step;
+        text += &format!("G1 X{} Y0\nG2 X{} Y0 I{c} J0\n", x - c, x - c);
+    }
+    let run = walk(&text, &plate(), flat());
+    let index = run.path.moves().len() - 1;
+    let largest = run.engaged(index).iter().map(|(_, angle)| *angle).fold(0.0, f64::max);
+    // Second way: for each place of the tool on the loop, the rim's outermost point against the circle
+    // of the radius c + r about the loop before.
+    let reach = c + 5.0;
+    let at = |theta: f64| {
+        let (x, y) = (c * theta.cos() + step, c * theta.sin());
+        let far = x.hypot(y);
+        if far + 5.0 <= reach {
+            return 0.0;
+        }
+        // Rim points beyond `reach` from the old centre lie within alpha of the ray from there.
+        let alpha = ((reach * reach - far * far - 25.0) / (2.0 * 5.0 * far)).acos();
+        let ray = y.atan2(x);
+        // Clockwise: the feed is a right angle before the radius.
+        let feed = theta - PI / 2.0;
+        let from = ((ray - alpha - feed + PI).rem_euclid(2.0 * PI) - PI).max(-PI / 2.0);
+        let to = ((ray + alpha - feed + PI).rem_euclid(2.0 * PI) - PI).min(PI / 2.0);
+        (to - from).max(0.0)
+    };
+    let expected = (0..100_000).map(|k| at(2.0 * PI * k as f64 / 1e5)).fold(0.0, f64::max);
+    assert!(expected > 0.3, "{expected}");
+    // Stations are where the engagement bends, not at its very largest.
+    assert!((largest - expected).abs() < 5e-3, "{largest} {expected}");
+}
+
+/// What is swept adds up to what is gone, for a pocket in two depths with a helical entry.
+#[test]
+fn volumes_add_up() {
+    // A pocket of 60 x 40 mm with corners of the tool's radius: 60 * 40 - (4 - pi) 25 mm².
+    let mut text = String::from("G90 F1000\nG0 X0 Y0 Z5\n");
+    for z in [-2, -4] {
+        text += &format!("G0 X3 Y0\nG1 Z{}\nG3 X3 Y0 Z{z} I-3 J0\nG3 X3 Y0 I-3 J0\n", z + 2);
+        for k in 0..=10 {
+            let y = -15.0 + 3.0 * k as f64;
+            text += &format!("G1 X-25 Y{y}\nX25\n");
+        }
+        text += "X25 Y15\nX-25\nY-15\nX25\nY15\n";
+    }
+    let run = walk(&text, &plate(), flat());
+    let area = 60.0 * 40.0 - (4.0 - PI) * 25.0;
+    let removed = run.removed() * 1e9;
+    assert!((removed / (4.0 * area) - 1.0).abs() < 2e-3, "{removed} {}", 4.0 * area);
+}
+
+/// Left in the stock or not: an island, a thin wall, half-open shapes, a second pass in the air.
+#[test]
+fn islands_walls_and_second_passes() {
+    // Around an island of 10 x 10 mm twice: nothing is left for the second round.
+    let round = "G1 X10 Y-10\nY10\nX-10\nY-10\nX10\n";
+    let run = walk(&format!("G90 F1000\nG0 X-10 Y-10 Z-3\n{round}{round}"), &plate(), flat());
+    let last = run.path.moves().len() - 1;
+    for index in last - 3..=last {
+        assert!(
+            run.engaged(index).iter().all(|(_, angle)| *angle == 0.0),
+            "move {index}: {:?}",
+            run.engaged(index)
+        );
+    }
+    // Two slots leave a wall of 2 mm; across it, the tool cuts only that.
+    let run = walk(
+        "G90 F1000\nG0 X-20 Y0 Z-3\nG1 X20\nG0 Z5\nX-20 Y12\nZ-3\nG1 X20\nG0 Z5\nX0 Y0\nZ-3\nG1 Y12\n",
+        &plate(),
+        flat(),
+    );
+    let index = run.path.moves().len() - 1;
+    let removed: f64 = {
+        let stations: Vec<_> = run.contacts.of_move(index).collect();
+        stations
+            .windows(2)
+            .map(|pair| {
+                let depth = |k: usize| run.contacts.at(k).radial_depth(R);
+                (depth(pair[0]) + depth(pair[1])) / 2.0
+                    * (run.contacts.within(pair[1]) - run.contacts.within(pair[0]))
+            })
+            .sum()
+    };
+    assert!((removed * 1e6 - 20.0).abs() < 0.1, "2 mm by 10 mm: {removed}");
+}
+
+/// A plunge meets the whole disc; half of it over an edge; none in a hole made before.
+#[test]
+fn plunges_meet_what_lies_below() {
+    let disc = |text: &str| {
+        let run = walk(text, &plate(), flat());
+        let index = run.path.moves().iter().rposition(|step| step.segment.tangent(0.0).z < -0.9).unwrap();
+        let station = run.contacts.of_move(index).find(|&k| run.contacts.within(k) > 1e-3).unwrap();
+        let floors = run.contacts.at(station).floors;
+        floors.iter().map(|arc| arc.radius * arc.width * (arc.exit - arc.entry)).sum::<f64>() * 1e6
+    };
+    assert!((disc("G90 F100\nG0 X0 Y0 Z0\nG1 Z-3\n") - 25.0 * PI).abs() < 1e-3);
+    assert!((disc("G90 F100\nG0 X100 Y0 Z0\nG1 Z-3\n") - 12.5 * PI).abs() < 1e-3);
+    assert!(disc("G90 F100\nG0 X0 Y0 Z0\nG1 Z-5\nG0 Z1\nG1 Z-3\n").abs() < 1e-9);
+}
+
+/// A step: the lower half of the edge in a slot, the upper in a wall.
+#[test]
+fn heights_are_told_apart() {
+    let run = walk("G90 F1000\nG0 X-120 Y0 Z-2\nG1 X120\nG0 Z5\nX-120 Y4\nZ-5\nG1 X121\n", &plate(), flat());
+    let index = run.path.moves().len() - 1;
+    let station = run.contacts.of_move(index).find(|&k| run.contacts.within(k) > 0.12).unwrap();
+    let contact = run.contacts.at(station);
+    let [low, high] = contact.sides else { panic!("{:?}", contact.sides) };
+    assert!((low.exit - low.entry - PI).abs() < 1e-9 && low.from == 0.0 && (low.to - 3e-3).abs() < 1e-12);
+    assert!((high.exit - (1.0 - 4.0_f64 / 5.0).acos()).abs() < 1e-7 && (high.to - 5e-3).abs() < 1e-12);
+}
