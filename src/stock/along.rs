@@ -5,7 +5,7 @@ use crate::path::{Move, MovePace, Path, Segment};
 use crate::progress::Progress;
 use crate::stock::contact::Contacts;
 use crate::stock::grid::Grid;
-use crate::stock::place::{Around, Cutter, EngagementMeasure, Place, Scene};
+use crate::stock::place::{Around, Cutter, EngagementMeasure, Surroundings, ToolPlace};
 use crate::stock::solid::Solid;
 use crate::stock::swept::Swept;
 use nalgebra::Vector2;
@@ -74,7 +74,7 @@ struct Walk<'a> {
 }
 
 /// An arc length within a move [m] with what is engaged there.
-type Measured = (f64, EngagementMeasure);
+type MeasuredPlace = (f64, EngagementMeasure);
 
 impl<'a> Walk<'a> {
     fn new(path: &'a Path, sweeps: &'a [Swept], solid: &'a Solid, cutter: &'a Cutter) -> Self {
@@ -128,7 +128,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Adds the stations that are needed strictly between two places.
-    fn refine(&mut self, step: &Move, leg: &Leg, from: Measured, to: Measured) {
+    fn refine(&mut self, step: &Move, leg: &Leg, from: MeasuredPlace, to: MeasuredPlace) {
         if to.0 - from.0 < 2.0 * NEAR * self.cutter.radius {
             return;
         }
@@ -160,7 +160,7 @@ impl<'a> Walk<'a> {
         let inside = (INSIDE * self.cutter.radius).min((end - start) / 2.0);
         let within = within.clamp(start + inside, end - inside);
         let tip = step.segment.point(within);
-        let place = Place {
+        let place = ToolPlace {
             center: tip.xy(),
             height: tip.z,
             ahead: heading(step, within).unwrap_or(self.ahead),
@@ -168,9 +168,14 @@ impl<'a> Walk<'a> {
             dives: step.segment.tangent(within).z < -1e-6,
             own: &leg.swept,
         };
-        let scene =
-            Scene { solid: self.solid, cutter: self.cutter, sweeps: self.sweeps, grid: &self.grid, place };
-        scene.find(&mut self.around)
+        let around = Surroundings {
+            solid: self.solid,
+            cutter: self.cutter,
+            sweeps: self.sweeps,
+            grid: &self.grid,
+            place,
+        };
+        around.find(&mut self.around)
     }
 }
 

@@ -54,7 +54,7 @@ pub(super) struct Around {
 pub(super) type EngagementMeasure = [f64; 2];
 
 /// A place of the tool.
-pub(super) struct Place<'a> {
+pub(super) struct ToolPlace<'a> {
     pub(super) center: Vector2<f64>,
     pub(super) height: f64,
     pub(super) ahead: Vector2<f64>,
@@ -65,12 +65,12 @@ pub(super) struct Place<'a> {
 }
 
 /// The tool at a place, and what was cut before.
-pub(super) struct Scene<'a> {
+pub(super) struct Surroundings<'a> {
     pub(super) solid: &'a Solid,
     pub(super) cutter: &'a Cutter,
     pub(super) sweeps: &'a [Swept],
     pub(super) grid: &'a Grid,
-    pub(super) place: Place<'a>,
+    pub(super) place: ToolPlace<'a>,
 }
 
 impl Cutter {
@@ -84,7 +84,7 @@ impl Cutter {
     }
 }
 
-impl Scene<'_> {
+impl Surroundings<'_> {
     /// Finds the contact.
     pub(super) fn find(&self, around: &mut Around) -> EngagementMeasure {
         around.sides.clear();
