@@ -3,7 +3,7 @@
 use crate::math;
 use crate::path::{Move, MovePace, Path, Segment};
 use crate::progress::Progress;
-use crate::stock::contact::Contacts;
+use crate::stock::contact::{Contacts, FloorArc, SideArc};
 use crate::stock::grid::Grid;
 use crate::stock::place::{Around, Cutter, EngagementMeasure, Surroundings, ToolPlace};
 use crate::stock::solid::Solid;
@@ -73,8 +73,14 @@ struct Walk<'a> {
     around: Around,
 }
 
-/// An arc length within a move [m] with what is engaged there.
-type MeasuredPlace = (f64, EngagementMeasure);
+/// The contact at an arc length within a move.
+struct Found {
+    /// Arc length [m].
+    within: f64,
+    measure: EngagementMeasure,
+    sides: Vec<SideArc>,
+    floors: Vec<FloorArc>,
+}
 
 impl<'a> Walk<'a> {
     fn new(path: &'a Path, sweeps: &'a [Swept], solid: &'a Solid, cutter: &'a Cutter) -> Self {
@@ -115,57 +121,55 @@ impl<'a> Walk<'a> {
     fn leg(&mut self, step: &Move, leg: &Leg) {
         let Range { start, end } = leg.within;
         let pieces = ((end - start) / (FAR * self.cutter.radius)).ceil().max(1.0);
-        let mut from = (start, self.find(step, leg, start));
-        self.keep(step, start);
+        let mut from = self.find(step, leg, start);
+        self.keep(step, &from);
         for piece in 1..=pieces as usize {
-            let to = start + (end - start) * (piece as f64 / pieces);
-            let to = (to, self.find(step, leg, to));
-            self.refine(step, leg, from, to);
-            self.find(step, leg, to.0);
-            self.keep(step, to.0);
+            let to = self.find(step, leg, start + (end - start) * (piece as f64 / pieces));
+            self.refine(step, leg, &from, &to);
+            self.keep(step, &to);
             from = to;
         }
     }
 
     /// Adds the stations that are needed strictly between two places.
-    fn refine(&mut self, step: &Move, leg: &Leg, from: MeasuredPlace, to: MeasuredPlace) {
-        if to.0 - from.0 < 2.0 * NEAR * self.cutter.radius {
+    fn refine(&mut self, step: &Move, leg: &Leg, from: &Found, to: &Found) {
+        if to.within - from.within < 2.0 * NEAR * self.cutter.radius {
             return;
         }
-        let middle = (from.0 + to.0) / 2.0;
-        let measure = self.find(step, leg, middle);
-        let height = self.solid.top - step.segment.point(middle).z.max(self.solid.bottom);
+        let middle = self.find(step, leg, (from.within + to.within) / 2.0);
+        let height = self.solid.top - step.segment.point(middle.within).z.max(self.solid.bottom);
         let most = 2.0 * self.cutter.radius * height;
-        let bent = |k: usize| (measure[k] - (from.1[k] + to.1[k]) / 2.0).abs() > BENT * most;
-        if !(bent(0) || bent(1)) {
-            return;
+        let bent =
+            |k: usize| (middle.measure[k] - (from.measure[k] + to.measure[k]) / 2.0).abs() > BENT * most;
+        // Where an arc begins, ends or parts, the contact changes like a square root.
+        let parted = from.sides.len() != to.sides.len();
+        if parted || bent(0) || bent(1) {
+            self.refine(step, leg, from, &middle);
+            self.keep(step, &middle);
+            self.refine(step, leg, &middle, to);
         }
-        self.refine(step, leg, from, (middle, measure));
-        self.find(step, leg, middle);
-        self.keep(step, middle);
-        self.refine(step, leg, (middle, measure), to);
     }
 
-    /// Keeps what was found last.
-    fn keep(&mut self, step: &Move, within: f64) {
-        let feed = step.segment.tangent(within);
+    /// Keeps what was found.
+    fn keep(&mut self, step: &Move, found: &Found) {
+        let feed = step.segment.tangent(found.within);
         let lean = [math::hypot(feed.x, feed.y), (-feed.z).max(0.0)];
-        self.contacts.push(within, lean, &self.around.sides, &self.around.floors);
+        self.contacts.push(found.within, lean, &found.sides, &found.floors);
     }
 
     /// Finds the contact at the arc length `within` [m] of a move.
-    fn find(&mut self, step: &Move, leg: &Leg, within: f64) -> EngagementMeasure {
+    fn find(&mut self, step: &Move, leg: &Leg, within: f64) -> Found {
         let Range { start, end } = leg.within;
         // At the very ends the tool may touch what it does not cut: seen from just inside.
         let inside = (INSIDE * self.cutter.radius).min((end - start) / 2.0);
-        let within = within.clamp(start + inside, end - inside);
-        let tip = step.segment.point(within);
+        let seen = within.clamp(start + inside, end - inside);
+        let tip = step.segment.point(seen);
         let place = ToolPlace {
             center: tip.xy(),
             height: tip.z,
-            ahead: heading(step, within).unwrap_or(self.ahead),
-            share: (within - start) / (end - start),
-            dives: step.segment.tangent(within).z < -1e-6,
+            ahead: heading(step, seen).unwrap_or(self.ahead),
+            share: (seen - start) / (end - start),
+            dives: step.segment.tangent(seen).z < -1e-6,
             own: &leg.swept,
         };
         let around = Surroundings {
@@ -175,7 +179,9 @@ impl<'a> Walk<'a> {
             grid: &self.grid,
             place,
         };
-        around.find(&mut self.around)
+        let measure = around.find(&mut self.around);
+        let Around { sides, floors, .. } = &self.around;
+        Found { within, measure, sides: sides.clone(), floors: floors.clone() }
     }
 }
 

@@ -82,6 +82,8 @@ impl HalfCircle {
 #[derive(Debug, Clone, Default)]
 pub(super) struct ArcParts {
     ranges: Vec<(f64, f64)>,
+    /// A disc around each range: centre and radius [m].
+    discs: Vec<(Vector2<f64>, f64)>,
     spare: Vec<(f64, f64)>,
     places: Vec<f64>,
 }
@@ -96,9 +98,20 @@ pub(super) trait Region {
 
 impl ArcParts {
     /// The whole half.
-    pub(super) fn fill(&mut self) {
+    pub(super) fn fill(&mut self, half: &HalfCircle) {
         self.ranges.clear();
         self.ranges.push((-1.0, 1.0));
+        self.surround(half);
+    }
+
+    /// Finds the disc around each range.
+    fn surround(&mut self, half: &HalfCircle) {
+        self.discs.clear();
+        self.discs.extend(self.ranges.iter().map(|&(from, to)| {
+            let middle = half.point((from + to) / 2.0);
+            let span = |c: f64| (half.point(c) - middle).norm_squared();
+            (middle, span(from).max(span(to)).sqrt())
+        }));
     }
 
     /// Whether nothing is left.
@@ -120,13 +133,7 @@ impl ArcParts {
         distance: impl Fn(&Vector2<f64>) -> f64,
         reach: f64,
     ) {
-        let touches = |&(from, to): &(f64, f64)| {
-            let middle = half.point((from + to) / 2.0);
-            let span =
-                (half.point(from) - middle).norm_squared().max((half.point(to) - middle).norm_squared());
-            distance(&middle) < reach + span.sqrt()
-        };
-        if self.ranges.iter().any(touches) {
+        if self.discs.iter().any(|(middle, span)| distance(middle) < reach + span) {
             self.keep(half, region, false);
         }
     }
@@ -151,5 +158,6 @@ impl ArcParts {
             }
         }
         std::mem::swap(&mut self.ranges, &mut self.spare);
+        self.surround(half);
     }
 }

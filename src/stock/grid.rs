@@ -42,7 +42,7 @@ impl Grid {
     pub(super) fn new([from, to]: [Vector2<f64>; 2], reach: f64) -> Self {
         let size = to - from;
         let least = (size.x.max(reach) * size.y.max(reach) / MOST_CELLS).sqrt();
-        let cell = reach.max(least);
+        let cell = (reach / 2.0).max(least);
         let count = |length: f64| (length / cell).floor() as usize + 1;
         let columns = count(size.x);
         Self { corner: from, cell, columns, cells: vec![GridCell::default(); columns * count(size.y)], reach }
@@ -74,11 +74,21 @@ impl Grid {
         let pieces = (length / self.cell).ceil().max(1.0) as usize;
         for piece in 0..pieces {
             let share = |k: usize| k as f64 / pieces as f64;
-            let [from, to] = swept.part(share(piece), share(piece + 1)).bounds();
+            let spine = swept.part(share(piece), share(piece + 1));
+            let [from, to] = spine.bounds();
+            // A cell counts if any point of it is in reach.
+            let far = self.reach + self.cell * std::f64::consts::FRAC_1_SQRT_2;
+            let middle = |column: usize, row: usize| {
+                self.corner + Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * self.cell
+            };
             let reach = Vector2::repeat(self.reach);
             let ((left, lower), (right, upper)) = (self.place(&(from - reach)), self.place(&(to + reach)));
             for row in lower..=upper {
-                for cell in &mut self.cells[row * self.columns..][left..=right] {
+                for column in left..=right {
+                    if spine.distance(&middle(column, row)) > far {
+                        continue;
+                    }
+                    let cell = &mut self.cells[row * self.columns + column];
                     let list = if high - low < SAME_HEIGHT || matches!(swept.spine, Spine::Point(_)) {
                         cell.level(low)
                     } else {

@@ -114,16 +114,20 @@ impl Surroundings<'_> {
     fn sides(&self, half: HalfCircle, (low, high): (f64, f64), around: &mut Around) {
         self.borders((low, high), &mut around.heights);
         let flat = self.cutter.corner == 0.0;
+        let mut cleared = f64::NEG_INFINITY;
         for layer in 0..around.heights.len() - 1 {
             let (from, to) = (around.heights[layer], around.heights[layer + 1]);
             let middle = (from + to) / 2.0;
             let half = HalfCircle { radius: self.cutter.radius_at(middle - self.place.height), ..half };
             let parts = &mut around.parts;
             if layer == 0 || !flat {
-                parts.fill();
+                parts.fill(&half);
                 parts.keep(&half, &self.solid.outline, true);
+                cleared = f64::NEG_INFINITY;
             }
-            self.clear(&half, middle, parts);
+            // A cylinder clears above a height what it clears there.
+            self.clear(&half, (cleared, middle), parts);
+            cleared = middle;
             if parts.is_empty() && flat {
                 break;
             }
@@ -167,8 +171,9 @@ impl Surroundings<'_> {
         heights.dedup_by(|a, b| *a - *b < SAME_HEIGHT);
     }
 
-    /// Takes away what earlier moves have cleared at a height [m].
-    fn clear(&self, half: &HalfCircle, height: f64, parts: &mut ArcParts) {
+    /// Takes away what earlier moves have cleared at a height [m], but for those that stayed at or below
+    /// another one.
+    fn clear(&self, half: &HalfCircle, (above, height): (f64, f64), parts: &mut ArcParts) {
         let cell = self.grid.at(&self.place.center);
         let mut subtract = |spine: &Spine, tip: f64| {
             let reach = self.cutter.radius_at(height - tip) * (1.0 - TOUCH);
@@ -179,7 +184,7 @@ impl Surroundings<'_> {
         if own.is_some_and(|own| subtract(&own, self.place.height)) {
             return;
         }
-        for level in &cell.levels {
+        for level in cell.levels.iter().filter(|level| level.height > above) {
             if level.height > height {
                 break;
             }
@@ -202,10 +207,11 @@ impl Surroundings<'_> {
     /// The arcs of half a ring of the bottom, whose immersion angles begin at `turn` [rad].
     fn ring(&self, half: HalfCircle, turn: f64, width: f64, around: &mut Around) {
         let parts = &mut around.parts;
-        parts.fill();
+        parts.fill(&half);
         parts.keep(&half, &self.solid.outline, true);
         // What lies right under the tip.
-        self.clear(&half, self.place.height - 2.0 * SAME_HEIGHT, parts);
+        let height = self.place.height - 2.0 * SAME_HEIGHT;
+        self.clear(&half, (f64::NEG_INFINITY, height), parts);
         let arc = |&(a, b): &(f64, f64)| FloorArc {
             radius: half.radius,
             width,
