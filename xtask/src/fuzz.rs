@@ -49,8 +49,8 @@ pub(crate) fn fuzz(target: Option<&str>, seconds: u32) -> Result<()> {
         let engine = || {
             let mut command = Command::new(&engine);
             command.env("ARMILL_FUZZ_TARGET", target);
-            // Instrumented code is ten times slower, and each text is read four times.
-            command.args(["-timeout=30", "-max_len=4096"]);
+            // Instrumented code is ten times slower, each text is read four times, and others use the machine.
+            command.args(["-timeout=120", "-max_len=4096"]);
             command
         };
         let bad = format!("-artifact_prefix={}/{target}-", found.display());
