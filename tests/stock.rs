@@ -58,14 +58,21 @@ impl Run {
 
     /// Volume removed [m^3]: the section of what is met, along the path.
     fn removed(&self) -> f64 {
+        let corner = self.cutter.corner;
+        let radius = |height: f64| {
+            let below = (corner - height).max(0.0);
+            self.cutter.radius - corner + (corner * corner - below * below).sqrt()
+        };
         let section = |station: usize| {
             let contact = self.contacts.at(station);
             let side = |arc: &armill::stock::SideArc| {
-                self.cutter.radius * (arc.entry.cos() - arc.exit.cos()) * (arc.to - arc.from)
+                let wide = (arc.entry.cos() - arc.exit.cos()) * (arc.to - arc.from);
+                let deep = (arc.exit - arc.entry) * (radius(arc.to) - radius(arc.from));
+                radius((arc.from + arc.to) / 2.0) * (wide * contact.across + deep * contact.down)
             };
             let floor = |arc: &armill::stock::FloorArc| arc.radius * arc.width * (arc.exit - arc.entry);
-            contact.sides.iter().map(side).sum::<f64>() * contact.across
-                + contact.floors.iter().map(floor).sum::<f64>() * contact.down
+            contact.sides.iter().map(side).sum::<f64>()
+                + contact.floors.iter().map(floor).sum::<f64>() * contact.down.max(0.0)
         };
         let parts = self
             .contacts
@@ -89,7 +96,7 @@ fn a_slot_takes_half_a_turn() {
     let (index, _) = run.to(40.0, 0.0);
     let contact = run.contacts.at(run.contacts.of_move(index).start);
     assert!((contact.axial_depth() - 2e-3).abs() < 1e-12);
-    assert!((contact.radial_depth(R) - 2.0 * R).abs() < 1e-12);
+    assert!((contact.radial_depth(|_| R) - 2.0 * R).abs() < 1e-12);
 }
 
 /// phi = acos(1 - a_e / r), left of the feed in up milling, right of it in down milling.
@@ -113,7 +120,7 @@ fn a_wall_takes_its_radial_depth() {
                 (entry - expected.0).abs() < 1e-7 && (exit - expected.1).abs() < 1e-7,
                 "{depth} {side}: {entry} {exit}"
             );
-            assert!((contact.radial_depth(R) - depth / 1e3).abs() < 1e-12);
+            assert!((contact.radial_depth(|_| R) - depth / 1e3).abs() < 1e-12);
         }
     }
 }
@@ -262,7 +269,7 @@ fn islands_walls_and_second_passes() {
         stations
             .windows(2)
             .map(|pair| {
-                let depth = |k: usize| run.contacts.at(k).radial_depth(R);
+                let depth = |k: usize| run.contacts.at(k).radial_depth(|_| R);
                 (depth(pair[0]) + depth(pair[1])) / 2.0
                     * (run.contacts.within(pair[1]) - run.contacts.within(pair[0]))
             })
@@ -296,4 +303,76 @@ fn heights_are_told_apart() {
     let [low, high] = contact.sides else { panic!("{:?}", contact.sides) };
     assert!((low.exit - low.entry - PI).abs() < 1e-9 && low.from == 0.0 && (low.to - 3e-3).abs() < 1e-12);
     assert!((high.exit - (1.0 - 4.0_f64 / 5.0).acos()).abs() < 1e-7 && (high.to - 5e-3).abs() < 1e-12);
+}
+
+/// Volume that a run of a height map removes against the exact way: the same pocket, forced onto the
+/// map by a ramp of no consequence in the air.
+#[test]
+fn the_map_of_heights_removes_what_the_exact_way_removes() {
+    let air = "G0 X-90 Y-90 Z20\nG1 X90 Y90 Z5\nX-90 Y-90 Z20\nX90 Y90 Z5\nG0 Z20\n";
+    for (corner, step) in [(0.0, 0.5), (0.0, 4.0), (R, 0.5), (R, 2.0), (R, 10.0), (2e-3, 2.0)] {
+        let tool = Cutter { corner, ..flat() };
+        let mut cut = String::from("G90 F1000\nG0 X-20 Y0 Z-3\nG1 X20\n");
+        for k in 1..5 {
+            cut += &format!("Y{}\nX{}\n", k as f64 * step, if k % 2 == 0 { 20 } else { -20 });
+        }
+        let exact = walk(&cut, &plate(), tool);
+        let mapped = walk(&(cut + air), &plate(), tool);
+        assert!(exact.contacts.cell.is_none() && mapped.contacts.cell.is_some());
+        let ratio = mapped.removed() / exact.removed();
+        assert!((ratio - 1.0).abs() < 0.01, "corner {corner}, step {step}: {ratio}");
+    }
+}
+
+/// A ball on a level way through a flat, its section in closed form: a segment of the circle.
+#[test]
+fn a_ball_digs_its_own_section() {
+    let ball = Cutter { radius: R, corner: R, flutes: 1.0 };
+    for depth in [1.0_f64, 3.0, 5.0] {
+        let half = (1.0 - depth / 5.0).acos();
+        let segment = 25.0 * (half - half.sin() * half.cos());
+        let text = format!("G90 F1000\nG0 X-40 Y0 Z-{depth}\nG1 X40\n");
+        let air = "G0 X-90 Y-90 Z20\nG1 X90 Y90 Z10\nG0 Z20\n";
+        for text in [text.clone(), text + air] {
+            let run = walk(&text, &plate(), ball);
+            let section = run.removed() * 1e9 / 80.0;
+            assert!((section / segment - 1.0).abs() < 0.02, "{depth}: {section} {segment}");
+        }
+    }
+}
+
+/// A dome of the radius 60 mm by a ball: rows over it, half a millimetre of stock left everywhere. What
+/// is removed is the layer between both domes.
+#[test]
+fn a_ball_takes_the_layer_over_a_dome() {
+    let ball = Cutter { radius: R, corner: R, flutes: 1.0 };
+    let rows = |radius: f64, step: f64| {
+        let mut text = String::from("G90 F1000\n");
+        let mut y = -15.0;
+        while y <= 15.0 {
+            for k in 0..=30 {
+                let x = -15.0 + k as f64;
+                // The ball's centre keeps its radius from the dome.
+                let z = ((radius + 5.0).powi(2) - x * x - y * y).sqrt() - 5.0 - 60.0;
+                text += &format!("{} X{x} Y{y:.3} Z{z:.5}\n", if k == 0 { "G0" } else { "G1" });
+            }
+            text += "G0 Z30\n";
+            y += step;
+        }
+        text
+    };
+    let block = block([-10.0, -10.0, -20.0], [10.0, 10.0, 3.0]);
+    let rough = walk(&rows(60.5, 0.5), &block, ball).removed();
+    let both = walk(&(rows(60.5, 0.5) + &rows(60.0, 0.5)), &block, ball).removed();
+    // 20 x 20 mm, half a millimetre along the normal: by dz = dr R / sqrt(R² - x² - y²).
+    let n = 200;
+    let at = |k: usize| -10.0 + 20.0 * (k as f64 + 0.5) / n as f64;
+    let height = |radius: f64, x: f64, y: f64| (radius * radius - x * x - y * y).sqrt();
+    let layer: f64 = (0..n * n)
+        .map(|k| (at(k % n), at(k / n)))
+        .map(|(x, y)| height(60.5, x, y) - height(60.0, x, y))
+        .sum::<f64>()
+        * (20.0 / n as f64).powi(2);
+    let ratio = (both - rough) * 1e9 / layer;
+    assert!((ratio - 1.0).abs() < 0.05, "{ratio}: {both} {rough} {layer}");
 }

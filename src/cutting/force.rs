@@ -88,7 +88,7 @@ fn project(phi: f64, t: f64, r: f64, a: f64) -> Vector3<f64> {
 
 /// Antiderivative over phi of the force per height [N/m] on one edge (eqs. 4.1-4.3): cutting part
 /// for 1 m of feed per tooth, and edge part.
-fn primitive(k: &Coefficients, phi: f64) -> (Vector3<f64>, Vector3<f64>) {
+pub(super) fn primitive(k: &Coefficients, phi: f64) -> (Vector3<f64>, Vector3<f64>) {
     let (sin, cos) = math::sin_cos(phi);
     let (sin_2, cos_2) = math::sin_cos(2.0 * phi);
     // Integrals of sin cos, sin^2 and sin.

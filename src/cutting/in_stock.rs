@@ -1,15 +1,17 @@
 //! The cut where the tool is in the stock: the side by its arcs in material, the bottom where the
 //! tool dives.
 //!
-//! A tooth's chip is the feed's part along the normal of its edge. On the side it is c sin(phi) with
-//! the feed's part across the axis. The bottom's edges, whose normal is the axis, take the feed's part
-//! down it: the corner's limit kappa = 0 of the same mechanics (S. Engin, Y. Altintas, Int. J. Mach.
-//! Tools Manufact. 41 (2001), eqs. 12 to 19), with the tangential force K_tc c + K_te and the axial
-//! one K_rc c + K_re on each metre of edge. A whole bottom thus pushes the tool up by N R (K_rc c +
-//! K_re). Left out: the chisel edge, where the cutting speed is none, and a core that is not cut.
+//! A tooth's chip is the feed's part along the normal of its edge: c (s sin(phi) sin(kappa) + d
+//! cos(kappa)), with the shares s across and d down the axis (S. Engin, Y. Altintas, Int. J. Mach.
+//! Tools Manufact. 41 (2001), eqs. 12 to 19). Over the height dz and the width dr of a piece of edge the
+//! chip section is c (s sin(phi) dz + d dr). The bottom's edges are the limit kappa = 0, with the
+//! tangential force K_tc c + K_te and the axial one K_rc c + K_re on each metre of edge: a whole bottom
+//! pushes the tool up by N R (K_rc c + K_re). Left out: the chisel edge, where the cutting speed
+//! is none, and a core that is not cut.
 
+use crate::cutting::force::primitive;
 use crate::cutting::tool::Slice;
-use crate::cutting::{Cut, LinearForce};
+use crate::cutting::{Coefficients, Cut, LinearForce};
 use crate::math::{self, TAU};
 use crate::stock::{Contact, Contacts, FloorArc, SideArc};
 use nalgebra::Vector3;
@@ -17,6 +19,11 @@ use nalgebra::Vector3;
 /// Slope from which the bottom's edges cut with their whole edge force; less steep ramps rub less. As
 /// for slow feeds, an assumption.
 const STEEP: f64 = 0.1;
+
+/// Share of the bottom's edge force where the feed's share down the axis is `down`.
+fn rubbing(down: f64) -> f64 {
+    (down / STEEP).min(1.0)
+}
 
 /// Figures of the cut at a place.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -50,15 +57,37 @@ impl Cut {
         Slice { from, height, edge: corner * (high - low), radius, coefficients, entry, exit }
     }
 
+    /// Width of a piece seen along the axis [m]: what it cuts of a feed down the axis. None of the
+    /// cylinder.
+    fn run(&self, piece: &Slice) -> f64 {
+        self.radius_at(piece.from + piece.height) - self.radius_at(piece.from)
+    }
+
     /// Mean force over a revolution at a contact, in {T}, for the feed per tooth along the path.
     pub fn mean_force_in(&self, contact: &Contact) -> LinearForce {
-        let side = self.mean_of(&self.engaged(contact));
+        let slices = self.engaged(contact);
+        let side = self.mean_of(&slices);
         let bottom = self.bottom(contact.floors);
-        let rubbing = (contact.down / STEEP).min(1.0);
+        let down = contact.down.max(0.0);
         LinearForce {
-            cutting: side.cutting * contact.across + bottom.cutting * contact.down,
-            edge: side.edge + bottom.edge * rubbing,
+            cutting: side.cutting * contact.across
+                + self.dipping(&slices) * contact.down
+                + bottom.cutting * down,
+            edge: side.edge + bottom.edge * rubbing(down),
         }
+    }
+
+    /// Mean force of the corner [N/m] for 1 m of feed per tooth down the axis: its chip is the same all
+    /// round.
+    fn dipping(&self, slices: &[Slice]) -> Vector3<f64> {
+        let corner = slices.iter().filter(|slice| slice.from + slice.height / 2.0 < self.corner_radius);
+        let force = |slice: &Slice| {
+            let k = &slice.coefficients;
+            let constant = Coefficients { kte: k.ktc, kre: k.krc, kae: k.kac, ..Coefficients::default() };
+            let scale = f64::from(self.flutes) * self.run(slice) / TAU;
+            (primitive(&constant, slice.exit).1 - primitive(&constant, slice.entry).1) * scale
+        };
+        corner.map(force).fold(Vector3::zeros(), |sum, force| sum + force)
     }
 
     /// Mean force of the bottom's edges over a revolution.
@@ -82,8 +111,9 @@ impl Cut {
     pub fn peak_force_in(&self, contact: &Contact, c: f64) -> f64 {
         let slices = self.engaged(contact);
         let bottom = self.bottom(contact.floors);
-        let rubbing = (contact.down / STEEP).min(1.0);
-        let below = bottom.cutting * (c * contact.down) + bottom.edge * rubbing;
+        let down = contact.down.max(0.0);
+        let below =
+            (self.dipping(&slices) * contact.down + bottom.cutting * down) * c + bottom.edge * rubbing(down);
         if slices.is_empty() {
             below.norm()
         } else {
@@ -96,28 +126,33 @@ impl Cut {
         let Contact { across, down, .. } = *contact;
         let slices = self.engaged(contact);
         let [chip, edge] = self.chip_in(contact);
-        let rubbing = self.torque_of(&slices, 0.0);
-        let (mut section, mut turning) = (Self::section_of(&slices) * across, 0.0);
+        let edges = self.torque_of(&slices, 0.0);
+        let mut section = Self::section_of(&slices) * across;
+        let mut torque = [(self.torque_of(&slices, 1.0) - edges) * across, edges];
+        let turning = f64::from(self.flutes) / TAU;
+        for slice in &slices {
+            let area = self.run(slice) * slice.radius * (slice.exit - slice.entry);
+            section += area * down;
+            torque[0] += area * turning * slice.coefficients.ktc * down;
+        }
+        let dives = down.max(0.0);
         for floor in contact.floors {
             let area = floor.radius * floor.width * (floor.exit - floor.entry);
-            section += area * down;
-            turning += area * f64::from(self.flutes) / TAU;
+            section += area * dives;
+            torque[0] += area * turning * self.coefficients.ktc * dives;
+            torque[1] += area * turning * self.coefficients.kte * rubbing(dives);
         }
-        let cutting =
-            (self.torque_of(&slices, 1.0) - rubbing) * across + turning * self.coefficients.ktc * down;
-        let edges = rubbing + turning * self.coefficients.kte * (down / STEEP).min(1.0);
-        PlaceFigures { section, chip: if edge > 0.0 { chip / edge } else { 0.0 }, torque: [cutting, edges] }
+        PlaceFigures { section, chip: if edge > 0.0 { chip / edge } else { 0.0 }, torque }
     }
 
     /// The chip of a tooth for 1 m of feed per tooth [m], and its engaged edge times arc [m].
     fn chip_in(&self, contact: &Contact) -> [f64; 2] {
-        let [chip, edge] = Self::chip_of(&self.engaged(contact));
-        let floor = contact
-            .floors
-            .iter()
-            .map(|arc| arc.width * (arc.exit - arc.entry))
-            .fold(0.0, |sum, arc| sum + arc);
-        [chip * contact.across + floor * contact.down, edge + floor]
+        let slices = self.engaged(contact);
+        let [chip, edge] = Self::chip_of(&slices);
+        let dip = slices.iter().map(|slice| self.run(slice) * (slice.exit - slice.entry));
+        let floor = contact.floors.iter().map(|arc| arc.width * (arc.exit - arc.entry));
+        let [dip, floor] = [dip.fold(0.0, |sum, arc| sum + arc), floor.fold(0.0, |sum, arc| sum + arc)];
+        [chip * contact.across + dip * contact.down + floor * contact.down.max(0.0), edge + floor]
     }
 
     /// Mean chip thickness along a path, for 1 m of feed per tooth; `None` in the air.

@@ -49,6 +49,13 @@ impl Cut {
         self.diameter / 2.0
     }
 
+    /// Radius at a height above the tip [m].
+    pub fn radius_at(&self, height: f64) -> f64 {
+        let below = (self.corner_radius - height).max(0.0);
+        self.radius() - self.corner_radius
+            + (self.corner_radius * self.corner_radius - below * below).max(0.0).sqrt()
+    }
+
     /// The engaged edge from the tip up: the corner in `count` slices, then the cylinder in
     /// `above`.
     ///

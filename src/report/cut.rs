@@ -64,6 +64,9 @@ pub struct CutFigures {
     /// given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub air_share: Option<f64>,
+    /// Width of a cell [mm], if the stock is followed as a map of heights; else it is exact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stock_cell_mm: Option<f64>,
     /// Largest angle in material at the tip [deg], if a stock is given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest_engaged_deg: Option<f64>,
@@ -158,7 +161,7 @@ impl Report {
         let PlaceFigures { section, chip, torque } = cut.figures_in(&contact);
         LocalCut {
             axial: contact.axial_depth(),
-            radial: contact.radial_depth(radius),
+            radial: contact.radial_depth(|height| cut.radius_at(height)),
             angles: contact.bounds().unwrap_or_default(),
             chip: chip * c,
             section,
@@ -203,6 +206,7 @@ impl Report {
             radial_depth_mm: local.radial / MM,
             removed_cm3: whole.map(|whole| whole.removed * 1e6),
             air_share: whole.map(|whole| whole.air),
+            stock_cell_mm: setup.contacts.as_ref().and_then(|contacts| contacts.cell).map(|cell| cell / MM),
             largest_engaged_deg: whole.map(|whole| whole.engaged / DEG),
             spindle_power_kw: setup.spindle_power.map(|power| power / KILOWATT),
             tool_bending_um_n: setup.bending.map(|bending| bending.displacement / (1e-3 * MM)),

@@ -87,7 +87,7 @@ impl Report {
                 exit,
                 engaged: contact.engaged(),
                 axial: contact.axial_depth(),
-                radial: contact.radial_depth(setup.cut.radius()),
+                radial: contact.radial_depth(|height| setup.cut.radius_at(height)),
                 removal: section * timing.speed[k],
                 chip: chip * load.chip,
                 power: torque * spindle * TAU,

@@ -5,6 +5,7 @@ use crate::path::{Move, MovePace, Path, Segment};
 use crate::progress::Progress;
 use crate::stock::contact::{Contacts, FloorArc, SideArc};
 use crate::stock::grid::Grid;
+use crate::stock::mapped;
 use crate::stock::place::{Around, Cutter, EngagementMeasure, Surroundings, ToolPlace};
 use crate::stock::solid::Solid;
 use crate::stock::swept::Swept;
@@ -23,9 +24,28 @@ const BENT: f64 = 0.002;
 /// Largest distance of an arc that does not lie across the tool axis from its chords [m].
 const CHORD: f64 = 1e-6;
 
+/// Share of the length of the cutting moves that climb or dive as they go along from which the stock is
+/// a map of heights.
+const MOSTLY_RAMPS: f64 = 0.25;
+
 /// The contacts of a cutter along a path in the workpiece frame whose tool axis is z, starting from a
-/// solid. Rapid moves clear nothing.
+/// solid: by a map of heights if much of the path climbs or dives, else by circles and capsules. Rapid
+/// moves clear nothing.
 pub fn contacts(path: &Path, solid: &Solid, cutter: &Cutter, progress: &mut Progress) -> Contacts {
+    let cuts = || path.moves().iter().filter(|step| step.pace != MovePace::Rapid).map(|step| &step.segment);
+    let ramps = cuts().filter(|segment| {
+        let feed = segment.tangent(segment.length() / 2.0);
+        Swept::of(segment).is_none() || (feed.z != 0.0 && math::hypot(feed.x, feed.y) > 1e-6)
+    });
+    let length = cuts().map(Segment::length).sum::<f64>();
+    if ramps.map(Segment::length).sum::<f64>() > MOSTLY_RAMPS * length {
+        return mapped::contacts(path, solid, cutter, progress);
+    }
+    level(path, solid, cutter, progress)
+}
+
+/// The contacts by circles and capsules: exact where the path is level.
+fn level(path: &Path, solid: &Solid, cutter: &Cutter, progress: &mut Progress) -> Contacts {
     let legs: Vec<Vec<Leg>> = path.moves().iter().map(|step| legs(&step.segment)).collect();
     let sweeps: Vec<Swept> = legs.iter().flatten().map(|leg| leg.swept).collect();
     let mut walk = Walk::new(path, &sweeps, solid, cutter);
@@ -153,7 +173,7 @@ impl<'a> Walk<'a> {
     /// Keeps what was found.
     fn keep(&mut self, step: &Move, found: &Found) {
         let feed = step.segment.tangent(found.within);
-        let lean = [math::hypot(feed.x, feed.y), (-feed.z).max(0.0)];
+        let lean = [math::hypot(feed.x, feed.y), -feed.z];
         self.contacts.push(found.within, lean, &found.sides, &found.floors);
     }
 
@@ -186,6 +206,6 @@ impl<'a> Walk<'a> {
 }
 
 /// Direction across the tool axis; `None` if the tool only rises or dives.
-fn heading(step: &Move, within: f64) -> Option<Vector2<f64>> {
+pub(super) fn heading(step: &Move, within: f64) -> Option<Vector2<f64>> {
     step.segment.tangent(within).xy().try_normalize(1e-6)
 }

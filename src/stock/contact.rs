@@ -9,7 +9,7 @@ pub struct SideArc {
     pub from: f64,
     /// Upper height above the tip [m].
     pub to: f64,
-    /// Immersion angle where a tooth enters [rad], within [0, pi].
+    /// Immersion angle where a tooth enters [rad], within [0, pi]; on a corner that dives within [0, 2 pi].
     pub entry: f64,
     /// Immersion angle where it leaves [rad].
     pub exit: f64,
@@ -37,7 +37,7 @@ pub struct Contact<'a> {
     pub floors: &'a [FloorArc],
     /// Share of the feed across the tool axis.
     pub across: f64,
-    /// Share of the feed down the tool axis; 0 where it climbs.
+    /// Share of the feed down the tool axis; negative where it climbs.
     pub down: f64,
 }
 
@@ -47,28 +47,37 @@ impl Contact<'_> {
         self.sides.is_empty() && self.floors.is_empty()
     }
 
-    /// The arcs at the lowest height in material.
-    pub fn tip(&self) -> &[SideArc] {
-        let from = self.sides.first().map_or(0.0, |arc| arc.from);
-        let count = self.sides.partition_point(|arc| arc.from == from);
-        &self.sides[..count]
+    /// The arcs at the height where the tool is engaged most: of a cylinder at the tip.
+    pub fn widest(&self) -> &[SideArc] {
+        let layers = self.sides.chunk_by(|a, b| a.from == b.from);
+        let angle = |layer: &[SideArc]| layer.iter().fold(0.0, |sum, arc| sum + (arc.exit - arc.entry));
+        let most = layers.fold((0.0, &self.sides[..0]), |most, layer| {
+            let angle = angle(layer);
+            if angle > most.0 { (angle, layer) } else { most }
+        });
+        most.1
     }
 
-    /// Outer bounds of the immersion angles at the tip [rad].
+    /// Outer bounds of the immersion angles there [rad].
     pub fn bounds(&self) -> Option<(f64, f64)> {
-        let tip = self.tip();
-        Some((tip.first()?.entry, tip.last()?.exit))
+        let widest = self.widest();
+        Some((widest.first()?.entry, widest.last()?.exit))
     }
 
-    /// Angle in material at the tip [rad].
+    /// Angle in material there [rad].
     pub fn engaged(&self) -> f64 {
-        self.tip().iter().fold(0.0, |sum, arc| sum + (arc.exit - arc.entry))
+        self.widest().iter().fold(0.0, |sum, arc| sum + (arc.exit - arc.entry))
     }
 
-    /// Width of the material in the tool's way at the tip [m], for a tool of the radius `radius` [m].
-    pub fn radial_depth(&self, radius: f64) -> f64 {
-        let width = |arc: &SideArc| radius * (math::cos(arc.entry) - math::cos(arc.exit));
-        self.tip().iter().map(width).fold(0.0, |sum, width| sum + width)
+    /// Width of the material in the tool's way [m], at the height where it is largest; `radius` gives the
+    /// tool's radius at a height above its tip [m].
+    pub fn radial_depth(&self, radius: impl Fn(f64) -> f64) -> f64 {
+        let width = |layer: &[SideArc]| {
+            let wide = |arc: &SideArc| math::cos(arc.entry) - math::cos(arc.exit);
+            let sum = layer.iter().fold(0.0, |sum, arc| sum + wide(arc));
+            sum * radius((layer[0].from + layer[0].to) / 2.0)
+        };
+        self.sides.chunk_by(|a, b| a.from == b.from).map(width).fold(0.0, f64::max)
     }
 
     /// Height of the material around the tool [m].
@@ -97,11 +106,18 @@ pub struct Contacts {
     stations: Vec<Station>,
     sides: Vec<SideArc>,
     floors: Vec<FloorArc>,
+    /// Width of a cell [m] if a map of heights was used.
+    pub cell: Option<f64>,
     /// Number of stations before each move's, and their number; none of a rapid move.
     firsts: Vec<u32>,
 }
 
 impl Contacts {
+    /// No contacts yet, on a map of heights with cells of the width `cell` [m].
+    pub(super) fn on_map(cell: f64) -> Self {
+        Self { cell: Some(cell), ..Self::default() }
+    }
+
     /// Begins the next move.
     pub(super) fn begin(&mut self) {
         self.firsts.push(self.stations.len() as u32);

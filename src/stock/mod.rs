@@ -3,7 +3,8 @@
 //! The tool axis is the workpiece's z axis. At each height a tool that is cylindrical there has
 //! cleared all points within its radius of where it was at that height or below. What it meets is
 //! thus the part of a circle about its axis that lies in the solid and in no earlier move: exact for
-//! lines and arcs at a height, and by layers along ramps.
+//! lines and arcs at a height, and by layers along ramps. A path that mostly climbs and dives is
+//! followed on a map of heights instead.
 //!
 //! Left of `cutting`: nothing here knows a force.
 
@@ -13,6 +14,8 @@ mod swept;
 mod grid;
 pub mod contact;
 mod place;
+mod height_map;
+mod mapped;
 mod along;
 
 pub use along::contacts;

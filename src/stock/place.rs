@@ -29,9 +29,9 @@ const TOUCH: f64 = 1e-11;
 /// Most layers in which ramps nearby are seen.
 const LAYERS: f64 = 16.0;
 /// Slices of a corner.
-const CORNER: usize = 16;
-/// Nodes and weights of Gauss and Legendre for six rings of the bottom, in [0, 1].
-const RINGS: [(f64, f64); 6] = [
+pub(super) const CORNER: usize = 16;
+/// Nodes and weights of Gauss and Legendre for six rings of the flat bottom, in [0, 1].
+pub(super) const RINGS: [(f64, f64); 6] = [
     (0.033_765_242_898_423_97, 0.085_662_246_189_585_18),
     (0.169_395_306_766_867_74, 0.180_380_786_524_069_3),
     (0.380_690_406_958_401_55, 0.233_956_967_286_345_53),
@@ -74,6 +74,15 @@ pub(super) struct Surroundings<'a> {
 }
 
 impl Cutter {
+    /// Height of the tool's profile above its tip at a distance from its axis [m].
+    pub(super) fn profile(&self, distance: f64) -> f64 {
+        let beyond = distance - (self.radius - self.corner);
+        if beyond <= 0.0 {
+            return 0.0;
+        }
+        self.corner - (self.corner * self.corner - beyond * beyond).max(0.0).sqrt()
+    }
+
     /// Radius of the tool at a height above its tip [m].
     pub(super) fn radius_at(&self, height: f64) -> f64 {
         let below = self.corner - height;
@@ -100,11 +109,12 @@ impl Surroundings<'_> {
             self.sides(half, (low, high), around);
         }
         if self.place.dives && self.place.height > self.solid.bottom {
-            for (node, weight) in RINGS {
-                let radius = node * self.cutter.radius;
+            let flat = self.cutter.radius - self.cutter.corner;
+            for (node, weight) in RINGS.into_iter().filter(|_| flat > 0.0) {
+                let radius = node * flat;
                 let half = HalfCircle { radius, ..half };
-                self.ring(half, 0.0, weight * self.cutter.radius, around);
-                self.ring(half.behind(), math::PI, weight * self.cutter.radius, around);
+                self.ring(half, 0.0, weight * flat, around);
+                self.ring(half.behind(), math::PI, weight * flat, around);
             }
         }
         measure(around, self.cutter.radius)

@@ -34,6 +34,19 @@ impl Outline {
         Self::Polygon(vec![from, Vector2::new(to.x, from.y), to, Vector2::new(from.x, to.y)])
     }
 
+    /// Smallest box that holds it: lower and upper corner [m].
+    pub(super) fn bounds(&self) -> [Vector2<f64>; 2] {
+        match self {
+            Self::Circle { center, radius } => {
+                [center - Vector2::repeat(*radius), center + Vector2::repeat(*radius)]
+            }
+            Self::Polygon(corners) => {
+                let none = [Vector2::repeat(f64::INFINITY), Vector2::repeat(f64::NEG_INFINITY)];
+                corners.iter().fold(none, |[low, high], corner| [low.inf(corner), high.sup(corner)])
+            }
+        }
+    }
+
     /// Its area [m^2].
     pub fn area(&self) -> f64 {
         match self {
