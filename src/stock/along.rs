@@ -94,7 +94,7 @@ struct Walk<'a> {
 }
 
 /// The contact at an arc length within a move.
-struct Found {
+struct FoundContact {
     /// Arc length [m].
     within: f64,
     measure: EngagementMeasure,
@@ -152,7 +152,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Adds the stations that are needed strictly between two places.
-    fn refine(&mut self, step: &Move, leg: &Leg, from: &Found, to: &Found) {
+    fn refine(&mut self, step: &Move, leg: &Leg, from: &FoundContact, to: &FoundContact) {
         if to.within - from.within < 2.0 * NEAR * self.cutter.radius {
             return;
         }
@@ -171,14 +171,14 @@ impl<'a> Walk<'a> {
     }
 
     /// Keeps what was found.
-    fn keep(&mut self, step: &Move, found: &Found) {
+    fn keep(&mut self, step: &Move, found: &FoundContact) {
         let feed = step.segment.tangent(found.within);
         let lean = [math::hypot(feed.x, feed.y), -feed.z];
         self.contacts.push(found.within, lean, &found.sides, &found.floors);
     }
 
     /// Finds the contact at the arc length `within` [m] of a move.
-    fn find(&mut self, step: &Move, leg: &Leg, within: f64) -> Found {
+    fn find(&mut self, step: &Move, leg: &Leg, within: f64) -> FoundContact {
         let Range { start, end } = leg.within;
         // At the very ends the tool may touch what it does not cut: seen from just inside.
         let inside = (INSIDE * self.cutter.radius).min((end - start) / 2.0);
@@ -201,7 +201,7 @@ impl<'a> Walk<'a> {
         };
         let measure = around.find(&mut self.around);
         let Around { sides, floors, .. } = &self.around;
-        Found { within, measure, sides: sides.clone(), floors: floors.clone() }
+        FoundContact { within, measure, sides: sides.clone(), floors: floors.clone() }
     }
 }
 
