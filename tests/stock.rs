@@ -6,7 +6,7 @@
 use armill::Progress;
 use armill::path::Path;
 use armill::path::gcode;
-use armill::stock::{Contacts, Cutter, Outline, Solid, contacts};
+use armill::stock::{Contacts, Cutter, Earlier, Outline, Solid, contacts};
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 
@@ -19,7 +19,7 @@ fn flat() -> Cutter {
 /// A box from `from` to `to` [mm], x, y, z.
 fn block(from: [f64; 3], to: [f64; 3]) -> Solid {
     let corner = |p: [f64; 3]| Vector2::new(p[0], p[1]) / 1e3;
-    Solid { outline: Outline::rectangle(corner(from), corner(to)), bottom: from[2] / 1e3, top: to[2] / 1e3 }
+    Solid::prism(Outline::rectangle(corner(from), corner(to)), from[2] / 1e3, to[2] / 1e3)
 }
 
 fn program(text: &str) -> Path {
@@ -35,7 +35,7 @@ struct Run {
 
 fn walk(text: &str, solid: &Solid, cutter: Cutter) -> Run {
     let path = program(text);
-    let contacts = contacts(&path, solid, &cutter, &mut Progress::none());
+    let contacts = contacts(&path, (solid, &[]), &cutter, &mut Progress::none());
     Run { path, contacts, cutter }
 }
 
@@ -375,4 +375,43 @@ fn a_ball_takes_the_layer_over_a_dome() {
         * (20.0 / n as f64).powi(2);
     let ratio = (both - rough) * 1e9 / layer;
     assert!((ratio - 1.0).abs() < 0.05, "{ratio}: {both} {rough} {layer}");
+}
+
+/// What one program leaves is what the next one finds: two halves of a program, the first as an earlier
+/// one, meet what the whole meets.
+#[test]
+fn an_earlier_program_leaves_what_it_cut() {
+    let first = "G90 F1000\nG0 X-30 Y0 Z-3\nG1 X30\nY5\nX-30\nG0 Z5\n";
+    let second = "G0 X-40 Y9 Z-3\nG1 X40\nG2 X40 Y-7 I0 J-8\nG1 X-40\n";
+    let whole = walk(&format!("{first}{second}"), &plate(), flat());
+    let path = program(&format!("G90 F1000\n{second}"));
+    let earlier = [Earlier { path: program(first), cutter: flat() }];
+    let after = contacts(&path, (&plate(), &earlier), &flat(), &mut Progress::none());
+    let ends: Vec<_> = path.moves().iter().map(|step| step.segment.point(step.segment.length())).collect();
+    let moves = whole.path.moves();
+    for (index, end) in ends.iter().enumerate().skip(1) {
+        let same =
+            moves.iter().rposition(|step| (step.segment.point(step.segment.length()) - end).norm() < 1e-12);
+        let (a, b) = (after.of_move(index), whole.contacts.of_move(same.unwrap()));
+        assert_eq!(a.len(), b.len(), "move {index}");
+        for (a, b) in a.zip(b) {
+            assert_eq!(after.at(a).sides, whole.contacts.at(b).sides, "move {index}");
+        }
+    }
+    // A larger tool before: only the corners are left for the smaller one.
+    let square = |half: f64| format!("X{half} Y-{half}\nX{half} Y{half}\nX-{half}\nY-{half}\nX{half}\n");
+    let rough = format!("G90 F1000\nG0 X0 Y0 Z-3\nG1 {}G1 X0 Y0\n", square(20.0));
+    let large = Cutter { radius: 10e-3, ..flat() };
+    let small = Cutter { radius: 3e-3, ..flat() };
+    let path = program(&format!("G90 F1000\nG0 X27 Y0 Z-3\nG1 {}", square(27.0)));
+    let earlier = [Earlier { path: program(&rough), cutter: large }];
+    let met = contacts(&path, (&plate(), &earlier), &small, &mut Progress::none());
+    let last = path.moves().len() - 2;
+    let engaged: Vec<_> = met.of_move(last).map(|k| (met.within(k), met.at(k).engaged())).collect();
+    // A side of 54 mm: within 7 mm of its ends lies the corner of the radius 10, in its middle nothing.
+    assert!(
+        engaged.iter().filter(|(s, _)| (0.01..0.044).contains(s)).all(|(_, angle)| *angle == 0.0),
+        "{engaged:?}"
+    );
+    assert!(engaged.iter().any(|(s, angle)| *s > 0.048 && *angle > 0.5), "{engaged:?}");
 }

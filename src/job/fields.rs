@@ -150,10 +150,14 @@ fn table() -> &'static [Field] {
     TABLE.get_or_init(|| block::blocks(TEXT).iter().filter_map(FieldBlock::field).collect())
 }
 
-/// The job with its program's text, which may be megabytes long, replaced by an empty one.
+/// The job with its texts, which may be megabytes long, replaced by empty ones.
 fn outline(job: &Job) -> Job {
     let mut outline = job.clone();
     outline.path.text = job.path.text.as_ref().map(|_| "".into());
+    outline.stock.stl = job.stock.stl.as_ref().map(|_| "".into());
+    for earlier in outline.stock.earlier.iter_mut().flatten() {
+        earlier.text = "".into();
+    }
     outline
 }
 
@@ -206,7 +210,7 @@ pub(crate) fn check_path_keys(job: &Job) -> Result<(), Error> {
 
 /// Refuses keys of the stock that its kind does not use.
 pub(crate) fn check_stock_keys(job: &Job) -> Result<(), Error> {
-    let Ok(given) = serde_json::to_value(&job.stock) else { return Ok(()) };
+    let Ok(given) = serde_json::to_value(outline(job).stock) else { return Ok(()) };
     check_keys("stock", &given, job.stock.kind.word())
 }
 

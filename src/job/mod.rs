@@ -31,5 +31,5 @@ pub use path::{FeedUnit, Path, PathKind, ProgramDialect, Unit};
 pub use program::{ControllerWord, FrameValues, RobotProgram};
 pub use source::{Source, Sources};
 pub use spin::{Spin, SpinGoal, SpinMode, SpinReference};
-pub use stock::{Stock, StockKind};
+pub use stock::{EarlierProgram, Stock, StockKind};
 pub use uncertainty::Uncertainty;

@@ -2,6 +2,7 @@
 
 use crate::job::choice::choice;
 use crate::job::json::keys;
+use crate::job::path::ProgramText;
 use serde::Serialize;
 
 choice! {
@@ -18,6 +19,8 @@ choice! {
         Extents = "extents",
         /// A polygon between two heights.
         Outline = "outline",
+        /// A mesh.
+        Stl = "stl",
     }
 }
 
@@ -55,6 +58,30 @@ pub struct Stock {
     /// below it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub top_mm: Option<f64>,
+    /// An STL mesh: its text, or a binary one in base64.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stl: Option<ProgramText>,
+    /// Programs that cut it before, in order.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub earlier: Option<Vec<EarlierProgram>>,
+}
+
+/// A program that cut the stock before this one.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EarlierProgram {
+    /// Its G-code, in the same workpiece frame; read like the job's.
+    pub text: ProgramText,
+    /// Diameter of its tool.
+    pub diameter_mm: f64,
+    /// Corner radius of its tool; default 0, a flat end mill.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub corner_radius_mm: Option<f64>,
+}
+
+impl Default for EarlierProgram {
+    fn default() -> Self {
+        Self { text: ProgramText::default(), diameter_mm: 10.0, corner_radius_mm: None }
+    }
 }
 
 impl Stock {
@@ -64,6 +91,7 @@ impl Stock {
     }
 }
 
+keys!(new EarlierProgram { text, diameter_mm, corner_radius_mm } required text, diameter_mm);
 keys!(new Stock {
     kind,
     from_mm,
@@ -74,5 +102,7 @@ keys!(new Stock {
     allowance_mm,
     points_mm,
     bottom_mm,
-    top_mm
+    top_mm,
+    stl,
+    earlier
 });

@@ -5,7 +5,6 @@ use crate::cutting::{Loads, PlaceFigures};
 use crate::deviation::Sources;
 use crate::math::TAU;
 use crate::motion::TimingLaw;
-use crate::path::MovePace;
 use crate::report::Report;
 use crate::report::columns::Series;
 use crate::stock::{Contact, Contacts};
@@ -103,15 +102,16 @@ impl Report {
         let setup = self.setup();
         let contacts = setup.contacts.as_ref()?;
         let mut whole = WholeCut { removed: 0.0, air: 0.0, engaged: 0.0 };
+        let (mut all, mut air) = (0.0, 0.0);
         for ((index, station), contact) in contacts.each() {
             let length = contacts.share(index, station);
+            all += length;
+            air += if contact.is_air() { length } else { 0.0 };
             whole.removed += setup.cut.figures_in(&contact).section * length;
-            whole.air += if contact.is_air() { length } else { 0.0 };
             whole.engaged = whole.engaged.max(contact.engaged());
         }
-        let cuts = setup.path.moves().iter().filter(|step| step.pace != MovePace::Rapid);
-        let length: f64 = cuts.map(|step| step.segment.length()).sum();
-        whole.air /= length.max(f64::MIN_POSITIVE);
+        // Without a move that cuts, all is air.
+        whole.air = if all > 0.0 { air / all } else { 1.0 };
         Some(whole)
     }
 

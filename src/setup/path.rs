@@ -54,39 +54,10 @@ fn program(given: &job::Path, text: &str, progress: &mut Progress) -> Result<Pro
             progress.at((line as f64 / lines).min(1.0));
         }
     };
-    let unit = match given.unit.unwrap_or_default() {
-        Unit::Mm => LengthUnit::Mm,
-        Unit::Inch => LengthUnit::Inch,
-    };
+    let unit = length_unit(given);
     match given.kind {
         PathKind::Apt => apt::program(text, &apt::Options { field: TEXT, unit }, on_line),
-        PathKind::Gcode => {
-            let lengths = given.tool_length_offsets_mm.iter().flatten();
-            let mut work_offsets = [None; 9];
-            let given_offsets = given.work_offsets_mm.as_deref().unwrap_or_default();
-            if given_offsets.len() > work_offsets.len() {
-                let value = format!("{} offsets", given_offsets.len());
-                return Err(Error::invalid(
-                    "path.work_offsets_mm",
-                    value,
-                    "G54 to G59, G59.1, G59.2, G59.3: nine at most",
-                ));
-            }
-            for (place, offset) in work_offsets.iter_mut().zip(given_offsets) {
-                *place = Some(Vector3::from(*offset) * MM);
-            }
-            let options = gcode::Options {
-                field: TEXT.into(),
-                work_offsets,
-                tool_length_offsets: lengths.map(|&(number, length)| (number, length * MM)).collect(),
-                block_delete: given.block_delete.unwrap_or(true),
-                dialect: dialect(given.dialect.unwrap_or_default()),
-                unit: given.unit.map(|_| unit),
-                start: given.start_mm.map(|start| Vector3::from(start) * MM),
-                ..gcode::Options::default()
-            };
-            gcode::program(text, &options, on_line)
-        }
+        PathKind::Gcode => gcode::program(text, &gcode_options(given, TEXT)?, on_line),
         _ => {
             let feed_unit = match given.feed_unit.unwrap_or_default() {
                 FeedUnit::MmPerS => unit::FeedUnit::MmPerS,
@@ -96,6 +67,48 @@ fn program(given: &job::Path, text: &str, progress: &mut Progress) -> Result<Pro
             csv::program(text, &csv::Options { field: TEXT, unit, feed_unit }, on_line)
         }
     }
+}
+
+/// How a job's G-code is read; `field` is the JSON path of its text.
+fn gcode_options(given: &job::Path, field: &str) -> Result<gcode::Options, Error> {
+    let unit = length_unit(given);
+    let lengths = given.tool_length_offsets_mm.iter().flatten();
+    let mut work_offsets = [None; 9];
+    let given_offsets = given.work_offsets_mm.as_deref().unwrap_or_default();
+    if given_offsets.len() > work_offsets.len() {
+        let value = format!("{} offsets", given_offsets.len());
+        let expected = "G54 to G59, G59.1, G59.2, G59.3: nine at most";
+        return Err(Error::invalid("path.work_offsets_mm", value, expected));
+    }
+    for (place, offset) in work_offsets.iter_mut().zip(given_offsets) {
+        *place = Some(Vector3::from(*offset) * MM);
+    }
+    Ok(gcode::Options {
+        field: field.into(),
+        work_offsets,
+        tool_length_offsets: lengths.map(|&(number, length)| (number, length * MM)).collect(),
+        block_delete: given.block_delete.unwrap_or(true),
+        dialect: dialect(given.dialect.unwrap_or_default()),
+        unit: given.unit.map(|_| unit),
+        start: given.start_mm.map(|start| Vector3::from(start) * MM),
+        ..gcode::Options::default()
+    })
+}
+
+/// Unit of length of texts that do not give their own.
+fn length_unit(given: &job::Path) -> LengthUnit {
+    match given.unit.unwrap_or_default() {
+        Unit::Mm => LengthUnit::Mm,
+        Unit::Inch => LengthUnit::Inch,
+    }
+}
+
+/// The path of a G-code program that was cut before, read as the job's own.
+pub(super) fn earlier(job: &Job, text: &str, field: &str) -> Result<Path, Error> {
+    let program = gcode::program(text, &gcode_options(&job.path, field)?, |_| {})?;
+    Path::of_program(&program).ok_or_else(|| {
+        Error::invalid(field, "a text without a move", "two positions or more that are not all the same")
+    })
 }
 
 /// The controller of the job as the reader names it.

@@ -2,12 +2,20 @@
 
 use crate::error::Error;
 use crate::job::fields;
-use crate::job::{self, Engaged, Job, StockKind};
+use crate::job::{self, EarlierProgram, Engaged, Job, StockKind};
 use crate::path::{MovePace, Path};
 use crate::progress::Progress;
-use crate::stock::{Contacts, Cutter, Outline, Solid, contacts};
+use crate::stock::{Contacts, Cutter, Earlier, Outline, Solid, contacts};
 use crate::units::MM;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use nalgebra::{Vector2, Vector3};
+use std::io::Cursor;
+
+/// Most triangles of a mesh.
+const MOST_TRIANGLES: usize = 2_000_000;
+/// Farthest corner of a mesh along an axis [m].
+const FARTHEST: f64 = 20.0;
 
 /// Where the engagement comes from.
 pub(super) enum StockEngagement {
@@ -41,8 +49,66 @@ pub(super) fn engagement(
     Ok(match solid.filter(|_| from_stock) {
         None => StockEngagement::Stated,
         Some(_) if !is_upright(path) => StockEngagement::Tilted,
-        Some(solid) => StockEngagement::Followed(contacts(path, &solid, cutter, progress)),
+        Some(solid) => {
+            let earlier = earlier(job)?;
+            StockEngagement::Followed(contacts(path, (&solid, &earlier), cutter, progress))
+        }
     })
+}
+
+/// The programs that cut the stock before.
+fn earlier(job: &Job) -> Result<Vec<Earlier>, Error> {
+    let read = |(number, given): (usize, &EarlierProgram)| {
+        let field = format!("stock.earlier[{number}]");
+        let path = super::path::earlier(job, &given.text, &format!("{field}.text"))?;
+        if !is_upright(&path) {
+            return Err(Error::invalid(
+                format!("{field}.text"),
+                "a tool axis that is not z",
+                "a program with three axes",
+            ));
+        }
+        let (diameter, corner) = (given.diameter_mm, given.corner_radius_mm.unwrap_or(0.0));
+        in_range(&format!("{field}.diameter_mm"), diameter, (0.1, 500.0))?;
+        in_range(&format!("{field}.corner_radius_mm"), corner, (0.0, diameter / 2.0))?;
+        let cutter = Cutter { radius: diameter / 2.0 * MM, corner: corner * MM, flutes: f64::INFINITY };
+        Ok(Earlier { path, cutter })
+    };
+    job.stock.earlier.iter().flatten().enumerate().map(read).collect()
+}
+
+/// The solid under an STL mesh.
+fn mesh(text: &str) -> Result<Solid, Error> {
+    let invalid = |found: String| {
+        Error::invalid(
+            "stock.stl",
+            found,
+            "the text of an STL file in millimetres, or a binary one in base64",
+        )
+    };
+    let bytes = match text.trim_start() {
+        ascii if ascii.starts_with("solid") => ascii.as_bytes().to_vec(),
+        base64 => {
+            let plain: String = base64.split_whitespace().collect();
+            STANDARD.decode(plain).map_err(|error| invalid(format!("neither text nor base64 ({error})")))?
+        }
+    };
+    let mut bytes = Cursor::new(bytes);
+    let triangles = stl_io::create_stl_reader(&mut bytes).map_err(|error| invalid(error.to_string()))?;
+    let corner = |corner: stl_io::Vertex| Vector3::new(corner[0], corner[1], corner[2]).map(f64::from) * MM;
+    let mut relief = Vec::new();
+    for triangle in triangles {
+        let triangle = triangle.map_err(|error| invalid(error.to_string()))?;
+        relief.push(triangle.vertices.map(corner));
+        if relief.len() > MOST_TRIANGLES {
+            return Err(invalid(format!("more than {MOST_TRIANGLES} triangles")));
+        }
+    }
+    let count = relief.len();
+    if relief.iter().flatten().any(|corner| corner.iter().any(|x| x.is_nan() || x.abs() > FARTHEST)) {
+        return Err(invalid("a corner that is no point within 20 m".into()));
+    }
+    Solid::under(relief).ok_or_else(|| invalid(format!("{count} triangles without a volume")))
 }
 
 /// Whether the tool axis is z all along a path.
@@ -63,7 +129,7 @@ fn solid(job: &Job, path: &Path) -> Result<Option<Solid>, Error> {
             let height = positive(need(given.height_mm, "height_mm")?, "height_mm")?;
             let outline =
                 Outline::Circle { center: Vector2::new(center[0], center[1]) * MM, radius: radius * MM };
-            Solid { outline, bottom: center[2] * MM, top: (center[2] + height) * MM }
+            Solid::prism(outline, center[2] * MM, (center[2] + height) * MM)
         }
         StockKind::Outline => {
             let points = need(given.points_mm.as_ref(), "points_mm")?;
@@ -78,9 +144,10 @@ fn solid(job: &Job, path: &Path) -> Result<Option<Solid>, Error> {
                     expected,
                 ));
             }
-            Solid { outline, bottom: bottom * MM, top: top * MM }
+            Solid::prism(outline, bottom * MM, top * MM)
         }
         StockKind::Extents => extents(job, path)?,
+        StockKind::Stl => mesh(need(given.stl.as_ref(), "stl")?)?,
     };
     Ok(Some(solid))
 }
@@ -95,7 +162,7 @@ fn block(given: &job::Stock) -> Result<Solid, Error> {
         }
     }
     let corner = |point: [f64; 3]| Vector2::new(point[0], point[1]) * MM;
-    Ok(Solid { outline: Outline::rectangle(corner(from), corner(to)), bottom: from[2] * MM, top: to[2] * MM })
+    Ok(Solid::prism(Outline::rectangle(corner(from), corner(to)), from[2] * MM, to[2] * MM))
 }
 
 /// A box around the tool's axis on the moves that cut.
@@ -126,11 +193,18 @@ fn extents(job: &Job, path: &Path) -> Result<Solid, Error> {
     if high.x - low.x + 2.0 * allowance <= 0.0 || high.y - low.y + 2.0 * allowance <= 0.0 {
         return Err(Error::invalid("stock.allowance_mm", allowance / MM, "a box that is not empty"));
     }
-    Ok(Solid { outline, bottom: low.z - allowance.max(0.0), top })
+    Ok(Solid::prism(outline, low.z - allowance.max(0.0), top))
 }
 
 fn need<T>(value: Option<T>, key: &str) -> Result<T, Error> {
     value.ok_or_else(|| Error::missing(format!("stock.{key}"), "this kind of stock needs it"))
+}
+
+fn in_range(field: &str, value: f64, (min, max): (f64, f64)) -> Result<(), Error> {
+    if (min..=max).contains(&value) {
+        return Ok(());
+    }
+    Err(Error::OutOfRange { field: field.into(), value, min, max, unit: "mm" })
 }
 
 fn positive(value: f64, key: &str) -> Result<f64, Error> {

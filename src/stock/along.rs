@@ -6,7 +6,7 @@ use crate::progress::Progress;
 use crate::stock::contact::{Contacts, FloorArc, SideArc};
 use crate::stock::grid::Grid;
 use crate::stock::mapped;
-use crate::stock::place::{Around, Cutter, EngagementMeasure, Surroundings, ToolPlace};
+use crate::stock::place::{Around, Cleared, Cutter, EngagementMeasure, Surroundings, ToolPlace};
 use crate::stock::solid::Solid;
 use crate::stock::swept::Swept;
 use nalgebra::Vector2;
@@ -28,32 +28,61 @@ const CHORD: f64 = 1e-6;
 /// a map of heights.
 const MOSTLY_RAMPS: f64 = 0.25;
 
-/// The contacts of a cutter along a path in the workpiece frame whose tool axis is z, starting from a
-/// solid: by a map of heights if much of the path climbs or dives, else by circles and capsules. Rapid
-/// moves clear nothing.
-pub fn contacts(path: &Path, solid: &Solid, cutter: &Cutter, progress: &mut Progress) -> Contacts {
+/// A path that a stock was cut along before, with another tool.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Earlier {
+    /// The path in the workpiece frame; its tool axis is z.
+    pub path: Path,
+    /// Its tool.
+    pub cutter: Cutter,
+}
+
+/// The contacts of a cutter along a path in the workpiece frame whose tool axis is z, starting from what
+/// earlier paths left of a solid: by a map of heights if much of the path climbs or dives or the solid is
+/// no prism, else by circles and capsules. Rapid moves clear nothing.
+pub fn contacts(
+    path: &Path,
+    (solid, earlier): (&Solid, &[Earlier]),
+    cutter: &Cutter,
+    progress: &mut Progress,
+) -> Contacts {
     let cuts = || path.moves().iter().filter(|step| step.pace != MovePace::Rapid).map(|step| &step.segment);
     let ramps = cuts().filter(|segment| {
         let feed = segment.tangent(segment.length() / 2.0);
         Swept::of(segment).is_none() || (feed.z != 0.0 && math::hypot(feed.x, feed.y) > 1e-6)
     });
     let length = cuts().map(Segment::length).sum::<f64>();
-    if ramps.map(Segment::length).sum::<f64>() > MOSTLY_RAMPS * length {
-        return mapped::contacts(path, solid, cutter, progress);
+    let in_space = ramps.map(Segment::length).sum::<f64>() > MOSTLY_RAMPS * length;
+    if in_space || !solid.relief.is_empty() {
+        return mapped::contacts(path, (solid, earlier), cutter, progress);
     }
-    level(path, solid, cutter, progress)
+    level(path, (solid, earlier), cutter, progress)
 }
 
 /// The contacts by circles and capsules: exact where the path is level.
-fn level(path: &Path, solid: &Solid, cutter: &Cutter, progress: &mut Progress) -> Contacts {
+fn level(
+    path: &Path,
+    (solid, earlier): (&Solid, &[Earlier]),
+    cutter: &Cutter,
+    progress: &mut Progress,
+) -> Contacts {
     let legs: Vec<Vec<Leg>> = path.moves().iter().map(|step| legs(&step.segment)).collect();
-    let sweeps: Vec<Swept> = legs.iter().flatten().map(|leg| leg.swept).collect();
-    let mut walk = Walk::new(path, &sweeps, solid, cutter);
+    let own = legs.iter().flatten().map(|leg| Cleared { swept: leg.swept, cutter: *cutter });
+    let sweeps: Vec<Cleared> = earlier.iter().flat_map(cleared).chain(own).collect();
+    let before = sweeps.len() - legs.iter().map(Vec::len).sum::<usize>();
+    let mut walk = Walk::new(path, (&sweeps, before), solid, cutter);
     for (index, legs) in legs.iter().enumerate() {
         progress.sample(index, path.moves().len());
         walk.step(index, legs);
     }
     walk.contacts
+}
+
+/// What an earlier path has cleared.
+fn cleared(earlier: &Earlier) -> Vec<Cleared> {
+    let cuts = earlier.path.moves().iter().filter(|step| step.pace != MovePace::Rapid);
+    let legs = cuts.flat_map(|step| legs(&step.segment));
+    legs.map(|leg| Cleared { swept: leg.swept, cutter: earlier.cutter }).collect()
 }
 
 /// A part of a move that sweeps one capsule.
@@ -81,9 +110,11 @@ fn legs(segment: &Segment) -> Vec<Leg> {
 /// The walk along a path.
 struct Walk<'a> {
     path: &'a Path,
-    sweeps: &'a [Swept],
-    /// Number of legs before the move.
-    legs: usize,
+    /// What earlier paths and all legs of this one sweep.
+    sweeps: &'a [Cleared],
+    /// Number of sweeps before the move.
+    before: usize,
+    flat: bool,
     solid: &'a Solid,
     cutter: &'a Cutter,
     grid: Grid,
@@ -103,17 +134,29 @@ struct FoundContact {
 }
 
 impl<'a> Walk<'a> {
-    fn new(path: &'a Path, sweeps: &'a [Swept], solid: &'a Solid, cutter: &'a Cutter) -> Self {
-        let bounds = sweeps.iter().map(|swept| swept.spine.bounds());
+    /// A walk after the first `before` of the sweeps.
+    fn new(
+        path: &'a Path,
+        (sweeps, before): (&'a [Cleared], usize),
+        solid: &'a Solid,
+        cutter: &'a Cutter,
+    ) -> Self {
+        let bounds = sweeps[before..].iter().map(|cleared| cleared.swept.spine.bounds());
         let all = bounds.reduce(|a, b| [a[0].inf(&b[0]), a[1].sup(&b[1])]);
         let ahead = path.moves().iter().find_map(|step| heading(step, 0.0));
+        let largest = sweeps.iter().map(|cleared| cleared.cutter.radius).fold(cutter.radius, f64::max);
+        let mut grid = Grid::new(all.unwrap_or_default(), cutter.radius + largest);
+        for (number, cleared) in sweeps[..before].iter().enumerate() {
+            grid.add(number as u32, &cleared.swept);
+        }
         Self {
             path,
             sweeps,
-            legs: 0,
+            before,
+            flat: sweeps.iter().all(|cleared| cleared.cutter.corner == 0.0),
             solid,
             cutter,
-            grid: Grid::new(all.unwrap_or_default(), 2.0 * cutter.radius),
+            grid,
             ahead: ahead.unwrap_or_else(Vector2::x),
             contacts: Contacts::default(),
             around: Around::default(),
@@ -123,8 +166,8 @@ impl<'a> Walk<'a> {
     /// The stations of a move, which then counts as cut.
     fn step(&mut self, index: usize, legs: &[Leg]) {
         let step = &self.path.moves()[index];
-        let first = self.legs;
-        self.legs += legs.len();
+        let first = self.before;
+        self.before += legs.len();
         self.contacts.begin();
         if step.pace == MovePace::Rapid {
             self.ahead = heading(step, step.segment.length()).unwrap_or(self.ahead);
@@ -196,6 +239,7 @@ impl<'a> Walk<'a> {
             solid: self.solid,
             cutter: self.cutter,
             sweeps: self.sweeps,
+            flat: self.flat,
             grid: &self.grid,
             place,
         };

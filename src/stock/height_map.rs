@@ -25,10 +25,23 @@ pub(super) struct HeightMap {
     columns: usize,
     /// Height of the material in each cell [m]; minus infinity where there is none.
     heights: Vec<f32>,
-    /// Radius of the tool [m].
+}
+
+/// A tool to stamp the map with.
+#[derive(Debug, Clone)]
+pub(super) struct Stamp {
+    /// Radius [m].
     radius: f64,
-    /// Height of the tool's profile above its tip [m], by the square of the distance from the axis.
+    /// Height of the profile above the tip [m], by the square of the distance from the axis.
     profile: Vec<f32>,
+}
+
+impl Stamp {
+    /// The stamp of a tool.
+    pub(super) fn new(cutter: &Cutter) -> Self {
+        let fall = |k: usize| cutter.profile(cutter.radius * (k as f64 / PROFILE as f64).sqrt()) as f32;
+        Self { radius: cutter.radius, profile: (0..=PROFILE).map(fall).collect() }
+    }
 }
 
 impl HeightMap {
@@ -43,14 +56,37 @@ impl HeightMap {
             |k: usize| from + Vector2::new((k % columns) as f64 + 0.5, (k / columns) as f64 + 0.5) * cell;
         let height =
             |k: usize| if solid.outline.holds(&middle(k)) { solid.top as f32 } else { f32::NEG_INFINITY };
-        let fall = |k: usize| cutter.profile(cutter.radius * (k as f64 / PROFILE as f64).sqrt()) as f32;
-        Self {
-            corner: from,
-            cell,
-            columns,
-            heights: (0..columns * rows).map(height).collect(),
-            radius: cutter.radius,
-            profile: (0..=PROFILE).map(fall).collect(),
+        let heights = (0..columns * rows).map(height).collect();
+        let mut map = Self { corner: from, cell, columns, heights };
+        if !solid.relief.is_empty() {
+            map.heights.fill(f32::NEG_INFINITY);
+            solid.relief.iter().for_each(|triangle| map.raise(triangle));
+        }
+        map
+    }
+
+    /// Raises the cells whose middles a triangle covers to it.
+    fn raise(&mut self, [a, b, c]: &[Vector3<f64>; 3]) {
+        let [ab, ac] = [(b - a).xy(), (c - a).xy()];
+        let double = ab.perp(&ac);
+        if double == 0.0 {
+            return;
+        }
+        let rows = self.heights.len() / self.columns;
+        let number = |part: f64, most: usize| (part.max(0.0) as usize).min(most - 1);
+        let low = (a.inf(b).inf(c).xy() - self.corner) / self.cell;
+        let high = (a.sup(b).sup(c).xy() - self.corner) / self.cell;
+        for row in number(low.y, rows)..=number(high.y, rows) {
+            for column in number(low.x, self.columns)..=number(high.x, self.columns) {
+                let at = self.corner + Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * self.cell;
+                let offset = at - a.xy();
+                let (to_b, to_c) = (offset.perp(&ac) / double, ab.perp(&offset) / double);
+                if to_b >= 0.0 && to_c >= 0.0 && to_b + to_c <= 1.0 {
+                    let height = a.z + (b.z - a.z) * to_b + (c.z - a.z) * to_c;
+                    let cell = &mut self.heights[row * self.columns + column];
+                    *cell = cell.max(height as f32);
+                }
+            }
         }
     }
 
@@ -66,11 +102,11 @@ impl HeightMap {
         (middle, self.heights.get(cell).map_or(f64::NEG_INFINITY, |height| f64::from(*height)))
     }
 
-    /// Clears what the tool reaches with its tip at a point [m].
-    pub(super) fn stamp(&mut self, tip: &Vector3<f64>) {
+    /// Clears what a tool reaches with its tip at a point [m].
+    pub(super) fn stamp(&mut self, stamp: &Stamp, tip: &Vector3<f64>) {
         // In cells, with their centres at whole numbers.
         let place = (tip.xy() - self.corner) / self.cell - Vector2::repeat(0.5);
-        let reach = self.radius / self.cell;
+        let reach = stamp.radius / self.cell;
         let rows = self.heights.len() / self.columns;
         let scale = PROFILE as f64 / (reach * reach);
         let (lower, upper) = ((place.y - reach).ceil().max(0.0), (place.y + reach).floor());
@@ -85,7 +121,7 @@ impl HeightMap {
                 let cells = &mut self.heights[first + left as usize..=first + right as usize];
                 for (k, height) in cells.iter_mut().enumerate() {
                     let along = left + k as f64 - place.x;
-                    let fall = self.profile[(((along * along + beside) * scale) as usize).min(PROFILE)];
+                    let fall = stamp.profile[(((along * along + beside) * scale) as usize).min(PROFILE)];
                     *height = height.min(tip.z as f32 + fall);
                 }
             }

@@ -3,10 +3,11 @@
 use crate::math;
 use crate::path::{Move, MovePace, Path};
 use crate::progress::Progress;
+use crate::stock::along::Earlier;
 use crate::stock::along::heading;
 use crate::stock::circle::{immersion, left_of};
 use crate::stock::contact::{Contacts, FloorArc, SideArc};
-use crate::stock::height_map::HeightMap;
+use crate::stock::height_map::{HeightMap, Stamp};
 use crate::stock::place::{CORNER, Cutter, RINGS};
 use crate::stock::solid::Solid;
 use nalgebra::{Vector2, Vector3};
@@ -26,8 +27,15 @@ const SHALLOW: f64 = 1e-6;
 
 /// The contacts of a cutter along a path in the workpiece frame whose tool axis is z, by a map of
 /// heights. Rapid moves clear nothing.
-pub(super) fn contacts(path: &Path, solid: &Solid, cutter: &Cutter, progress: &mut Progress) -> Contacts {
+pub(super) fn contacts(
+    path: &Path,
+    (solid, earlier): (&Solid, &[Earlier]),
+    cutter: &Cutter,
+    progress: &mut Progress,
+) -> Contacts {
     let mut map = HeightMap::new(solid, cutter);
+    earlier.iter().for_each(|earlier| clear(&mut map, earlier));
+    let stamp = Stamp::new(cutter);
     let mut contacts = Contacts::on_map(map.cell);
     let directions = Directions::new();
     let first = path.moves().iter().find_map(|step| heading(step, 0.0));
@@ -40,7 +48,7 @@ pub(super) fn contacts(path: &Path, solid: &Solid, cutter: &Cutter, progress: &m
         contacts.begin();
         let length = step.segment.length();
         if step.pace == MovePace::Rapid {
-            reached.take().into_iter().for_each(|tip| map.stamp(&tip));
+            reached.take().into_iter().for_each(|tip| map.stamp(&stamp, &tip));
             ahead = heading(step, length).unwrap_or(ahead);
             continue;
         }
@@ -57,13 +65,25 @@ pub(super) fn contacts(path: &Path, solid: &Solid, cutter: &Cutter, progress: &m
             view.floors(feed.z < -1e-6, &mut floors);
             contacts.push(within, lean, &sides, &floors);
             let stamps = if k < count { 0..STAMPS } else { 0..0 };
-            for stamp in stamps {
-                map.stamp(&step.segment.point(at(k * STAMPS + stamp, count * STAMPS)));
+            for part in stamps {
+                map.stamp(&stamp, &step.segment.point(at(k * STAMPS + part, count * STAMPS)));
             }
         }
         reached = Some(step.segment.point(length));
     }
     contacts
+}
+
+/// Clears what an earlier path has cut.
+fn clear(map: &mut HeightMap, earlier: &Earlier) {
+    let stamp = Stamp::new(&earlier.cutter);
+    for step in earlier.path.moves().iter().filter(|step| step.pace != MovePace::Rapid) {
+        let length = step.segment.length();
+        let count = (length * STAMPS as f64 / (STEP * earlier.cutter.radius)).ceil().max(1.0);
+        for k in 0..=count as usize {
+            map.stamp(&stamp, &step.segment.point(length * (k as f64 / count)));
+        }
+    }
 }
 
 /// Whether a move only rises or dives.

@@ -18,7 +18,7 @@ mod height_map;
 mod mapped;
 mod along;
 
-pub use along::contacts;
+pub use along::{Earlier, contacts};
 pub use contact::{Contact, Contacts, FloorArc, SideArc};
 pub use place::Cutter;
 pub use solid::{Outline, Solid};

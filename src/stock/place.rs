@@ -53,6 +53,13 @@ pub(super) struct Around {
 /// spread.
 pub(super) type EngagementMeasure = [f64; 2];
 
+/// What a move has cleared with its tool.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Cleared {
+    pub(super) swept: Swept,
+    pub(super) cutter: Cutter,
+}
+
 /// A place of the tool.
 pub(super) struct ToolPlace<'a> {
     pub(super) center: Vector2<f64>,
@@ -68,7 +75,9 @@ pub(super) struct ToolPlace<'a> {
 pub(super) struct Surroundings<'a> {
     pub(super) solid: &'a Solid,
     pub(super) cutter: &'a Cutter,
-    pub(super) sweeps: &'a [Swept],
+    pub(super) sweeps: &'a [Cleared],
+    /// Whether all tools that cut are flat: what one clears at a height it clears above.
+    pub(super) flat: bool,
     pub(super) grid: &'a Grid,
     pub(super) place: ToolPlace<'a>,
 }
@@ -123,14 +132,13 @@ impl Surroundings<'_> {
     /// The arcs around the side between two heights [m].
     fn sides(&self, half: HalfCircle, (low, high): (f64, f64), around: &mut Around) {
         self.borders((low, high), &mut around.heights);
-        let flat = self.cutter.corner == 0.0;
         let mut cleared = f64::NEG_INFINITY;
         for layer in 0..around.heights.len() - 1 {
             let (from, to) = (around.heights[layer], around.heights[layer + 1]);
             let middle = (from + to) / 2.0;
             let half = HalfCircle { radius: self.cutter.radius_at(middle - self.place.height), ..half };
             let parts = &mut around.parts;
-            if layer == 0 || !flat {
+            if layer == 0 || !self.flat {
                 parts.fill(&half);
                 parts.keep(&half, &self.solid.outline, true);
                 cleared = f64::NEG_INFINITY;
@@ -138,7 +146,7 @@ impl Surroundings<'_> {
             // A cylinder clears above a height what it clears there.
             self.clear(&half, (cleared, middle), parts);
             cleared = middle;
-            if parts.is_empty() && flat {
+            if parts.is_empty() && self.flat {
                 break;
             }
             let wide = |&(a, b): &(f64, f64)| (b - a) * half.radius > THIN;
@@ -166,8 +174,9 @@ impl Surroundings<'_> {
             };
             heights.extend((1..=CORNER).map(slice).filter(|height| within(*height)));
         }
-        let ramps = cell.ramps.iter().map(|&number| &self.sweeps[number as usize]);
-        let mut span = (high, low);
+        let ramps = cell.ramps.iter().map(|&number| &self.sweeps[number as usize].swept);
+        // Walls that a round tool has left vary all the way up.
+        let mut span = if self.flat { (high, low) } else { (low, high) };
         for (from, to) in ramps.chain([self.place.own]).map(Swept::range) {
             if to > low + SAME_HEIGHT && from < high - SAME_HEIGHT && to - from > SAME_HEIGHT {
                 span = (span.0.min(from.max(low)), span.1.max(to.min(high)));
@@ -185,13 +194,13 @@ impl Surroundings<'_> {
     /// another one.
     fn clear(&self, half: &HalfCircle, (above, height): (f64, f64), parts: &mut ArcParts) {
         let cell = self.grid.at(&self.place.center);
-        let mut subtract = |spine: &Spine, tip: f64| {
-            let reach = self.cutter.radius_at(height - tip) * (1.0 - TOUCH);
+        let mut subtract = |spine: &Spine, cutter: &Cutter, tip: f64| {
+            let reach = cutter.radius_at(height - tip) * (1.0 - TOUCH);
             parts.subtract(half, &Capsule { spine, reach }, |point| spine.distance(point), reach);
             parts.is_empty()
         };
         let own = self.place.own.below(height, self.place.share);
-        if own.is_some_and(|own| subtract(&own, self.place.height)) {
+        if own.is_some_and(|own| subtract(&own, self.cutter, self.place.height)) {
             return;
         }
         for level in cell.levels.iter().filter(|level| level.height > above) {
@@ -199,16 +208,17 @@ impl Surroundings<'_> {
                 break;
             }
             for &number in level.moves.iter().rev() {
-                if subtract(&self.sweeps[number as usize].spine, level.height) {
+                let Cleared { swept, cutter } = &self.sweeps[number as usize];
+                if subtract(&swept.spine, cutter, level.height) {
                     return;
                 }
             }
         }
         for &number in cell.ramps.iter().rev() {
-            let swept = &self.sweeps[number as usize];
+            let Cleared { swept, cutter } = &self.sweeps[number as usize];
             let (lowest, highest) = swept.range();
             let Some(spine) = swept.below(height, 1.0) else { continue };
-            if subtract(&spine, (lowest + highest.min(height)) / 2.0) {
+            if subtract(&spine, cutter, (lowest + highest.min(height)) / 2.0) {
                 return;
             }
         }

@@ -1,7 +1,7 @@
 //! The solid that a program starts from.
 
 use crate::stock::circle::{HalfCircle, Region};
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 
 /// The outline of a solid seen along the tool axis [m].
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +26,25 @@ pub struct Solid {
     pub bottom: f64,
     /// Height of its top [m].
     pub top: f64,
+    /// Triangles whose upper side is its top instead, within the outline; none of a prism [m].
+    pub relief: Vec<[Vector3<f64>; 3]>,
+}
+
+impl Solid {
+    /// A prism over an outline between two heights [m].
+    pub fn prism(outline: Outline, bottom: f64, top: f64) -> Self {
+        Self { outline, bottom, top, relief: Vec::new() }
+    }
+
+    /// The solid under the upper side of a mesh [m], down to its lowest point; `None` without volume.
+    pub fn under(relief: Vec<[Vector3<f64>; 3]>) -> Option<Self> {
+        let corners = || relief.iter().flatten();
+        let low = corners().copied().reduce(|low, corner| low.inf(&corner))?;
+        let high = corners().copied().reduce(|high, corner| high.sup(&corner))?;
+        let outline = Outline::rectangle(low.xy(), high.xy());
+        let size = high - low;
+        (size.min() > 0.0).then_some(Self { outline, bottom: low.z, top: high.z, relief })
+    }
 }
 
 impl Outline {

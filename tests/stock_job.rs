@@ -1,0 +1,210 @@
+//! A stock in the job: what it changes and what not, what is refused, how it is followed.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(clippy::disallowed_methods, reason = "independent values come from the standard library")]
+
+mod common;
+
+use armill::Report;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use common::{column, refused, run};
+use serde_json::{Value, json};
+
+const SLOT: &str = "G21 G90\nG0 X-20 Y0 Z5\nG1 Z-3 F300\nG1 X20 F600\nG0 Z5\n";
+
+/// A program in front of a KUKA, cut in aluminium by a flat tool of 10 mm.
+fn job(text: &str, stock: Value, more: &[(&'static str, Value)]) -> Vec<(&'static str, Value)> {
+    let mut all = vec![
+        ("robot", json!({"preset":"kuka-kr-300-r2700-2"})),
+        ("tool_frame", json!({"xyz_mm":[0,0,300]})),
+        ("workpiece_frame", json!({"xyz_mm":[1800,0,700]})),
+        ("path", json!({"kind":"gcode","text":text})),
+        ("stock", stock),
+        ("motion", json!({"sample_time_s":0.01})),
+        ("tool", json!({"diameter_mm":10,"flutes":3,"helix_deg":30})),
+        ("material", json!({"preset":"al-7075-t6"})),
+        ("cutting", json!({"spindle_rpm":8000,"feed_per_tooth_mm":"from_feed"})),
+        ("shaper", json!("none")),
+    ];
+    all.extend_from_slice(more);
+    all
+}
+
+fn plate() -> Value {
+    json!({"kind":"box","from_mm":[-50,-50,-20],"to_mm":[50,50,0]})
+}
+
+fn summary(report: &Report) -> Value {
+    serde_json::to_value(report.summary()).unwrap()
+}
+
+/// The largest value of a column.
+fn most(report: &Report, key: &str) -> f64 {
+    column(report, key).into_iter().fold(f64::MIN, f64::max)
+}
+
+/// A slot in the stock is the stated slot: the same force where the tool is at speed in full material.
+#[test]
+fn a_slot_in_a_stock_has_the_force_of_a_stated_slot() {
+    let stated = json!({
+        "engagement":"slot","axial_depth_mm":3,"spindle_rpm":8000,"feed_per_tooth_mm":"from_feed"
+    });
+    let report = run(&job(SLOT, plate(), &[]));
+    let other = run(&job(SLOT, plate(), &[("cutting", stated)]));
+    assert!(other.setup().contacts.is_none());
+    let place = |report: &Report| {
+        let x = column(report, "desired_x_mm");
+        let z = column(report, "desired_z_mm");
+        let speed = column(report, "feed_mm_s");
+        (0..x.len())
+            .find(|&k| (x[k] - 1800.0).abs() < 5.0 && z[k] < 698.0 && (speed[k] - 10.0).abs() < 1e-9)
+            .unwrap()
+    };
+    let (a, b) = (place(&report), place(&other));
+    for axis in ["x", "y", "z"] {
+        let key = format!("force_{axis}_n");
+        let (in_stock, slot) = (column(&report, &key)[a], column(&other, &key)[b]);
+        assert!((in_stock - slot).abs() < 1e-9 * slot.abs().max(1.0), "{key}: {in_stock} {slot}");
+    }
+    assert_eq!(column(&report, "engaged_deg")[a], 180.0);
+    assert!((column(&report, "radial_depth_mm")[a] - 10.0).abs() < 1e-9);
+    assert!((column(&report, "axial_depth_mm")[a] - 3.0).abs() < 1e-9);
+    // 10 mm by 3 mm at 600 mm/min.
+    assert!((column(&report, "removal_cm3_min")[a] - 18.0).abs() < 1e-9);
+    let cut = &summary(&report)["cut"];
+    // The slot with its two round ends.
+    let volume = 3.0 * (10.0 * 40.0 + std::f64::consts::PI * 25.0) / 1e3;
+    assert!((cut["removed_cm3"].as_f64().unwrap() / volume - 1.0).abs() < 5e-3, "{cut}");
+    assert_eq!(cut["largest_engaged_deg"], 180.0);
+}
+
+/// With the engagement stated, a stock changes no bit.
+#[test]
+fn a_stated_engagement_does_not_ask_the_stock() {
+    let stated = (
+        "cutting",
+        json!({"engagement":"slot","axial_depth_mm":3,"spindle_rpm":8000,"feed_per_tooth_mm":0.025}),
+    );
+    let with = run(&job(SLOT, plate(), std::slice::from_ref(&stated)));
+    let without = run(&job(SLOT, json!({"kind":"none"}), &[stated]));
+    assert_eq!(with.fingerprint(), without.fingerprint());
+    assert!(summary(&with)["cut"].get("removed_cm3").is_none());
+}
+
+/// A plunge pushes the tool up by N R (K_rc c + K_re), by hand from the table's numbers.
+#[test]
+fn a_plunge_pushes_the_tool_up() {
+    let report = run(&job(SLOT, plate(), &[]));
+    let z = column(&report, "desired_z_mm");
+    let speed = column(&report, "feed_mm_s");
+    let place = (0..z.len()).find(|&k| (z[k] - 698.5).abs() < 0.3 && (speed[k] - 5.0).abs() < 1e-9).unwrap();
+    let chip = 5.0 / (3.0 * 8000.0 / 60.0);
+    let expected = 3.0 * 5.0 * (168.8 * chip + 26.6);
+    let force = column(&report, "force_z_n")[place];
+    assert!((force / expected - 1.0).abs() < 1e-9, "{force} {expected}");
+}
+
+#[test]
+fn kinds_of_stock_that_are_the_same_give_the_same() {
+    let outline = json!({"kind":"outline","points_mm":[[-50,-50],[50,-50],[50,50],[-50,50]],"bottom_mm":-20,"top_mm":0});
+    let first = run(&job(SLOT, plate(), &[])).fingerprint();
+    assert_eq!(run(&job(SLOT, outline, &[])).fingerprint(), first);
+    // Around the tool's axis with its diameter: the slot is in full material.
+    let extents = run(&job(SLOT, json!({"kind":"extents"}), &[]));
+    assert_eq!(most(&extents, "engaged_deg"), 180.0);
+    assert!((most(&extents, "radial_depth_mm") - 10.0).abs() < 1e-9);
+    let bar =
+        run(&job(SLOT, json!({"kind":"cylinder","center_mm":[0,0,-20],"radius_mm":50,"height_mm":20}), &[]));
+    assert_eq!(most(&bar, "engaged_deg"), 180.0);
+}
+
+/// A box of twelve triangles [mm], as text and as bytes.
+fn stl() -> (String, String) {
+    let (low, high) = ([-50.0_f32, -50.0, -20.0], [50.0_f32, 50.0, 0.0]);
+    let corner = |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 0 { low[axis] } else { high[axis] });
+    let faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
+    let triangles = faces.iter().flat_map(|face| [[face[0], face[1], face[2]], [face[0], face[2], face[3]]]);
+    let (mut text, mut bytes) = (String::from("solid box\n"), vec![0_u8; 80]);
+    bytes.extend(12_u32.to_le_bytes());
+    for triangle in triangles {
+        text += "facet normal 0 0 1\nouter loop\n";
+        bytes.extend([0.0_f32, 0.0, 1.0].iter().flat_map(|x| x.to_le_bytes()));
+        for [x, y, z] in triangle.map(corner) {
+            text += &format!("vertex {x} {y} {z}\n");
+            bytes.extend([x, y, z].iter().flat_map(|x| x.to_le_bytes()));
+        }
+        text += "endloop\nendfacet\n";
+        bytes.extend([0, 0]);
+    }
+    (text + "endsolid box\n", STANDARD.encode(bytes))
+}
+
+#[test]
+fn a_mesh_is_followed_on_a_map() {
+    let (text, binary) = stl();
+    let exact = run(&job(SLOT, plate(), &[]));
+    let from_text = run(&job(SLOT, json!({"kind":"stl","stl":text}), &[]));
+    let from_bytes = run(&job(SLOT, json!({"kind":"stl","stl":binary}), &[]));
+    assert_eq!(from_text.fingerprint(), from_bytes.fingerprint());
+    let removed = |report: &Report| summary(report)["cut"]["removed_cm3"].as_f64().unwrap();
+    assert!((removed(&from_text) / removed(&exact) - 1.0).abs() < 0.02);
+    assert!(summary(&from_text)["cut"]["stock_cell_mm"].as_f64().unwrap() > 0.0);
+    assert!(summary(&exact)["cut"].get("stock_cell_mm").is_none());
+}
+
+#[test]
+fn an_earlier_program_comes_from_the_job() {
+    let earlier = json!([{"text": SLOT, "diameter_mm": 10}]);
+    let mut stock = plate();
+    stock["earlier"] = earlier;
+    let report = run(&job(SLOT, stock, &[]));
+    assert_eq!(most(&report, "engaged_deg"), 0.0);
+    assert_eq!(summary(&report)["cut"]["air_share"], 1.0);
+    assert_eq!(summary(&report)["cut"]["removed_cm3"], 0.0);
+}
+
+/// A tilted tool is not followed: the stated engagement holds, and a warning says so.
+#[test]
+fn a_tilted_tool_keeps_the_stated_engagement() {
+    let path = json!({"kind":"csv","text":"x,y,z,i,j,k\n-20,0,-3,0.1,0,1\n20,0,-3,0.1,0,1\n"});
+    let report = run(&job(SLOT, plate(), &[("path", path)]));
+    assert!(report.setup().contacts.is_none());
+    assert!(report.warnings.iter().any(|warning| warning.code == "stock-unused"));
+}
+
+#[test]
+fn mistakes_are_named() {
+    let field = |stock: Value| refused(&job(SLOT, stock, &[])).field().unwrap().to_owned();
+    assert_eq!(field(json!({"kind":"box","from_mm":[0,0,0]})), "stock.to_mm");
+    assert_eq!(field(json!({"kind":"box","from_mm":[0,0,0],"to_mm":[1,1,-1]})), "stock.to_mm[2]");
+    assert_eq!(
+        field(json!({"kind":"box","from_mm":[0,0,0],"to_mm":[1,1,1],"radius_mm":3})),
+        "stock.radius_mm"
+    );
+    assert_eq!(
+        field(json!({"kind":"cylinder","center_mm":[0,0,0],"radius_mm":0,"height_mm":3})),
+        "stock.radius_mm"
+    );
+    assert_eq!(
+        field(json!({"kind":"outline","points_mm":[[0,0],[1,1]],"bottom_mm":0,"top_mm":1})),
+        "stock.points_mm"
+    );
+    assert_eq!(
+        field(json!({"kind":"outline","points_mm":[[0,0],[1,0],[1,1]],"bottom_mm":0,"top_mm":0})),
+        "stock.top_mm"
+    );
+    assert_eq!(field(json!({"kind":"stl","stl":"solid nothing\nendsolid"})), "stock.stl");
+    assert_eq!(field(json!({"kind":"stl","stl":"*"})), "stock.stl");
+    assert_eq!(field(json!({"kind":"ball"})), "stock.kind");
+    assert_eq!(
+        field(
+            json!({"kind":"box","from_mm":[0,0,0],"to_mm":[1,1,1],"earlier":[{"text":"G1 X","diameter_mm":3}]})
+        ),
+        "stock.earlier[0].text"
+    );
+    let asked = ("cutting", json!({"engagement":"from-stock"}));
+    assert_eq!(refused(&job(SLOT, json!({"kind":"none"}), &[asked])).field(), Some("stock.kind"));
+    // A program above zero: where is the top?
+    let above = ("path", json!({"kind":"gcode","text":SLOT.replace("Z-3", "Z3")}));
+    assert_eq!(refused(&job(SLOT, json!({"kind":"extents"}), &[above])).field(), Some("stock.top_mm"));
+}
