@@ -318,6 +318,10 @@ const CONTROLLERS: [Option<Controller>; 4] =
 
 /// A package is what its controller's reader takes.
 fn check_package(package: &Package) {
+    // Those of one file are read where formats are checked.
+    if CONTROLLERS.into_iter().flatten().all(|controller| controller.id() != package.controller) {
+        return;
+    }
     let files = package.files.iter().map(|file| (file.path.as_str(), file.text.as_str()));
     let read = controllers::read(package.controller, files);
     // A path through a singularity is said to be no path for a controller.
