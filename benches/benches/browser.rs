@@ -7,6 +7,7 @@ use std::error::Error;
 use std::time::Duration;
 use std::{env, fs};
 
+use armill_bench::adaptive;
 use armill_bench::stages::job;
 use fantoccini::actions::{InputSource, MOUSE_BUTTON_LEFT, MouseActions, PointerAction};
 use fantoccini::wd::{Capabilities, TimeoutConfiguration};
@@ -61,6 +62,7 @@ async fn all(client: &Client, sizes: &[usize]) -> Outcome<Value> {
         result["jobs"][samples.to_string()] = json!({
             "stages": ask(client, &[json!("stages"), json!(samples)]).await?,
             "whole": ask(client, &[json!("whole"), json!(job(samples))]).await?,
+            "pocket": ask(client, &[json!("whole"), json!(adaptive::job(samples))]).await?,
         });
     }
     println!("Chromium: a number dragged");

@@ -7,6 +7,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use armill::robot::library;
+use armill_bench::adaptive;
 use armill_bench::poses::{self, Poses};
 use armill_bench::program;
 use armill_bench::stages::{STAGES, Stages, whole};
@@ -24,6 +25,7 @@ fn main() {
     reading(&mut criterion);
     for samples in sizes() {
         jobs(&mut criterion, samples);
+        pocket(&mut criterion, samples);
     }
     criterion.final_summary();
 }
@@ -45,6 +47,16 @@ fn jobs(criterion: &mut Criterion, samples: usize) {
     }
     let text = stages.text().to_owned();
     drop(stages);
+    group.bench_function("whole job", |bencher| bencher.iter(|| whole(&text)));
+    group.finish();
+}
+
+fn pocket(criterion: &mut Criterion, samples: usize) {
+    let text = adaptive::job(samples);
+    let mut group = criterion.benchmark_group(format!("pocket {samples}"));
+    group.sampling_mode(SamplingMode::Flat).sample_size(10);
+    group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(1));
+    group.bench_function("reading and engagement", |bencher| bencher.iter(|| adaptive::engagement(&text)));
     group.bench_function("whole job", |bencher| bencher.iter(|| whole(&text)));
     group.finish();
 }

@@ -1,6 +1,7 @@
 //! The work that `cargo xtask bench` times: the default job stage by stage, kinematics pose by
-//! pose, and a long program. It is a library so that the browser runs the same code as the native benchmarks.
+//! pose, a long program, and a pocket in a stock. It is a library so that the browser runs the same code as the native benchmarks.
 
+pub mod adaptive;
 pub mod poses;
 pub mod program;
 pub mod stages;

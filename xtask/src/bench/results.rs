@@ -82,6 +82,7 @@ pub(crate) struct Results {
     pub(crate) conditions: Vec<String>,
     pub(crate) sizes: Vec<usize>,
     pub(crate) native: Native,
+    /// Samples and peak bytes, of each size the default job's and then the pocket's.
     pub(crate) memory: Vec<(usize, u64)>,
     pub(crate) chromium: Value,
 }
@@ -116,13 +117,47 @@ impl Results {
         json!({
             "conditions": self.conditions,
             "native": native,
-            "native_peak_bytes": self
-                .memory
-                .iter()
-                .map(|(samples, bytes)| (samples.to_string(), json!(bytes)))
-                .collect::<serde_json::Map<_, _>>(),
+            "native_peak_bytes": self.peaks(0),
+            "native_peak_bytes_pocket": self.peaks(1),
             "browser_ms": self.chromium,
         })
+    }
+
+    /// Peak bytes by samples, of the default job (0) or the pocket (1).
+    fn peaks(&self, kind: usize) -> serde_json::Map<String, Value> {
+        let lines = self.memory.iter().skip(kind).step_by(2);
+        lines.map(|(samples, bytes)| (samples.to_string(), json!(bytes))).collect()
+    }
+
+    /// The pocket in a stock: reading with engagement, and the whole job.
+    fn pockets(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "| a pocket in a stock | moves | reading and engagement, native ms | whole job, native ms | Chromium ms | first | MB native | MB Chromium |"
+        )?;
+        writeln!(f, "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")?;
+        for (i, &size) in self.sizes.iter().enumerate() {
+            let pocket = &self.chromium["jobs"][size.to_string()]["pocket"];
+            let native = |name: &str| {
+                let time = self.native.of(&format!("pocket {size}"), name);
+                time.map_or("-".to_owned(), |time| digits(time.median / 1e6))
+            };
+            let browser = Time::of_milliseconds(&pocket["times"]);
+            let mega = |bytes: Option<u64>| bytes.map_or("-".to_owned(), |bytes| digits(bytes as f64 / 1e6));
+            writeln!(
+                f,
+                "| {} samples | {} | {} | {} | {} | {} | {} | {} |",
+                pocket["samples"],
+                size / 10,
+                native("reading and engagement"),
+                native("whole job"),
+                browser.map_or("-".to_owned(), |time| digits(time.median / 1e6)),
+                pocket["first"].as_f64().map_or("-".to_owned(), digits),
+                mega(self.memory.get(2 * i + 1).map(|(_, bytes)| *bytes)),
+                mega(pocket["bytes"].as_u64())
+            )?;
+        }
+        writeln!(f)
     }
 
     fn jobs(&self, f: &mut Formatter<'_>, size: usize) -> fmt::Result {
@@ -194,7 +229,7 @@ impl Results {
                 bytes.map_or("-".to_owned(), |bytes| format!("{:.0}", bytes as f64 / 1e6))
             };
             let chromium = mega(self.chromium["jobs"][size.to_string()]["whole"]["bytes"].as_u64());
-            let native = mega(self.memory.get(i).map(|(_, bytes)| *bytes));
+            let native = mega(self.memory.get(2 * i).map(|(_, bytes)| *bytes));
             writeln!(f, "| {} samples | {native} | {chromium} |", self.samples(size))?;
         }
         Ok(())
@@ -222,6 +257,7 @@ impl Display for Results {
                 ratio(chromium(large), chromium(small))
             )?;
         }
+        self.pockets(f)?;
         self.poses(f)?;
         if let Some(time) = self.native.of("reading", "G-code, plain lines") {
             writeln!(
