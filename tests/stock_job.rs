@@ -208,3 +208,41 @@ fn mistakes_are_named() {
     let above = ("path", json!({"kind":"gcode","text":SLOT.replace("Z-3", "Z3")}));
     assert_eq!(refused(&job(SLOT, json!({"kind":"extents"}), &[above])).field(), Some("stock.top_mm"));
 }
+
+/// Rapid moves through material, a stock higher than the flutes, a spindle too weak: by line.
+#[test]
+fn what_must_not_be_met_is_said_with_its_line() {
+    let warnings = |text: &str, more: &[(&'static str, Value)]| {
+        let report = run(&job(text, plate(), more));
+        let found: Vec<_> =
+            report.warnings.iter().map(|w| (w.code, w.message.clone(), w.spans_s.len())).collect();
+        move |code: &str| {
+            found
+                .iter()
+                .find(|(known, ..)| *known == code)
+                .map(|(_, message, spans)| (message.clone(), *spans))
+        }
+    };
+    // Down, along and up again: all is in the air or cut before.
+    let fine = "G21 G90\nG0 X-20 Y0 Z5\nG1 Z-3 F300\nG1 X20 F600\nG0 Z5\nG0 X-20\nZ-3\nG0 X20\nZ5\n";
+    assert_eq!(warnings(fine, &[])("rapid-in-stock"), None);
+    // Across what was not cut, and down into it.
+    let crash = "G21 G90\nG0 X-20 Y0 Z5\nG1 Z-3 F300\nG1 X20 F600\nG0 Y10\nG0 Z5\nX-20\nZ-1\n";
+    let (message, spans) = warnings(crash, &[])("rapid-in-stock").unwrap();
+    assert!(message.starts_with("line 5: ") && message.contains("in 2 other moves"), "{message}");
+    // The way up lies in what the rapid move did not clear, and follows it.
+    assert_eq!(spans, 2);
+    let short = json!({"diameter_mm":10,"flutes":3,"helix_deg":30,"flute_length_mm":2});
+    let (message, _) = warnings(SLOT, &[("tool", short)])("shank-in-stock").unwrap();
+    assert!(message.starts_with("line 4: "), "{message}");
+    let enough = json!({"diameter_mm":10,"flutes":3,"helix_deg":30,"flute_length_mm":3});
+    assert_eq!(warnings(SLOT, &[("tool", enough)])("shank-in-stock"), None);
+    let weak = json!({"spindle_rpm":8000,"feed_per_tooth_mm":"from_feed","spindle_power_kw":0.1});
+    let (message, spans) = warnings(SLOT, &[("cutting", weak)])("spindle-power").unwrap();
+    assert!(message.contains("up to") && spans > 0, "{message}");
+    // The same on a map of heights.
+    let air = "G0 Z20\nX-200 Y-200\nG1 X200 Y200 Z10 F6000\nX-200 Y-200 Z20\nX200 Y200 Z10\nG0 Z20\n";
+    let on_map = |text: &str| warnings(&format!("{text}{air}"), &[])("rapid-in-stock");
+    assert_eq!(on_map(fine), None);
+    assert!(on_map(crash).is_some());
+}

@@ -5,12 +5,66 @@ use crate::cutting::{Loads, PlaceFigures};
 use crate::deviation::Sources;
 use crate::math::TAU;
 use crate::motion::TimingLaw;
-use crate::report::Report;
 use crate::report::columns::Series;
-use crate::stock::{Contact, Contacts};
+use crate::report::span::{Span, spans};
+use crate::report::{Report, Warning};
+use crate::stock::{Collider, Collision, Contact, Contacts};
 use crate::units::{DEG, KILOWATT, MINUTE, MM};
 use std::borrow::Cow;
 use std::sync::Arc;
+
+/// Warnings about the cut in a stock: what meets material without cutting it.
+pub(super) fn collisions(report: &Report) -> Vec<Warning> {
+    let Some(contacts) = &report.setup().contacts else { return Vec::new() };
+    [Collider::Rapid, Collider::Shank]
+        .into_iter()
+        .filter_map(|kind| collision(report, contacts, kind))
+        .collect()
+}
+
+/// The warning about one kind of collisions.
+fn collision(report: &Report, contacts: &Contacts, kind: Collider) -> Option<Warning> {
+    let path = &report.plan.path;
+    let hits: Vec<&Collision> = contacts.collisions.iter().filter(|hit| hit.collider == kind).collect();
+    let first = hits.first()?;
+    let line = match path.moves()[first.index].line {
+        0 => String::new(),
+        line => format!("line {line}: "),
+    };
+    let others = match hits.len() - 1 {
+        0 => String::new(),
+        1 => ", and in another move".into(),
+        more => format!(", and in {more} other moves"),
+    };
+    let (code, what) = match kind {
+        Collider::Rapid => ("rapid-in-stock", "a rapid move goes through the stock"),
+        Collider::Shank => {
+            ("shank-in-stock", "the stock is higher than the flutes: shank or holder run into it")
+        }
+    };
+    let timing = &report.plan.trajectory.timing;
+    let struck = |k: usize| {
+        let index = timing.index[k] as usize;
+        let hit = hits.binary_search_by_key(&index, |hit| hit.index).ok().map(|place| hits[place]);
+        hit.is_some_and(|hit| timing.arc_length[k] >= path.start(index) + hit.within)
+    };
+    let spans = spans(report.samples(), struck);
+    let warning = Warning::new(code, format!("{line}{what}{others}; no force is computed for that"));
+    // A short move may lie between two samples.
+    warning.clone().within(&spans, report.plan.trajectory.sample_time).or(Some(warning))
+}
+
+/// Where the cut takes more power than the spindle has, with the largest power [W] and its line.
+pub(super) fn overloads(report: &Report, rated: f64) -> Option<(Vec<Span>, f64, usize)> {
+    let contacts = report.setup().contacts.as_ref()?;
+    let timing = report.plan.timing(Sources::ALL);
+    let loads = report.setup().loading.along(&report.plan.path);
+    let power = |k: usize| report.sample_cut(contacts, &timing, &loads, k).power;
+    let powers: Vec<f64> = (0..report.samples()).map(power).collect();
+    let worst = (0..powers.len()).max_by(|&a, &b| powers[a].total_cmp(&powers[b]))?;
+    let line = report.plan.path.moves()[timing.index[worst] as usize].line;
+    Some((spans(powers.len(), |k| powers[k] > rated), powers[worst], line))
+}
 
 /// Figures of all that a program cuts.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,7 +3,7 @@
 use crate::math;
 use crate::path::{Move, MovePace, Path, Segment};
 use crate::progress::Progress;
-use crate::stock::contact::{Contacts, FloorArc, SideArc};
+use crate::stock::contact::{Collider, Contacts, FloorArc, SideArc};
 use crate::stock::grid::Grid;
 use crate::stock::mapped;
 use crate::stock::place::{Around, Cleared, Cutter, EngagementMeasure, Surroundings, ToolPlace};
@@ -16,6 +16,8 @@ use std::ops::Range;
 const INSIDE: f64 = 1e-4;
 /// Largest distance of stations, as a part of the radius.
 const FAR: f64 = 0.25;
+/// Distance of the places at which a rapid move is looked at, as a part of the radius.
+pub(super) const LOOK: f64 = 0.5;
 /// Least distance of stations, as a part of the radius.
 const NEAR: f64 = 0.002;
 /// Part of the largest engagement by which a station may differ from the middle of its neighbours.
@@ -170,6 +172,7 @@ impl<'a> Walk<'a> {
         self.before += legs.len();
         self.contacts.begin();
         if step.pace == MovePace::Rapid {
+            legs.iter().for_each(|leg| self.rapid(step, leg));
             self.ahead = heading(step, step.segment.length()).unwrap_or(self.ahead);
             return;
         }
@@ -191,6 +194,22 @@ impl<'a> Walk<'a> {
             self.refine(step, leg, &from, &to);
             self.keep(step, &to);
             from = to;
+        }
+    }
+
+    /// Looks for material in the way of a rapid leg.
+    fn rapid(&mut self, step: &Move, leg: &Leg) {
+        let Range { start, end } = leg.within;
+        let pieces = ((end - start) / (LOOK * self.cutter.radius)).ceil().max(1.0);
+        for piece in 0..=pieces as usize {
+            let within = start + (end - start) * (piece as f64 / pieces);
+            let mut around = std::mem::take(&mut self.around);
+            let is_inside = self.at(step, leg, within, None).is_inside(&mut around);
+            self.around = around;
+            if is_inside {
+                self.contacts.collide(Collider::Rapid, within);
+                return;
+            }
         }
     }
 
@@ -226,26 +245,38 @@ impl<'a> Walk<'a> {
         // At the very ends the tool may touch what it does not cut: seen from just inside.
         let inside = (INSIDE * self.cutter.radius).min((end - start) / 2.0);
         let seen = within.clamp(start + inside, end - inside);
-        let tip = step.segment.point(seen);
+        let mut found = std::mem::take(&mut self.around);
+        let around = self.at(step, leg, seen, Some(&leg.swept));
+        let measure = around.find(&mut found);
+        let sides = found.sides.clone();
+        let shank = around.is_shank_in(&mut found);
+        self.around = found;
+        if shank {
+            self.contacts.collide(Collider::Shank, within);
+        }
+        FoundContact { within, measure, sides, floors: self.around.floors.clone() }
+    }
+
+    /// The tool at the arc length `within` [m] of a move, of which `own` clears.
+    fn at<'b>(&'b self, step: &Move, leg: &Leg, within: f64, own: Option<&'b Swept>) -> Surroundings<'b> {
+        let Range { start, end } = leg.within;
+        let tip = step.segment.point(within);
         let place = ToolPlace {
             center: tip.xy(),
             height: tip.z,
-            ahead: heading(step, seen).unwrap_or(self.ahead),
-            share: (seen - start) / (end - start),
-            dives: step.segment.tangent(seen).z < -1e-6,
-            own: &leg.swept,
+            ahead: heading(step, within).unwrap_or(self.ahead),
+            share: (within - start) / (end - start),
+            dives: step.segment.tangent(within).z < -1e-6,
+            own,
         };
-        let around = Surroundings {
+        Surroundings {
             solid: self.solid,
             cutter: self.cutter,
             sweeps: self.sweeps,
             flat: self.flat,
             grid: &self.grid,
             place,
-        };
-        let measure = around.find(&mut self.around);
-        let Around { sides, floors, .. } = &self.around;
-        FoundContact { within, measure, sides: sides.clone(), floors: floors.clone() }
+        }
     }
 }
 

@@ -87,6 +87,26 @@ impl Contact<'_> {
     }
 }
 
+/// What meets material that it does not cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Collider {
+    /// The tool on a rapid move.
+    Rapid,
+    /// What is above the flutes: shank or holder.
+    Shank,
+}
+
+/// The first place in a move where something meets material that it does not cut.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Collision {
+    /// What.
+    pub collider: Collider,
+    /// Number of the move.
+    pub index: usize,
+    /// Arc length within the move [m].
+    pub within: f64,
+}
+
 /// A place at which contact was determined.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Station {
@@ -106,6 +126,8 @@ pub struct Contacts {
     stations: Vec<Station>,
     sides: Vec<SideArc>,
     floors: Vec<FloorArc>,
+    /// Places where something meets material that it does not cut; one of each kind in a move.
+    pub collisions: Vec<Collision>,
     /// Width of a cell [m] if a map of heights was used.
     pub cell: Option<f64>,
     /// Number of stations before each move's, and their number; none of a rapid move.
@@ -129,6 +151,15 @@ impl Contacts {
         self.floors.extend_from_slice(floors);
         let (sides, floors) = (self.sides.len() as u32, self.floors.len() as u32);
         self.stations.push(Station { within, lean, sides, floors });
+    }
+
+    /// Notes a collision in the last move, unless its kind is already noted there.
+    pub(super) fn collide(&mut self, collider: Collider, within: f64) {
+        let collision = Collision { collider, index: self.firsts.len() - 1, within };
+        let noted = |known: &Collision| known.index == collision.index && known.collider == collider;
+        if !self.collisions.iter().rev().take(2).any(noted) {
+            self.collisions.push(collision);
+        }
     }
 
     /// Number of stations.

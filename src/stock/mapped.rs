@@ -3,12 +3,11 @@
 use crate::math;
 use crate::path::{Move, MovePace, Path};
 use crate::progress::Progress;
-use crate::stock::along::Earlier;
-use crate::stock::along::heading;
+use crate::stock::along::{Earlier, LOOK, heading};
 use crate::stock::circle::{immersion, left_of};
-use crate::stock::contact::{Contacts, FloorArc, SideArc};
+use crate::stock::contact::{Collider, Contacts, FloorArc, SideArc};
 use crate::stock::height_map::{HeightMap, Stamp};
-use crate::stock::place::{CORNER, Cutter, RINGS};
+use crate::stock::place::{CORNER, Cutter, RINGS, WITHIN};
 use crate::stock::solid::Solid;
 use nalgebra::{Vector2, Vector3};
 
@@ -18,6 +17,8 @@ const STEP: f64 = 0.1;
 const STAMPS: usize = 2;
 /// Directions ahead that are looked at.
 const AHEAD: usize = 180;
+/// Every so many directions are enough to find what must not be met.
+const SPARSE: usize = 6;
 /// Layers of the cylinder.
 const CYLINDER: usize = 8;
 /// How far beyond the cylinder the map is read, in cells: the middle of the cell read is then beyond it.
@@ -50,6 +51,14 @@ pub(super) fn contacts(
         if step.pace == MovePace::Rapid {
             reached.take().into_iter().for_each(|tip| map.stamp(&stamp, &tip));
             ahead = heading(step, length).unwrap_or(ahead);
+            let count = (length / (LOOK * cutter.radius)).ceil().max(1.0);
+            let places = (0..=count as usize).map(|k| length * (k as f64 / count));
+            let view = |within: f64| {
+                let tip = step.segment.point(within);
+                MapView { map: &map, solid, cutter, directions: &directions, tip, ahead, lean: [1.0, 0.0] }
+            };
+            let met = places.into_iter().find(|&within| view(within).is_inside());
+            met.into_iter().for_each(|within| contacts.collide(Collider::Rapid, within));
             continue;
         }
         let count = (length / (STEP * cutter.radius)).ceil().max(1.0) as usize;
@@ -64,6 +73,9 @@ pub(super) fn contacts(
             view.sides(is_vertical(step), &mut sides);
             view.floors(feed.z < -1e-6, &mut floors);
             contacts.push(within, lean, &sides, &floors);
+            if view.is_shank_in() {
+                contacts.collide(Collider::Shank, within);
+            }
             let stamps = if k < count { 0..STAMPS } else { 0..0 };
             for part in stamps {
                 map.stamp(&stamp, &step.segment.point(at(k * STAMPS + part, count * STAMPS)));
@@ -156,6 +168,25 @@ impl MapView<'_> {
                 self.layer((from, to), sides);
             }
         }
+    }
+
+    /// Whether there is material within the tool, as on a rapid move; by more than a cell's slope hides.
+    fn is_inside(&self) -> bool {
+        self.tip.z < self.solid.top
+            && WITHIN.iter().any(|part| {
+                (0..2 * AHEAD).step_by(SPARSE).any(|k| {
+                    let (distance, height) = self.cell(part * self.cutter.radius, k);
+                    let low = (self.solid.bottom - self.tip.z).max(self.cutter.profile(distance));
+                    distance < self.cutter.radius && height > low + self.map.cell
+                })
+            })
+    }
+
+    /// Whether what is above the flutes meets material ahead.
+    fn is_shank_in(&self) -> bool {
+        let radius = self.cutter.radius + BEYOND * self.map.cell;
+        self.tip.z + self.cutter.flutes < self.solid.top
+            && (0..AHEAD).step_by(SPARSE).any(|k| self.cell(radius, k).1 > self.cutter.flutes + self.map.cell)
     }
 
     /// The arcs between two heights above the tip [m].

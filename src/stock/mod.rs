@@ -19,6 +19,6 @@ mod mapped;
 mod along;
 
 pub use along::{Earlier, contacts};
-pub use contact::{Contact, Contacts, FloorArc, SideArc};
+pub use contact::{Collider, Collision, Contact, Contacts, FloorArc, SideArc};
 pub use place::Cutter;
 pub use solid::{Outline, Solid};

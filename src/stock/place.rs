@@ -26,6 +26,8 @@ const THIN: f64 = 2e-6;
 /// Part of the radius by which a swept region is taken smaller: the edge itself, which touches what
 /// it sweeps, is not in it.
 const TOUCH: f64 = 1e-11;
+/// Parts of the tool's radius at which material within it is looked for: the rim itself may touch.
+pub(super) const WITHIN: [f64; 3] = [0.98, 0.6, 0.2];
 /// Most layers in which ramps nearby are seen.
 const LAYERS: f64 = 16.0;
 /// Slices of a corner.
@@ -68,7 +70,8 @@ pub(super) struct ToolPlace<'a> {
     /// Share of the own move that lies behind.
     pub(super) share: f64,
     pub(super) dives: bool,
-    pub(super) own: &'a Swept,
+    /// The own move, if it clears.
+    pub(super) own: Option<&'a Swept>,
 }
 
 /// The tool at a place, and what was cut before.
@@ -114,7 +117,7 @@ impl Surroundings<'_> {
         }
         let half =
             HalfCircle { center: self.place.center, radius: self.cutter.radius, ahead: self.place.ahead };
-        if !matches!(self.place.own.spine, Spine::Point(_)) {
+        if self.place.own.is_some_and(|own| !matches!(own.spine, Spine::Point(_))) {
             self.sides(half, (low, high), around);
         }
         if self.place.dives && self.place.height > self.solid.bottom {
@@ -127,6 +130,37 @@ impl Surroundings<'_> {
             }
         }
         measure(around, self.cutter.radius)
+    }
+
+    /// Whether there is material within the tool, as on a rapid move.
+    pub(super) fn is_inside(&self, around: &mut Around) -> bool {
+        let height = self.place.height.max(self.solid.bottom) + 2.0 * SAME_HEIGHT;
+        if height >= self.solid.top {
+            return false;
+        }
+        let half = HalfCircle { center: self.place.center, radius: 0.0, ahead: self.place.ahead };
+        WITHIN.iter().any(|part| {
+            let radius = part * self.cutter.radius_at(height - self.place.height);
+            let half = HalfCircle { radius, ..half };
+            self.is_met(&half, height, around) || self.is_met(&half.behind(), height, around)
+        })
+    }
+
+    /// Whether what is above the flutes meets material ahead.
+    pub(super) fn is_shank_in(&self, around: &mut Around) -> bool {
+        let height = (self.place.height + self.cutter.flutes).max(self.solid.bottom) + 2.0 * SAME_HEIGHT;
+        let half =
+            HalfCircle { center: self.place.center, radius: self.cutter.radius, ahead: self.place.ahead };
+        height < self.solid.top && self.is_met(&half, height, around)
+    }
+
+    /// Whether a half circle meets material at a height [m].
+    fn is_met(&self, half: &HalfCircle, height: f64, around: &mut Around) -> bool {
+        let parts = &mut around.parts;
+        parts.fill(half);
+        parts.keep(half, &self.solid.outline, true);
+        self.clear(half, (f64::NEG_INFINITY, height), parts);
+        parts.ranges().iter().any(|(from, to)| (to - from) * half.radius > THIN)
     }
 
     /// The arcs around the side between two heights [m].
@@ -177,7 +211,7 @@ impl Surroundings<'_> {
         let ramps = cell.ramps.iter().map(|&number| &self.sweeps[number as usize].swept);
         // Walls that a round tool has left vary all the way up.
         let mut span = if self.flat { (high, low) } else { (low, high) };
-        for (from, to) in ramps.chain([self.place.own]).map(Swept::range) {
+        for (from, to) in ramps.chain(self.place.own).map(Swept::range) {
             if to > low + SAME_HEIGHT && from < high - SAME_HEIGHT && to - from > SAME_HEIGHT {
                 span = (span.0.min(from.max(low)), span.1.max(to.min(high)));
             }
@@ -199,7 +233,7 @@ impl Surroundings<'_> {
             parts.subtract(half, &Capsule { spine, reach }, |point| spine.distance(point), reach);
             parts.is_empty()
         };
-        let own = self.place.own.below(height, self.place.share);
+        let own = self.place.own.and_then(|own| own.below(height, self.place.share));
         if own.is_some_and(|own| subtract(&own, self.cutter, self.place.height)) {
             return;
         }
