@@ -249,7 +249,8 @@ impl<'a> Walk<'a> {
         let around = self.at(step, leg, seen, Some(&leg.swept));
         let measure = around.find(&mut found);
         let sides = found.sides.clone();
-        let shank = around.is_shank_in(&mut found);
+        // A plunge runs down its own hole.
+        let shank = heading(step, seen).is_some() && around.is_shank_in(&mut found);
         self.around = found;
         if shank {
             self.contacts.collide(Collider::Shank, within);

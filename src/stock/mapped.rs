@@ -73,7 +73,7 @@ pub(super) fn contacts(
             view.sides(is_vertical(step), &mut sides);
             view.floors(feed.z < -1e-6, &mut floors);
             contacts.push(within, lean, &sides, &floors);
-            if view.is_shank_in() {
+            if !is_vertical(step) && view.is_shank_in() {
                 contacts.collide(Collider::Shank, within);
             }
             let stamps = if k < count { 0..STAMPS } else { 0..0 };
