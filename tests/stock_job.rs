@@ -246,3 +246,17 @@ fn what_must_not_be_met_is_said_with_its_line() {
     assert_eq!(on_map(fine), None);
     assert!(on_map(crash).is_some());
 }
+
+/// A tool of 0.2 mm on a block of half a metre: four million cells are wide for it, and it is said.
+#[test]
+fn a_map_too_coarse_for_the_tool_says_so() {
+    let ramps = "G21 G90\nG0 X0 Y0 Z0\nG1 X3 Z-0.1 F300\nX0 Z-0.2\n";
+    let wide = json!({"kind":"box","from_mm":[-250,-250,-5],"to_mm":[250,250,0]});
+    let tool = ("tool", json!({"diameter_mm":0.2,"flutes":2,"helix_deg":30}));
+    let coarse = |stock: Value| {
+        let report = run(&job(ramps, stock, std::slice::from_ref(&tool)));
+        report.warnings.iter().any(|warning| warning.code == "stock-coarse")
+    };
+    assert!(coarse(wide));
+    assert!(!coarse(json!({"kind":"box","from_mm":[-1,-1,-5],"to_mm":[4,1,0]})));
+}

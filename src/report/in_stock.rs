@@ -16,10 +16,21 @@ use std::sync::Arc;
 /// Warnings about the cut in a stock: what meets material without cutting it.
 pub(super) fn collisions(report: &Report) -> Vec<Warning> {
     let Some(contacts) = &report.setup().contacts else { return Vec::new() };
-    [Collider::Rapid, Collider::Shank]
-        .into_iter()
-        .filter_map(|kind| collision(report, contacts, kind))
-        .collect()
+    let kinds = [Collider::Rapid, Collider::Shank].into_iter();
+    kinds.filter_map(|kind| collision(report, contacts, kind)).chain(coarse(report, contacts)).collect()
+}
+
+/// A map of heights whose cells are wide for the tool: the stock is large, the tool small.
+fn coarse(report: &Report, contacts: &Contacts) -> Option<Warning> {
+    let diameter = report.setup().cut.diameter;
+    let cell = contacts.cell.filter(|cell| *cell > COARSE * diameter)?;
+    let message = format!(
+        "the stock is followed in cells of {:.2} mm, wide for a tool of {:.2} mm: the engagement is rough; give a \
+         smaller stock",
+        cell / MM,
+        diameter / MM
+    );
+    Some(Warning::new("stock-coarse", message))
 }
 
 /// The warning about one kind of collisions.
@@ -65,6 +76,9 @@ pub(super) fn overloads(report: &Report, rated: f64) -> Option<(Vec<Span>, f64, 
     let line = report.plan.path.moves()[timing.index[worst] as usize].line;
     Some((spans(powers.len(), |k| powers[k] > rated), powers[worst], line))
 }
+
+/// Width of a cell from which it is wide for the tool, as a part of the diameter.
+const COARSE: f64 = 0.05;
 
 /// Figures of all that a program cuts.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -149,9 +149,16 @@ impl Setup {
         let statics = statics::of(&job.robot, robot.compliance(), &base)?;
         let robot = statics.into_iter().fold(robot, Robot::with_statics);
         let workpiece = base.inverse().compose(&frame(&job.workpiece_frame));
-        let (path, program) = path::desired(job, progress)?;
+        // A stock takes about as long to follow as its program to read.
+        let read = if job.stock.is_none() { 1.0 } else { 0.5 };
+        let (path, program) = path::desired(job, &mut progress.part("", 0.0, read))?;
         let cutter = cutting::cutter(&job.tool)?;
-        let (contacts, tilted_in_stock) = match stock::engagement(job, &path, &cutter, progress)? {
+        let (contacts, tilted_in_stock) = match stock::engagement(
+            job,
+            &path,
+            &cutter,
+            &mut progress.part("cut in the stock", read, 1.0),
+        )? {
             StockEngagement::Stated => (None, false),
             StockEngagement::Tilted => (None, true),
             StockEngagement::Followed(contacts) => (Some(Arc::new(contacts)), false),

@@ -147,7 +147,8 @@ struct Steps {
 
 impl Steps {
     fn of(job: &Job) -> Self {
-        let reading = if job.path.text.is_some() { 1.0 } else { 0.0 };
+        let program = if job.path.text.is_some() { 1.0 } else { 0.0 };
+        let reading = program + if job.stock.is_none() { 0.0 } else { 1.0 };
         Self { reading, passes: f64::from(job.compensation.max_passes) }
     }
 

@@ -16,6 +16,8 @@ use std::ops::Range;
 const INSIDE: f64 = 1e-4;
 /// Largest distance of stations, as a part of the radius.
 const FAR: f64 = 0.25;
+/// Most stations before contact is looked at more closely.
+pub(super) const MOST_STATIONS: f64 = 1e6;
 /// Distance of the places at which a rapid move is looked at, as a part of the radius.
 pub(super) const LOOK: f64 = 0.5;
 /// Least distance of stations, as a part of the radius.
@@ -117,6 +119,8 @@ struct Walk<'a> {
     /// Number of sweeps before the move.
     before: usize,
     flat: bool,
+    /// Distance of stations where the contact does not change [m].
+    far: f64,
     solid: &'a Solid,
     cutter: &'a Cutter,
     grid: Grid,
@@ -156,6 +160,7 @@ impl<'a> Walk<'a> {
             sweeps,
             before,
             flat: sweeps.iter().all(|cleared| cleared.cutter.corner == 0.0),
+            far: (FAR * cutter.radius).max(path.length() / MOST_STATIONS),
             solid,
             cutter,
             grid,
@@ -186,7 +191,7 @@ impl<'a> Walk<'a> {
     /// The stations of a leg.
     fn leg(&mut self, step: &Move, leg: &Leg) {
         let Range { start, end } = leg.within;
-        let pieces = ((end - start) / (FAR * self.cutter.radius)).ceil().max(1.0);
+        let pieces = ((end - start) / self.far).ceil().max(1.0);
         let mut from = self.find(step, leg, start);
         self.keep(step, &from);
         for piece in 1..=pieces as usize {

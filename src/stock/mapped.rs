@@ -3,7 +3,7 @@
 use crate::math;
 use crate::path::{Move, MovePace, Path};
 use crate::progress::Progress;
-use crate::stock::along::{Earlier, LOOK, heading};
+use crate::stock::along::{Earlier, LOOK, MOST_STATIONS, heading};
 use crate::stock::circle::{immersion, left_of};
 use crate::stock::contact::{Collider, Contacts, FloorArc, SideArc};
 use crate::stock::height_map::{HeightMap, Stamp};
@@ -37,6 +37,7 @@ pub(super) fn contacts(
     let mut map = HeightMap::new(solid, cutter);
     earlier.iter().for_each(|earlier| clear(&mut map, earlier));
     let stamp = Stamp::new(cutter);
+    let step_length = (STEP * cutter.radius).max(path.length() / MOST_STATIONS);
     let mut contacts = Contacts::on_map(map.cell);
     let directions = Directions::new();
     let first = path.moves().iter().find_map(|step| heading(step, 0.0));
@@ -61,7 +62,7 @@ pub(super) fn contacts(
             met.into_iter().for_each(|within| contacts.collide(Collider::Rapid, within));
             continue;
         }
-        let count = (length / (STEP * cutter.radius)).ceil().max(1.0) as usize;
+        let count = (length / step_length).ceil().max(1.0) as usize;
         let at = |part: usize, of: usize| length * (part as f64 / of as f64);
         for k in 0..=count {
             let within = at(k, count);
