@@ -293,6 +293,31 @@ fn plunges_meet_what_lies_below() {
     assert!(disc("G90 F100\nG0 X0 Y0 Z0\nG1 Z-5\nG0 Z1\nG1 Z-3\n").abs() < 1e-9);
 }
 
+/// Beside a hole or over an edge a plunge meets a lune or a segment of its disc: in rings, to 1 % of the
+/// disc even where only a little is missing or left.
+#[test]
+fn plunges_meet_part_of_their_disc() {
+    let area = |text: &str| {
+        let run = walk(text, &plate(), flat());
+        let last = run.path.moves().len() - 1;
+        let station = run.contacts.of_move(last).find(|&k| run.contacts.within(k) > 1e-3).unwrap();
+        let floors = run.contacts.at(station).floors;
+        floors.iter().map(|arc| arc.radius * arc.width * (arc.exit - arc.entry)).sum::<f64>() * 1e6
+    };
+    // Part of a disc of 5 mm beyond a chord at a distance [mm²].
+    let segment = |d: f64| 25.0 * (d / 5.0).acos() - d * (25.0 - d * d).sqrt();
+    for k in 1..50 {
+        let d = 0.2 * f64::from(k);
+        let lune = 25.0 * PI - 2.0 * segment(d / 2.0);
+        let beside = area(&format!("G90 F100\nG0 X0 Y0 Z0\nG1 Z-3\nG0 Z1\nX{d}\nZ0\nG1 Z-3\n"));
+        assert!((beside - lune).abs() < 0.01 * 25.0 * PI, "hole at {d}: {beside} {lune}");
+        if d < 5.0 {
+            let over = area(&format!("G90 F100\nG0 X{} Y0 Z0\nG1 Z-3\n", 100.0 + d));
+            assert!((over - segment(d)).abs() < 0.01 * 25.0 * PI, "edge at {d}: {over} {}", segment(d));
+        }
+    }
+}
+
 /// A step: the lower half of the edge in a slot, the upper in a wall.
 #[test]
 fn heights_are_told_apart() {

@@ -15,7 +15,7 @@
 //! are right to 0.01 %. The whole program may differ by 0.5 % (1 % with ramps, which stand in layers).
 //! A move alone may differ by 0.5 % (2 % with ramps) and by what Armill's stations promise: 0.2 %
 //! of a slot from the middle of their neighbours; a diving tool by the rings of its bottom, which miss
-//! 2.8 % of the disc at worst, where the edge of what is left just touches it (six nodes of Gauss and
+//! 1 % of the disc at worst, where the edge of what is left just touches it (twelve nodes of Gauss and
 //! Legendre against the area outside a circle or a line, at all distances).
 //!
 //! `ARMILL_RASTER_PROGRAMS` sets the number of programs, `ARMILL_RASTER_SEED` the first, and
@@ -180,7 +180,7 @@ fn hold(name: &str, text: &str, solid: &Solid, origin: Vector2<f64>) -> (Seen, V
         let [from, to] = [at(0.0), at(length)];
         let bent = 0.002 * 2.0 * R * (solid.top * 1e3 - from.z.min(to.z)) * length * 1e3;
         // Rings of the bottom stand for what lies between them.
-        let rings = 0.03 * PI * R * R * (from.z - to.z).max(0.0);
+        let rings = 0.01 * PI * R * R * (from.z - to.z).max(0.0);
         let share = if ramps > 0.0 { 0.02 } else { 0.005 };
         if (integral - volume).abs() > share * volume + bent + rings + 0.02 {
             complaints.push(format!(
