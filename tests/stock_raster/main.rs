@@ -284,6 +284,14 @@ fn awkward_programs_meet_what_the_cells_hold() {
             program.arc([3.599, 6.0], 1e-3, 0.0, TAU, "");
             program.polygon(&[[12.0, 5.5]]);
         });
+        hold("turns of a helix in one move", &|program| {
+            for (radius, turn) in [(1.5, TAU), (3.0, -TAU), (2.2, TAU)] {
+                program.go("G0", 7.0 + radius, 7.0, "Z0");
+                program.arc([7.0, 7.0], radius, 0.0, turn, "Z-3 P3");
+                program.arc([7.0, 7.0], radius, 0.0, turn, "Z-1 P2");
+                program.arc([7.0, 7.0], radius, 0.0, turn, "");
+            }
+        });
         hold("a thousand chords", &|program| {
             for radius in [5.0, 3.5, 5.8] {
                 program.polygon(&[[7.0 + radius, 7.0]]);

@@ -65,8 +65,11 @@ impl Writer {
                 writeln!(self.text, "G1 Z{z:.4}").unwrap();
             }
             4 | 5 => {
-                self.go("G0", x, y, "");
+                // Through whatever is there: a rapid clears nothing.
+                let [dx, dy] = self.point(-4.0, 4.0);
+                self.go("G0", x + dx, y + dy, "");
                 writeln!(self.text, "G0 Z{z:.4}").unwrap();
+                self.go("G0", x, y, "");
             }
             6 | 7 => {
                 self.go("G0", -3.0, y, "");
