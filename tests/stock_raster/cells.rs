@@ -8,8 +8,8 @@ use std::f64::consts::{PI, TAU};
 pub(crate) const R: f64 = 2.0;
 /// Size of a cell [mm].
 pub(crate) const CELL: f64 = 0.01;
-/// Step of the tool [mm]: a scallop between two places is 25 nm high.
-pub(crate) const STEP: f64 = 0.02;
+/// Step of the tool [mm]: a scallop between two places is 0.1 micrometres high.
+pub(crate) const STEP: f64 = 0.04;
 /// How far before a station the cells are asked [mm].
 pub(crate) const BEFORE: f64 = 10.0 * CELL;
 
