@@ -13,9 +13,9 @@ use nalgebra::Vector2;
 use std::ops::Range;
 
 /// How far inside its move an end is looked at, as a part of the radius.
-const INSIDE: f64 = 1e-4;
+pub(super) const INSIDE: f64 = 1e-4;
 /// Largest distance of stations, as a part of the radius.
-const FAR: f64 = 0.25;
+const FAR: f64 = 0.125;
 /// Most stations before contact is looked at more closely.
 pub(super) const MOST_STATIONS: f64 = 1e6;
 /// Distance of the places at which a rapid move is looked at, as a part of the radius.
@@ -31,6 +31,8 @@ const CHORD: f64 = 1e-6;
 /// Share of the length of the cutting moves that climb or dive as they go along from which the stock is
 /// a map of heights.
 const MOSTLY_RAMPS: f64 = 0.25;
+/// Ramps of a flat tool, whose section is the same at every height, are seen by layers up to so many.
+const MOST_RAMPS: usize = 2000;
 
 /// A path that a stock was cut along before, with another tool.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,12 +53,13 @@ pub fn contacts(
     progress: &mut Progress,
 ) -> Contacts {
     let cuts = || path.moves().iter().filter(|step| step.pace != MovePace::Rapid).map(|step| &step.segment);
-    let ramps = cuts().filter(|segment| {
+    let is_ramp = |segment: &&Segment| {
         let feed = segment.tangent(segment.length() / 2.0);
         Swept::of(segment).is_none() || (feed.z != 0.0 && math::hypot(feed.x, feed.y) > 1e-6)
-    });
-    let length = cuts().map(Segment::length).sum::<f64>();
-    let in_space = ramps.map(Segment::length).sum::<f64>() > MOSTLY_RAMPS * length;
+    };
+    let length = |cuts: &mut dyn Iterator<Item = &Segment>| cuts.map(Segment::length).sum::<f64>();
+    let in_space = length(&mut cuts().filter(is_ramp)) > MOSTLY_RAMPS * length(&mut cuts())
+        && (cutter.corner > 0.0 || cuts().filter(is_ramp).count() > MOST_RAMPS);
     if in_space || !solid.relief.is_empty() {
         return mapped::contacts(path, (solid, earlier), cutter, progress);
     }

@@ -3,7 +3,7 @@
 use crate::math;
 use crate::path::{Move, MovePace, Path};
 use crate::progress::Progress;
-use crate::stock::along::{Earlier, LOOK, MOST_STATIONS, heading};
+use crate::stock::along::{Earlier, INSIDE, LOOK, MOST_STATIONS, heading};
 use crate::stock::circle::{immersion, left_of};
 use crate::stock::contact::{Collider, Contacts, FloorArc, SideArc};
 use crate::stock::height_map::{HeightMap, Stamp};
@@ -69,7 +69,8 @@ pub(super) fn contacts(
             ahead = heading(step, within).unwrap_or(ahead);
             let feed = step.segment.tangent(within);
             let lean = [math::hypot(feed.x, feed.y), -feed.z];
-            let tip = step.segment.point(within);
+            let inside = (INSIDE * cutter.radius).min(length / 2.0);
+            let tip = step.segment.point(within.clamp(inside, length - inside));
             let view = MapView { map: &map, solid, cutter, directions: &directions, tip, ahead, lean };
             view.sides(is_vertical(step), &mut sides);
             view.floors(feed.z < -1e-6, &mut floors);

@@ -99,7 +99,7 @@ struct Seen {
 fn hold(name: &str, text: &str, solid: &Solid, origin: Vector2<f64>) -> (Seen, Vec<String>) {
     let path = program(text);
     let cutter = Cutter { radius: R / 1e3, corner: 0.0, flutes: f64::INFINITY };
-    let contacts = contacts(&path, solid, &cutter, &mut Progress::none());
+    let contacts = contacts(&path, (solid, &[]), &cutter, &mut Progress::none());
     let stations: Vec<(usize, f64)> =
         contacts.each().map(|((index, k), _)| (index, contacts.within(k))).collect();
     // All ramps nearby share the layers.

@@ -204,5 +204,5 @@ pub(crate) fn stock(kind: u64, origin: Vector2<f64>) -> Solid {
             at(1.0, 14.0),
         ]),
     };
-    Solid { outline, bottom: -5e-3, top: 0.0 }
+    Solid::prism(outline, -5e-3, 0.0)
 }
