@@ -261,3 +261,19 @@ fn a_map_too_coarse_for_the_tool_says_so() {
     assert!(coarse(wide));
     assert!(!coarse(json!({"kind":"box","from_mm":[-1,-1,-5],"to_mm":[4,1,0]})));
 }
+
+/// The top of the cut is where the material ends at that place, not where it does elsewhere: past a
+/// step of the stock, the tilt counts over the lower height only.
+#[test]
+fn the_wall_is_as_high_as_the_material_there() {
+    let low = json!({"kind":"box","from_mm":[-50,-50,-20],"to_mm":[50,50,-2]});
+    let report = run(&job(SLOT, low, &[]));
+    let setup = report.setup();
+    let index = setup.path.moves().iter().position(|step| step.segment.length() > 0.039).unwrap();
+    assert!((setup.axial_depth_at((index, 0.02)) - 1e-3).abs() < 1e-12);
+    assert_eq!(setup.axial_depth_at((0, 1e-3)), 0.0);
+    // Half a slot, then air: no wall there.
+    let half = json!({"kind":"box","from_mm":[-50,-50,-20],"to_mm":[0,50,0]});
+    let report = run(&job(SLOT, half, &[]));
+    assert_eq!(report.setup().axial_depth_at((index, 0.035)), 0.0);
+}

@@ -118,7 +118,9 @@ impl<'a> DeviationBuilder<'a> {
         }
         let axis = (axis + turned.cross(axis)).normalize();
         let depth = plan.setup.cut.axial_depth;
-        let top = wall::error_at_height(&plan.path, &closest, (&tip, &axis), depth);
+        let top = wall::error_at_height(&plan.path, &closest, (&tip, &axis), |place| {
+            plan.setup.axial_depth_at(place)
+        });
         let top = top.map_or(0.0, |error| error.norm());
         self.judged.add(match at {
             CompensateAt::Tip => error.norm(),

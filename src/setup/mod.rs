@@ -223,6 +223,13 @@ impl Setup {
         })
     }
 
+    /// Axial depth of cut [m] at a place of the path: its move, and the arc length within it [m].
+    pub fn axial_depth_at(&self, (index, within): (usize, f64)) -> f64 {
+        let Some(contacts) = &self.contacts else { return self.cut.axial_depth };
+        let around = contacts.around(index, within);
+        around.map_or(0.0, |(from, to, _)| contacts.at(from).axial_depth().max(contacts.at(to).axial_depth()))
+    }
+
     /// The workpiece as the controller counts: its base, work object or user frame.
     pub fn workpiece_in_world(&self) -> Pose {
         self.world.of_base(&self.workpiece)
