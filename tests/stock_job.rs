@@ -277,3 +277,21 @@ fn the_wall_is_as_high_as_the_material_there() {
     let report = run(&job(SLOT, half, &[]));
     assert_eq!(report.setup().axial_depth_at((index, 0.035)), 0.0);
 }
+
+/// The drawn revolution is that of the heaviest place: its mean is the mean force, its largest the peak.
+#[test]
+fn the_revolution_is_that_of_the_heaviest_place() {
+    let text = "G21 G90\nG0 X-20 Y0 Z5\nG1 Z-3 F300\nG1 X20 F600\nY3\nX-20\nG0 Z5\n";
+    for tool in [
+        json!({"diameter_mm":10,"flutes":3,"helix_deg":30}),
+        json!({"diameter_mm":10,"flutes":2,"corner_radius_mm":2}),
+    ] {
+        let report = run(&job(text, plate(), &[("tool", tool)]));
+        let (_, forces) = report.revolution(7200);
+        let mean = forces[1..].iter().sum::<nalgebra::Vector3<f64>>() / 7200.0;
+        let expected = report.mean_force();
+        assert!((mean - expected).norm() < 2e-3 * expected.norm(), "{mean:?} {expected:?}");
+        let largest = forces.iter().map(|force| force.norm()).fold(0.0, f64::max);
+        assert!((report.peak_force() / largest - 1.0).abs() < 5e-3, "{} {largest}", report.peak_force());
+    }
+}

@@ -246,10 +246,8 @@ impl Figures<'_> {
     }
 
     pub(super) fn revolution(&self) -> Content {
-        let setup = self.report.setup();
         let (size, unit) = (self.units.force.in_n(), self.units.force.name());
-        let chip = self.report.feed_per_tooth();
-        let (angles, forces) = setup.cut.revolution(720, chip);
+        let (angles, forces) = self.report.revolution(720);
         let mut curves: Vec<_> = AXES
             .iter()
             .enumerate()
@@ -268,7 +266,7 @@ impl Figures<'_> {
             mean.x,
             mean.y,
             mean.z,
-            setup.cut.peak_force(chip) / size
+            self.report.peak_force() / size
         );
         curves.push(Curve { key: "resultant", label: "resultant", class: "s4", values: resultant });
         for (key, label, value) in

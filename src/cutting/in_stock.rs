@@ -110,15 +110,26 @@ impl Cut {
     /// that of the bottom is its mean, and runout is left out.
     pub fn peak_force_in(&self, contact: &Contact, c: f64) -> f64 {
         let slices = self.engaged(contact);
+        let below = self.below(contact, &slices, c).norm();
+        if slices.is_empty() { below } else { self.peak_of(&slices, &slices, c * contact.across) + below }
+    }
+
+    /// Mean force by the feed down the axis [N], for the feed per tooth `c` [m] along the path.
+    fn below(&self, contact: &Contact, slices: &[Slice], c: f64) -> Vector3<f64> {
         let bottom = self.bottom(contact.floors);
         let down = contact.down.max(0.0);
-        let below =
-            (self.dipping(&slices) * contact.down + bottom.cutting * down) * c + bottom.edge * rubbing(down);
-        if slices.is_empty() {
-            below.norm()
-        } else {
-            self.peak_of(&slices, &slices, c * contact.across) + below.norm()
-        }
+        (self.dipping(slices) * contact.down + bottom.cutting * down) * c + bottom.edge * rubbing(down)
+    }
+
+    /// Force over one revolution at a contact, in `steps` even steps of the immersion angle, as
+    /// [`Cut::revolution`]; that of the bottom is its mean, and runout is left out.
+    pub fn revolution_in(&self, contact: &Contact, steps: usize, c: f64) -> (Vec<f64>, Vec<Vector3<f64>>) {
+        let slices = self.engaged(contact);
+        let below = self.below(contact, &slices, c);
+        let angles: Vec<f64> = (0..=steps).map(|step| TAU * step as f64 / steps as f64).collect();
+        let force = |&phi: &f64| self.instant(&slices, phi).at(c * contact.across) + below;
+        let forces = angles.iter().map(force).collect();
+        (angles, forces)
     }
 
     /// Figures of the cut at a contact.

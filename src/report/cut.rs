@@ -139,6 +139,19 @@ impl Report {
         self.local_cut().torque * turns * math::TAU
     }
 
+    /// Largest force within a revolution [N] at [`Report::feed_per_tooth`].
+    pub fn peak_force(&self) -> f64 {
+        self.local_cut().peak
+    }
+
+    /// Force over one revolution in even steps of the immersion angle: angles [rad] and forces [N] in
+    /// {T}; in a stock where the mean force is largest.
+    pub fn revolution(&self, steps: usize) -> (Vec<f64>, Vec<Vector3<f64>>) {
+        let (cut, c) = (&self.setup().cut, self.feed_per_tooth());
+        self.heaviest_contact()
+            .map_or_else(|| cut.revolution(steps, c), |contact| cut.revolution_in(&contact, steps, c))
+    }
+
     /// The cut at [`Report::feed_per_tooth`]: the stated one, or where it is heaviest in the stock.
     fn local_cut(&self) -> LocalCut {
         let (setup, c) = (self.setup(), self.feed_per_tooth());
