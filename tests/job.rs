@@ -478,10 +478,25 @@ fn columns_are_named_and_written_in_full() {
 
 #[test]
 fn every_chart_draws() {
-    use armill::chart::{CATALOG, ChartOptions, chart};
-    for changes in [vec![], vec![("shaper", json!("none")), ("cutting.axial_depth_mm", json!(0))]] {
+    use armill::chart::{CATALOG, ChartOptions, chart, charts_of};
+    let in_stock = json!({"kind":"extents","top_mm":5});
+    let jobs = [
+        vec![],
+        vec![("shaper", json!("none")), ("cutting.axial_depth_mm", json!(0))],
+        vec![("shaper", json!("none")), ("stock", in_stock)],
+    ];
+    for changes in jobs {
         let report = run(&changes);
-        for entry in CATALOG {
+        let stock = report.setup().contacts.is_some();
+        let charts = charts_of(&report);
+        for name in ["engagement", "removal"] {
+            assert_eq!(charts.iter().any(|entry| entry.name == name), stock, "{name}");
+            let drawn = chart(&report, name, &ChartOptions::sized(700.0, 320.0));
+            assert_eq!(drawn.is_ok(), stock, "{name}");
+        }
+        for entry in
+            CATALOG.into_iter().filter(|entry| stock || !["engagement", "removal"].contains(&entry.name))
+        {
             let options = ChartOptions::sized(700.0, 320.0);
             let drawn = chart(&report, entry.name, &options).unwrap();
             assert!(drawn.svg.starts_with("<svg") && !drawn.svg.contains("NaN"), "{}", entry.name);

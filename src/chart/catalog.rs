@@ -2,6 +2,7 @@
 
 use crate::chart::chart::{Chart, ChartOptions};
 use crate::chart::content::Content;
+use crate::chart::cut_in_stock::{ENGAGEMENT, REMOVAL};
 use crate::chart::figures::{BOTH, DEFLECTION, Figures, SHAPING};
 use crate::chart::unit::Units;
 use crate::column::Column;
@@ -39,7 +40,7 @@ const fn entry(
 const SPIN: &str = "spin";
 
 /// All charts, in the order of the page.
-pub const CATALOG: [Entry; 28] = [
+pub const CATALOG: [Entry; 30] = [
     entry("before-after", "Contour error before and after compensation", "overview", "5.18", "time"),
     entry("actual-path", "Desired and actual path, deviation magnified", "overview", "5.7", "space"),
     entry("convergence", "Contour error left after each pass", "overview", "", "curve"),
@@ -49,6 +50,8 @@ pub const CATALOG: [Entry; 28] = [
     entry("compensated-path", "Path to command, correction magnified", "path", "5.11", "space"),
     entry("revolution", "Milling force over one revolution", "forces", "4.2, 4.3", "curve"),
     entry("force", "Milling force in the base frame", "forces", "4.6", "time"),
+    entry(ENGAGEMENT, "Engagement in the stock", "forces", "", "time"),
+    entry(REMOVAL, "Material removal rate", "forces", "", "time"),
     entry("deflection", "Tip deflection by the milling force", "deflection", "4.8", "time"),
     entry(
         "deviation",
@@ -78,13 +81,19 @@ pub const CATALOG: [Entry; 28] = [
 
 /// The charts that apply to a report.
 pub fn charts_of(report: &Report) -> Vec<Entry> {
-    CATALOG.into_iter().filter(|entry| entry.name != SPIN || report.roll.is_some()).collect()
+    let applies = |entry: &Entry| match entry.name {
+        SPIN => report.roll.is_some(),
+        ENGAGEMENT | REMOVAL => report.setup().contacts.is_some(),
+        _ => true,
+    };
+    CATALOG.into_iter().filter(applies).collect()
 }
 
 /// Draws the chart `name` of a report.
 ///
 /// # Errors
-/// [`Error::Invalid`] for a name that is not in [`CATALOG`], or for options that cannot be drawn.
+/// [`Error::Invalid`] for a name that is not in [`CATALOG`], for one that does not apply to the report,
+/// or for options that cannot be drawn.
 pub fn chart(report: &Report, name: &str, options: &ChartOptions) -> Result<Chart, Error> {
     let content = content(report, name, options.units)?;
     let title = CATALOG.iter().find(|entry| entry.name == name).map_or("", |entry| entry.title);
@@ -96,7 +105,7 @@ pub fn chart(report: &Report, name: &str, options: &ChartOptions) -> Result<Char
 /// each series.
 ///
 /// # Errors
-/// [`Error::Invalid`] for a name that is not in [`CATALOG`].
+/// [`Error::Invalid`] for a name that is not in [`CATALOG`], or that does not apply to the report.
 pub fn data(report: &Report, name: &str, units: Units) -> Result<Vec<Column>, Error> {
     Ok(content(report, name, units)?.columns())
 }
@@ -124,6 +133,8 @@ fn content(report: &Report, name: &str, units: Units) -> Result<Content, Error> 
         "compensated-path" => figures.compensated(),
         "revolution" => figures.revolution(),
         "force" => figures.forces(),
+        ENGAGEMENT => figures.engagement()?,
+        REMOVAL => figures.removal()?,
         "deflection" => figures.lengths("Deflection", &report.deflection),
         "error-deflection" => figures.errors(&[(DEFLECTION, &forces.contour_error)]),
         "error-shaping" => figures.errors(&[(SHAPING, &shaping.contour_error)]),

@@ -43,7 +43,7 @@ impl Figures<'_> {
         (0..trajectory.len()).map(|k| k as f64 * trajectory.sample_time).collect()
     }
 
-    fn over_time(&self, description: String, y: Axis<'static>, curves: Vec<Curve>) -> Content {
+    pub(super) fn over_time(&self, description: String, y: Axis<'static>, curves: Vec<Curve>) -> Content {
         let shape = Shape::Curves { x: TIME, y, curves, markers: false, bands: vec![] };
         Content { description, at: self.time(), shape }
     }
@@ -261,8 +261,9 @@ impl Figures<'_> {
         let resultant: Vec<f64> = forces.iter().map(|f| f.norm() / size).collect();
         let mean = self.report.mean_force() / size;
         let description = format!(
-            "In the cutting frame (x along the feed, z along the tool axis), on the tool: mean \
+            "{}n the cutting frame (x along the feed, z along the tool axis), on the tool: mean \
              ({:.1}, {:.1}, {:.1}) {unit}, largest resultant {:.1} {unit}.",
+            if self.report.setup().contacts.is_some() { "Where the force is largest, i" } else { "I" },
             mean.x,
             mean.y,
             mean.z,
@@ -403,7 +404,7 @@ fn largest(vectors: &[Vector3<f64>]) -> f64 {
     vectors.iter().map(|v| v.norm()).fold(0.0, f64::max)
 }
 
-fn max(values: &[f64]) -> f64 {
+pub(super) fn max(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
 }
 
@@ -416,7 +417,7 @@ fn mean(values: &[f64]) -> f64 {
 }
 
 /// A number as text in a sentence.
-fn digits(value: f64) -> String {
+pub(super) fn digits(value: f64) -> String {
     match value.abs() {
         large if large >= 100.0 => format!("{value:.0}"),
         middle if middle >= 1.0 => format!("{value:.2}"),

@@ -17,6 +17,7 @@ pub mod space;
 pub mod svg;
 pub mod unit;
 mod content;
+mod cut_in_stock;
 mod figures;
 mod frame;
 mod scale;

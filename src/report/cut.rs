@@ -57,6 +57,10 @@ pub struct CutFigures {
     pub exit_deg: f64,
     /// Radial depth of cut [mm].
     pub radial_depth_mm: f64,
+    /// The stock that the engagement follows, in words; if there is one, entry, exit, depths, chip, force
+    /// and power are those of the place where the mean force is largest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stock: Option<String>,
     /// Volume that the program removes from the stock [cm^3], if one is given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub removed_cm3: Option<f64>,
@@ -217,6 +221,7 @@ impl Report {
             entry_deg: local.angles.0 / DEG,
             exit_deg: local.angles.1 / DEG,
             radial_depth_mm: local.radial / MM,
+            stock: setup.stock.clone(),
             removed_cm3: whole.map(|whole| whole.removed * 1e6),
             air_share: whole.map(|whole| whole.air),
             stock_cell_mm: setup.contacts.as_ref().and_then(|contacts| contacts.cell).map(|cell| cell / MM),

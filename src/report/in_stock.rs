@@ -70,7 +70,8 @@ pub(super) fn overloads(report: &Report, rated: f64) -> Option<(Vec<Span>, f64, 
     let contacts = report.setup().contacts.as_ref()?;
     let timing = report.plan.timing(Sources::ALL);
     let loads = report.setup().loading.along(&report.plan.path);
-    let power = |k: usize| report.sample_cut(contacts, &timing, &loads, k).power;
+    let mut last = LastFigures::default();
+    let power = |k: usize| report.sample_cut(contacts, &timing, &loads, k, &mut last).power;
     let powers: Vec<f64> = (0..report.samples()).map(power).collect();
     let worst = (0..powers.len()).max_by(|&a, &b| powers[a].total_cmp(&powers[b]))?;
     let line = report.plan.path.moves()[timing.index[worst] as usize].line;
@@ -105,6 +106,21 @@ struct SampleCut {
     torque: f64,
 }
 
+/// Figures at the last two stations, for samples are closer than stations.
+#[derive(Default)]
+struct LastFigures([Option<(usize, PlaceFigures)>; 2]);
+
+impl LastFigures {
+    fn at(&mut self, station: usize, figures: impl FnOnce() -> PlaceFigures) -> PlaceFigures {
+        if let Some((_, known)) = self.0.iter().flatten().find(|(at, _)| *at == station) {
+            return *known;
+        }
+        let found = figures();
+        self.0 = [self.0[1], Some((station, found))];
+        found
+    }
+}
+
 /// A column: key, label, unit, and its value in that unit.
 type CutColumn = (&'static str, &'static str, &'static str, fn(&SampleCut) -> f64);
 
@@ -128,14 +144,24 @@ impl Report {
         let loads = Arc::new(self.setup().loading.along(&self.plan.path));
         let column = |(key, label, unit, value): CutColumn| {
             let (timing, loads) = (timing.clone(), loads.clone());
-            let at = move |k: usize| value(&self.sample_cut(contacts, &timing, &loads, k));
-            Series::new(key, label, unit, self.samples(), move |samples| samples.map(&at).collect())
+            Series::new(key, label, unit, self.samples(), move |samples| {
+                let mut last = LastFigures::default();
+                let mut at = |k: usize| value(&self.sample_cut(contacts, &timing, &loads, k, &mut last));
+                samples.map(&mut at).collect()
+            })
         };
         COLUMNS.into_iter().map(column).collect()
     }
 
     /// The cut where the tool is by `timing` at the sample `k`.
-    fn sample_cut(&self, contacts: &Contacts, timing: &TimingLaw, loads: &Loads, k: usize) -> SampleCut {
+    fn sample_cut(
+        &self,
+        contacts: &Contacts,
+        timing: &TimingLaw,
+        loads: &Loads,
+        k: usize,
+        last: &mut LastFigures,
+    ) -> SampleCut {
         let (setup, path) = (self.setup(), &self.plan.path);
         let index = timing.index[k] as usize;
         let Some((from, to, share)) = contacts.around(index, timing.arc_length[k] - path.start(index)) else {
@@ -144,9 +170,9 @@ impl Report {
         let load = loads.at(timing, k);
         let spindle =
             path.moves()[index].spindle.unwrap_or(setup.teeth_per_second / f64::from(setup.cut.flutes));
-        let at = |station: usize| {
+        let mut at = |station: usize| {
             let contact = contacts.at(station);
-            let PlaceFigures { section, chip, torque } = setup.cut.figures_in(&contact);
+            let PlaceFigures { section, chip, torque } = last.at(station, || setup.cut.figures_in(&contact));
             let torque = torque[0] * load.chip + torque[1] * load.edge;
             let (entry, exit) = contact.bounds().unwrap_or_default();
             SampleCut {

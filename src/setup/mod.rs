@@ -15,6 +15,7 @@ use stock::StockEngagement;
 pub use cutting::ResolvedMaterial;
 pub use program::{Controller, ProgramOptions};
 pub use robot::robot;
+pub use stock::proposed as proposed_stock;
 
 use crate::cutting::{Bending, Cut, HeaviestPlace, Loading, MeanForces};
 use crate::error::Error;
@@ -79,6 +80,8 @@ pub struct Setup {
     pub mean_force: MeanForces,
     /// What the tool meets along the path, if the engagement follows from a stock.
     pub contacts: Option<Arc<Contacts>>,
+    /// That stock in words.
+    pub stock: Option<String>,
     /// Whether a stock cannot be followed because the tool axis is not the workpiece's z axis.
     pub tilted_in_stock: bool,
     /// Where the force in the stock is largest.
@@ -153,15 +156,15 @@ impl Setup {
         let read = if job.stock.is_none() { 1.0 } else { 0.5 };
         let (path, program) = path::desired(job, &mut progress.part("", 0.0, read))?;
         let cutter = cutting::cutter(&job.tool)?;
-        let (contacts, tilted_in_stock) = match stock::engagement(
+        let (contacts, stock, tilted_in_stock) = match stock::engagement(
             job,
             &path,
             &cutter,
             &mut progress.part("cut in the stock", read, 1.0),
         )? {
-            StockEngagement::Stated => (None, false),
-            StockEngagement::Tilted => (None, true),
-            StockEngagement::Followed(contacts) => (Some(Arc::new(contacts)), false),
+            StockEngagement::Stated => (None, None, false),
+            StockEngagement::Tilted => (None, None, true),
+            StockEngagement::Followed(contacts, words) => (Some(Arc::new(contacts)), Some(words), false),
         };
         let roll = job.spin.angle_deg * DEG;
         let path = motion::with_reference(path, &job.spin)?;
@@ -211,6 +214,7 @@ impl Setup {
             },
             loading,
             contacts,
+            stock,
             tilted_in_stock,
             cut,
             teeth_per_second: job.cutting.spindle_rpm * RPM * f64::from(job.tool.flutes),

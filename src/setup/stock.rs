@@ -5,6 +5,7 @@ use crate::job::fields;
 use crate::job::{self, EarlierProgram, Engaged, Job, StockKind};
 use crate::path::{MovePace, Path};
 use crate::progress::Progress;
+use crate::setup::path;
 use crate::stock::{Contacts, Cutter, Earlier, Outline, Solid, contacts};
 use crate::units::MM;
 use base64::Engine;
@@ -23,8 +24,8 @@ pub(super) enum StockEngagement {
     Stated,
     /// The job states it, for a stock cannot be followed: the tool axis is not the workpiece's z axis.
     Tilted,
-    /// What the tool meets in the stock.
-    Followed(Contacts),
+    /// What the tool meets in the stock, and the stock in words.
+    Followed(Contacts, String),
 }
 
 /// The engagement along a path in the workpiece frame.
@@ -51,7 +52,8 @@ pub(super) fn engagement(
         Some(_) if !is_upright(path) => StockEngagement::Tilted,
         Some(solid) => {
             let earlier = earlier(job)?;
-            StockEngagement::Followed(contacts(path, (&solid, &earlier), cutter, progress))
+            let words = in_words(&job.stock, &solid);
+            StockEngagement::Followed(contacts(path, (&solid, &earlier), cutter, progress), words)
         }
     })
 }
@@ -60,7 +62,7 @@ pub(super) fn engagement(
 fn earlier(job: &Job) -> Result<Vec<Earlier>, Error> {
     let read = |(number, given): (usize, &EarlierProgram)| {
         let field = format!("stock.earlier[{number}]");
-        let path = super::path::earlier(job, &given.text, &format!("{field}.text"))?;
+        let path = path::earlier(job, &given.text, &format!("{field}.text"))?;
         if !is_upright(&path) {
             return Err(Error::invalid(
                 format!("{field}.text"),
@@ -165,18 +167,41 @@ fn block(given: &job::Stock) -> Result<Solid, Error> {
     Ok(Solid::prism(Outline::rectangle(corner(from), corner(to)), from[2] * MM, to[2] * MM))
 }
 
-/// A box around the tool's axis on the moves that cut.
-fn extents(job: &Job, path: &Path) -> Result<Solid, Error> {
-    let allowance = job.stock.allowance_mm.unwrap_or(job.tool.diameter_mm) * MM;
+/// The stock that a job may give its path if it knows none: the extents of the program, up to the
+/// highest place that it cuts at if none of it is below zero. Of a path at one height, the job's axial
+/// depth is taken. `None` where a stock cannot be followed, or nothing cuts.
+///
+/// # Errors
+/// If the path cannot be read.
+pub fn proposed(job: &Job) -> Result<Option<job::Stock>, Error> {
+    let (path, _) = path::desired(job, &mut Progress::none())?;
+    let Some((low, high)) = bounds(&path).filter(|_| is_upright(&path)) else { return Ok(None) };
+    let level = high.z - low.z < 1e-9;
+    let top = if level { low.z + job.cutting.axial_depth_mm * MM } else { high.z };
+    if top <= low.z {
+        return Ok(None);
+    }
+    // To a nanometre, as a person would type it.
+    let top_mm = (low.z >= 0.0).then(|| (top / MM * 1e6).round() / 1e6);
+    Ok(Some(job::Stock { kind: StockKind::Extents, top_mm, ..job::Stock::default() }))
+}
+
+/// The smallest and largest coordinates of the moves that cut.
+fn bounds(path: &Path) -> Option<(Vector3<f64>, Vector3<f64>)> {
     let points = path
         .moves()
         .iter()
         .filter(|step| step.pace != MovePace::Rapid)
         .flat_map(|step| step.segment.extremes().into_iter().map(|s| step.segment.point(s)));
-    let bounds = points.fold(None, |bounds: Option<(Vector3<f64>, Vector3<f64>)>, point| {
+    points.fold(None, |bounds: Option<(Vector3<f64>, Vector3<f64>)>, point| {
         Some(bounds.map_or((point, point), |(low, high)| (low.inf(&point), high.sup(&point))))
-    });
-    let Some((low, high)) = bounds else {
+    })
+}
+
+/// A box around the tool's axis on the moves that cut.
+fn extents(job: &Job, path: &Path) -> Result<Solid, Error> {
+    let allowance = job.stock.allowance_mm.unwrap_or(job.tool.diameter_mm) * MM;
+    let Some((low, high)) = bounds(path) else {
         return Err(Error::invalid("stock.kind", "extents", "a program with a move that cuts"));
     };
     let top = match job.stock.top_mm {
@@ -194,6 +219,34 @@ fn extents(job: &Job, path: &Path) -> Result<Solid, Error> {
         return Err(Error::invalid("stock.allowance_mm", allowance / MM, "a box that is not empty"));
     }
     Ok(Solid::prism(outline, low.z - allowance.max(0.0), top))
+}
+
+/// A stock in words: kind, size across and heights.
+fn in_words(given: &job::Stock, solid: &Solid) -> String {
+    // To a thousandth of a millimetre, without a sign of zero.
+    let mm = |length: f64| (length / MM * 1e3).round() / 1e3 + 0.0;
+    let across = match &solid.outline {
+        Outline::Circle { radius, .. } => format!("diameter {}", mm(2.0 * radius)),
+        Outline::Polygon(corners) if given.kind == StockKind::Outline => format!("{} corners", corners.len()),
+        Outline::Polygon(corners) => {
+            let size = corners[2] - corners[0];
+            format!("{} × {}", mm(size.x), mm(size.y))
+        }
+    };
+    let kind = match given.kind {
+        StockKind::None => "none",
+        StockKind::Box => "box",
+        StockKind::Cylinder => "cylinder",
+        StockKind::Extents => "box around the program",
+        StockKind::Outline => "outline",
+        StockKind::Stl => "mesh",
+    };
+    let earlier = match given.earlier.as_ref().map_or(0, Vec::len) {
+        0 => "",
+        1 => ", cut by an earlier program",
+        _ => ", cut by earlier programs",
+    };
+    format!("{kind}, {across}, Z {} to {} mm{earlier}", mm(solid.bottom), mm(solid.top))
 }
 
 fn need<T>(value: Option<T>, key: &str) -> Result<T, Error> {

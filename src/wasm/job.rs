@@ -41,6 +41,12 @@ export interface MaterialPreset {
   kte_n_mm?: number; kre_n_mm?: number; kae_n_mm?: number; kc11_n_mm2?: number; mc?: number; orthogonal?: boolean;
 }
 export interface Presets { robots: RobotPreset[]; materials: MaterialPreset[]; }
+export interface Stock {
+  kind: "none" | "box" | "cylinder" | "extents" | "outline";
+  from_mm?: [number, number, number]; to_mm?: [number, number, number];
+  center_mm?: [number, number, number]; radius_mm?: number; height_mm?: number; allowance_mm?: number;
+  points_mm?: [number, number][]; bottom_mm?: number; top_mm?: number;
+}
 export interface Format { id: string; name: string; extension: string; note: string; }
 "#;
 
@@ -89,4 +95,12 @@ pub fn arm(json: &str) -> Result<Float64Array, JsValue> {
 pub fn place_in_front(json: &str) -> Result<Float64Array, JsValue> {
     let place = Job::from_json(json).and_then(|job| placement::in_front(&job));
     Ok(Float64Array::from(place.map_err(|error| thrown(&error))?.as_slice()))
+}
+
+/// The stock that a job may give its program if it knows none: the program's extents. Undefined where
+/// a stock cannot be followed. Throws an error if the path cannot be read.
+#[wasm_bindgen(unchecked_return_type = "Stock | undefined")]
+pub fn proposed_stock(json: &str) -> Result<JsValue, JsValue> {
+    let stock = Job::from_json(json).and_then(|job| setup::proposed_stock(&job));
+    stock.map_err(|error| thrown(&error))?.map_or(Ok(JsValue::UNDEFINED), |stock| object(&stock))
 }

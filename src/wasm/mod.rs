@@ -16,7 +16,7 @@ mod placement;
 mod thesis;
 
 pub use identify::{Identified, identify_response, identify_stiffness};
-pub use job::{arm, check, default_job, fields, formats, place_in_front, presets};
+pub use job::{arm, check, default_job, fields, formats, place_in_front, presets, proposed_stock};
 pub use placement::Survey;
 pub use run::{Run, run};
 pub use thesis::thesis_recomputed;

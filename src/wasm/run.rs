@@ -42,7 +42,7 @@ export interface CutFigures {
   feed_per_tooth_mm: number; mean_chip_mm: number; section_mm2: number; removal_cm3_min: number;
   peak_force_n: number; torque_nm: number; tooth_passing_hz: number; power_kw: number;
   entry_deg: number; exit_deg: number; radial_depth_mm: number;
-  removed_cm3?: number; air_share?: number; largest_engaged_deg?: number; stock_cell_mm?: number;
+  stock?: string; removed_cm3?: number; air_share?: number; largest_engaged_deg?: number; stock_cell_mm?: number;
   spindle_power_kw?: number; tool_bending_um_n?: number;
   made_at_chip_mm?: number; spread_percent?: number; kc11_n_mm2?: number; mc?: number;
 }

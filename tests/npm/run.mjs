@@ -13,6 +13,7 @@ const answers = {
   fields: [armill.fields()],
   formats: [armill.formats()],
   presets: [armill.presets()],
+  proposed_stock: [armill.proposed_stock(JSON.stringify(program)), armill.proposed_stock(armill.default_job())],
   thesis_recomputed: [armill.thesis_recomputed()],
 };
 const methods = {

@@ -1,0 +1,49 @@
+//! Charts of the cut along a program, for jobs with a stock.
+
+use crate::chart::chart::Axis;
+use crate::chart::content::{Content, Curve};
+use crate::chart::figures::{Figures, digits, max};
+use crate::error::Error;
+
+/// Shown only if the job has a stock.
+pub(super) const ENGAGEMENT: &str = "engagement";
+/// Shown only if the job has a stock.
+pub(super) const REMOVAL: &str = "removal";
+
+impl Figures<'_> {
+    /// How far around the tool is in material, and the bounds of that.
+    pub(super) fn engagement(&self) -> Result<Content, Error> {
+        let curves = [
+            ("engaged_deg", "engaged", "Engaged", "s1"),
+            ("entry_deg", "entry", "Entry", "s2"),
+            ("exit_deg", "exit", "Exit", "s3"),
+        ];
+        let curves = curves.map(|(column, key, label, class)| {
+            self.cut_column(ENGAGEMENT, column).map(|values| Curve { key, label, class, values })
+        });
+        let curves = curves.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let description = format!(
+            "Immersion angles at the tip, from the stock: at most {} deg in material.",
+            digits(max(&curves[0].values))
+        );
+        let y = Axis { label: "Angle", unit: "deg", zero: true, ..Axis::default() };
+        Ok(self.over_time(description, y, curves))
+    }
+
+    /// The material removal rate.
+    pub(super) fn removal(&self) -> Result<Content, Error> {
+        let values = self.cut_column(REMOVAL, "removal_cm3_min")?;
+        let description = format!("At most {} cm³/min.", digits(max(&values)));
+        let curves = vec![Curve { key: "removal", label: "Removal rate", class: "s1", values }];
+        let y = Axis { label: "Removal rate", unit: "cm³/min", zero: true, ..Axis::default() };
+        Ok(self.over_time(description, y, curves))
+    }
+
+    /// A column of the cut for the chart `name`.
+    fn cut_column(&self, name: &str, key: &str) -> Result<Vec<f64>, Error> {
+        let series = self.report.series().into_iter().find(|series| series.key == key);
+        let refused =
+            || Error::invalid("chart", format!("\"{name}\""), "a job whose engagement follows a stock");
+        series.map(|series| series.column().values).ok_or_else(refused)
+    }
+}
