@@ -1,14 +1,17 @@
 //! The page's example programs: each reads as intended, computes, and gains from compensation.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(clippy::disallowed_methods, reason = "independent values come from the standard library")]
 
 mod common;
 
 use armill::Report;
 use armill::deviation::{Source, Sources};
 use common::program::{example, folder};
-use common::{column, run};
+use common::{column, job_text, run};
 use serde::Deserialize;
+use serde_json::json;
 use std::collections::BTreeSet;
+use std::f64::consts::PI;
 use std::path::Path;
 
 /// An entry of `web/examples/index.json`, from which the page makes its menu.
@@ -19,6 +22,8 @@ struct Entry {
     kind: String,
     title: String,
     note: String,
+    stock: Option<serde_json::Value>,
+    tool: Option<serde_json::Value>,
 }
 
 /// The expected content of a program, worked out by hand. Lengths in mm.
@@ -250,4 +255,59 @@ fn gains(known: &Known, report: &Report) {
         assert!(after.max < before.max / 5.0, "{file}: {} deg before, {} deg after", before.max, after.max);
         assert!(after.mean < before.mean / 20.0, "{file}: {} deg, {} deg", before.mean, after.mean);
     }
+}
+
+/// Volumes by hand: the pocket less its rounded corners; the layer; two rings between the bore and the
+/// hole before it; of all, the tool is seldom in the air and never deeper than its program goes.
+#[test]
+fn the_stock_of_an_example_fits_it() {
+    let hole = 8.0 * (5.5 / (PI / 16.0).cos()).powi(2) * (PI / 8.0).sin();
+    let volumes = [
+        ("pocket.nc", (60.0 * 38.0 - (4.0 - PI) * 121.0) * 4.0),
+        ("face.nc", 100.0 * 50.0 * 2.0),
+        ("bore.nc", 2.0 * 6.0 * (PI * 225.0 - hole)),
+    ];
+    let mut fitted = 0;
+    for entry in index() {
+        let Some((stock, tool)) = entry.stock.clone().zip(entry.tool.clone()) else { continue };
+        let cut =
+            run(&[("path", program(&entry)), ("stock", stock), ("tool", tool), ("shaper", json!("none"))])
+                .summary()
+                .cut;
+        let (air, removed) = (cut.air_share.unwrap(), cut.removed_cm3.unwrap());
+        assert!(air > 0.0 && air < 0.25, "{}: {air}", entry.file);
+        assert!(cut.axial_depth_mm <= 5.0 + 1e-9, "{}: {}", entry.file, cut.axial_depth_mm);
+        if let Some((_, expected)) = volumes.iter().find(|(file, _)| *file == entry.file) {
+            let share = removed * 1e3 / expected;
+            assert!((share - 1.0).abs() < 3e-3, "{}: {removed} cm3, by hand {expected} mm3", entry.file);
+        }
+        fitted += 1;
+    }
+    assert_eq!(fitted, 5);
+}
+
+/// What a program gets that knows no stock: its extents, their top where none of it is below zero.
+#[test]
+fn a_stock_is_proposed_for_what_an_upright_tool_cuts() {
+    let proposed = |path: serde_json::Value| {
+        let job = armill::Job::from_json(&job_text(&[("path", path)])).unwrap();
+        armill::setup::proposed_stock(&job).map(|stock| json!(stock))
+    };
+    let gcode = |text: &str| proposed(json!({"kind":"gcode","text":text}));
+    let below = "G21 G90\nG0 X600 Y0 Z20\nG1 Z-3 F600\nX640\nG0 Z20\nM30";
+    assert_eq!(gcode(below).unwrap(), json!({"kind":"extents"}));
+    let above = below.replace("Z-3", "Z95").replace("Z20", "Z98.1");
+    assert_eq!(gcode(&above).unwrap(), json!({"kind":"extents","top_mm":98.1}), "it is fed down from there");
+    let level = json!({"kind":"csv","text":"x,y,z\n600,0,100\n640,0,100"});
+    assert_eq!(proposed(level).unwrap(), json!({"kind":"extents","top_mm":110.0}), "by the axial depth");
+    for entry in index() {
+        let stock = proposed(program(&entry)).unwrap();
+        assert_eq!(stock.is_null(), ["apt", "csv"].contains(&entry.kind.as_str()), "{}", entry.file);
+    }
+    assert_eq!(gcode("G21 G90\nG0 X600 Y0 Z20\nX640").unwrap(), json!(null), "nothing cuts");
+    assert_eq!(gcode("G21 G90\nG41 X600").unwrap_err().code(), "text");
+}
+
+fn program(entry: &Entry) -> serde_json::Value {
+    json!({"kind": entry.kind, "text": std::fs::read_to_string(folder().join(&entry.file)).unwrap()})
 }

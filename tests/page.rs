@@ -546,6 +546,7 @@ fn programs_come_in_and_go_out() -> Result {
         assert_eq!(page.js(selected).await?, "G41 D1 X610");
         // An example opens as its own kind.
         page.choose("#examples", "dome.apt").await?;
+        page.wait_for("document.querySelector('#path-kind').value === 'apt'", 20.0).await?;
         current(page).await?;
         assert_eq!(page.value("#path-kind").await?, "apt");
         assert!(self::text(page, "understood").await?.contains("the tool axis turns"));

@@ -122,6 +122,23 @@ pub(crate) fn example(file: &str, kind: &str) -> Vec<(&'static str, Value)> {
     ]
 }
 
+/// An example as the page opens it: with its stock and tool, without the default job's shaper.
+pub(crate) fn opened_example(file: &str) -> Vec<(&'static str, Value)> {
+    let text = std::fs::read_to_string(folder().join("index.json")).unwrap();
+    let index: Vec<Value> = serde_json::from_str(&text).unwrap();
+    let entry = index.iter().find(|entry| entry["file"] == file).unwrap();
+    let program = std::fs::read_to_string(folder().join(file)).unwrap();
+    let mut changes = vec![
+        ("path", json!({"kind": entry["kind"], "text": program})),
+        ("shaper", json!("none")),
+        ("stock", entry["stock"].clone()),
+    ];
+    for (key, path) in [("diameter_mm", "tool.diameter_mm"), ("corner_radius_mm", "tool.corner_radius_mm")] {
+        changes.push((path, entry["tool"][key].clone()));
+    }
+    changes
+}
+
 /// The folder of the example programs.
 pub(crate) fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("web/examples")

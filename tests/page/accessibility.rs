@@ -84,7 +84,17 @@ fn every_answer_is_accessible() -> Result {
         stale(page).await?;
         look(page, "out of reach", &mut notes).await?;
         unfold(page, "path").await?;
+        page.choose("#examples", "pocket.nc").await?;
+        page.wait_for("document.querySelector('#stock-kind').value === 'box'", 20.0).await?;
+        current(page).await?;
+        for group in ["stock", "cutting"] {
+            unfold(page, group).await?;
+        }
+        page.click("#tab-forces").await?;
+        page.wait_for("document.querySelector('#chart-removal svg .series')", 30.0).await?;
+        look(page, "in a stock", &mut notes).await?;
         page.choose("#examples", "dome.apt").await?;
+        page.wait_for("document.querySelector('#path-kind').value === 'apt'", 20.0).await?;
         current(page).await?;
         page.click("#tab-path").await?;
         look(page, "program", &mut notes).await?;

@@ -4,6 +4,7 @@ use armill::Report;
 use serde_json::{Value, json};
 
 use crate::browser::{DESKTOP, Page, Result, setting, visit};
+use crate::common::program::opened_example;
 use crate::common::run;
 use crate::current;
 
@@ -218,6 +219,19 @@ fn a_page_of_rustdoc_holds_the_calculator() -> Result {
 }
 
 #[test]
+fn a_frame_says_what_stock_its_cut_follows() -> Result {
+    visit("/embed.html#preset=face&inputs=cutting&charts=forces", DESKTOP, async |page| {
+        let mut face = opened_example("face.nc");
+        face.retain(|(path, _)| *path != "shaper");
+        let report = run(&face);
+        answers(page, &report).await?;
+        let stock = report.summary().cut.stock.ok_or("no stock")?;
+        assert_eq!(page.text("#stock").await?, format!("Engagement from the stock: {stock}."));
+        page.wait_for("document.querySelector('#chart-engagement svg .series')", 30.0).await
+    })
+}
+
+#[test]
 fn a_page_of_mdbook_holds_calculators() -> Result {
     let address = format!("{}book/embed.html", setting("ARMILL_DOCS_URL")?);
     visit(&address, DESKTOP, async |page| {
@@ -225,8 +239,10 @@ fn a_page_of_mdbook_holds_calculators() -> Result {
         fits(page, "#default").await?;
         let slot = include_str!("../../xtask/docs/book/src/slot.json");
         frame_answers(page, "#file", &armill::run_json(slot, &mut armill::Progress::none())?).await?;
-        let pocket = json!({"kind": "gcode", "text": include_str!("../../web/examples/pocket.nc")});
-        let pocket = run(&[("path", pocket), ("material", json!({"preset": "al-7075-t6"}))]);
+        let mut pocket = opened_example("pocket.nc");
+        pocket.retain(|(path, _)| *path != "shaper");
+        pocket.push(("material", json!({"preset": "al-7075-t6"})));
+        let pocket = run(&pocket);
         frame_answers(page, "#preset", &pocket).await?;
         let height =
             format!("return {}.defaultView.frameElement.getBoundingClientRect().height", inside("#preset"));

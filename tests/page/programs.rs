@@ -2,6 +2,7 @@
 //! long ones.
 
 use crate::browser::{DESKTOP, Page, Result, visit};
+use crate::common::program::opened_example;
 use crate::common::{job_text, run};
 use crate::{current, shows, stale, text};
 use armill::verification::Programs;
@@ -22,9 +23,14 @@ async fn drop(page: &Page, name: &str, content: &str) -> Result {
     Ok(())
 }
 
-/// The job of an opened program: the example's shaper goes with the example's path.
-fn job(kind: &str, text: &str) -> [(&'static str, Value); 2] {
-    [("path", json!({ "kind": kind, "text": text })), ("shaper", json!("none"))]
+/// The job of an opened program: the example's shaper goes with the example's path, and the program
+/// stands in a stock up to `top` [mm].
+fn job(kind: &str, text: &str, top: f64) -> [(&'static str, Value); 3] {
+    [
+        ("path", json!({ "kind": kind, "text": text })),
+        ("shaper", json!("none")),
+        ("stock", json!({"kind": "extents", "top_mm": top})),
+    ]
 }
 
 /// The selected line of the program, from 1, and its text.
@@ -43,7 +49,7 @@ fn a_dropped_program_is_the_path() -> Result {
         page.type_into("#motion-feed_mm_s", "50").await?;
         drop(page, "slot.nc", SLOT).await?;
         page.wait_for("document.querySelector('#path-kind').value === 'gcode'", 20.0).await?;
-        let slot = [job("gcode", SLOT).as_slice(), &[("motion.feed_mm_s", json!(50))]].concat();
+        let slot = [job("gcode", SLOT, 120.0).as_slice(), &[("motion.feed_mm_s", json!(50))]].concat();
         shows(page, &run(&slot)).await?;
         assert_eq!(page.value("#path-text").await?, SLOT, "as dropped");
         // The content determines the language, whatever the name; undo restores the previous
@@ -70,7 +76,7 @@ fn a_chart_leads_to_its_line_and_back() -> Result {
         page.click("#tab-overview").await?;
         page.wait_for("document.querySelector('#chart-before-after svg')", 20.0).await?;
         // From the line to the chart: the caret in line 7 moves the cursor to the start of its run.
-        let lines = crate::common::column(&run(&job("gcode", SLOT)), "program_line");
+        let lines = crate::common::column(&run(&job("gcode", SLOT, 120.0)), "program_line");
         let seventh = lines.iter().position(|line| *line == 7.0).ok_or("line 7 does not run")?;
         page.js("const t = document.getElementById('path-text'); const at = t.value.indexOf('G1 Y-40'); \
              t.focus(); t.setSelectionRange(at, at); t.click()")
@@ -128,15 +134,18 @@ fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
         let long = format!("G21 G90\nS4000 M3\nG0 X600 Y0 Z100\nG1 F6000\n{moves}M30");
         drop(page, "long.nc", &long).await?;
         page.wait_for("document.querySelector('#path-kind').value === 'gcode'", 20.0).await?;
-        shows(page, &run(&job("gcode", &long))).await?;
+        shows(page, &run(&job("gcode", &long, 110.0))).await?;
         let listing = text(page, "path-text-window").await?;
         assert!(listing.contains("1 G21 G90") && listing.len() < 1000, "{listing}");
         let note = page.text(".listing .note").await?;
         assert!(note.contains("long.nc: 25\u{202f}005 lines, 0.2 MB"), "{note}");
         // An edit elsewhere keeps the text; so does the saved job.
         page.type_into("#motion-feed_mm_s", "90").await?;
-        shows(page, &run(&[job("gcode", &long).as_slice(), &[("motion.feed_mm_s", json!(90))]].concat()))
-            .await?;
+        shows(
+            page,
+            &run(&[job("gcode", &long, 110.0).as_slice(), &[("motion.feed_mm_s", json!(90))]].concat()),
+        )
+        .await?;
         page.click("#download-job").await?;
         let saved: Value = serde_json::from_str(&page.downloaded("armill-job.json").await?)?;
         assert_eq!(saved["path"]["text"], json!(long));
@@ -168,6 +177,7 @@ fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
         assert!(text(page, "path-text-window").await?.contains("15005 X630.000 A5"));
         // A short program is an editable text again.
         page.choose("#examples", "contour.nc").await?;
+        page.wait_for("document.querySelector('#stock-kind').value === 'box'", 20.0).await?;
         current(page).await?;
         assert!(page.value("#path-text").await?.starts_with('%'));
         Ok(())
@@ -209,5 +219,42 @@ fn what_a_program_is_worth_stands_under_the_verdict() -> Result {
         page.wait_for(&stated.replace("Staubli", "KUKA"), 20.0).await?;
         assert!(text(page, "as-program").await?.starts_with(&carried.sentence));
         Ok(())
+    })
+}
+
+/// A program without a stock gets one; a job's own is kept, an example's goes with the example; where the
+/// tool tilts, there is none.
+#[test]
+fn an_opened_program_brings_a_stock() -> Result {
+    let own = json!({"kind":"box","from_mm":[500,-50,90],"to_mm":[700,50,101]});
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        drop(page, "slot.nc", SLOT).await?;
+        page.wait_for("document.querySelector('#path-kind').value === 'gcode'", 20.0).await?;
+        shows(page, &run(&job("gcode", SLOT, 120.0))).await?;
+        assert_eq!(page.value("#stock-kind").await?, "extents");
+        page.choose("#examples", "face.nc").await?;
+        page.wait_for("document.querySelector('#stock-kind').value === 'box'", 20.0).await?;
+        shows(page, &run(&opened_example("face.nc"))).await?;
+        page.choose("#examples", "dome.apt").await?;
+        page.wait_for("document.querySelector('#path-kind').value === 'apt'", 20.0).await?;
+        current(page).await?;
+        assert_eq!(page.value("#stock-kind").await?, "none");
+        // One's own stays, whatever program comes.
+        drop(page, "own.json", &job_text(&[("stock", own.clone()), ("shaper", json!("none"))])).await?;
+        page.wait_for("document.querySelector('#stock-kind').value === 'box'", 20.0).await?;
+        current(page).await?;
+        drop(page, "slot.nc", SLOT).await?;
+        page.wait_for("document.querySelector('#path-kind').value === 'gcode'", 20.0).await?;
+        let kept =
+            [("path", json!({"kind": "gcode", "text": SLOT})), ("shaper", json!("none")), ("stock", own)];
+        shows(page, &run(&kept)).await?;
+        // A program pasted over all of the text is opened as well.
+        page.js("const t = document.getElementById('path-text'); t.focus(); t.select(); \
+             const data = new DataTransfer(); data.setData('text/plain', 'UNITS/MM\\nFEDRAT/1200,MMPM\\nGOTO/600,0,100\\nGOTO/640,0,100\\nFINI'); \
+             t.dispatchEvent(new ClipboardEvent('paste', { clipboardData: data, bubbles: true, cancelable: true }))")
+            .await?;
+        page.wait_for("document.querySelector('#path-kind').value === 'apt'", 20.0).await?;
+        current(page).await
     })
 }

@@ -25,6 +25,7 @@ fn the_one_file_page_works_from_disk() -> Result {
         assert_eq!(page.js("return document.getElementById('share-embed')").await?, json!(null));
         // The examples are inside.
         page.choose("#examples", "rim.csv").await?;
+        page.wait_for("document.querySelector('#path-kind').value === 'csv'", 20.0).await?;
         current(page).await?;
         assert_eq!(page.value("#path-kind").await?, "csv");
         assert!(text(page, "understood").await?.contains("the tool axis turns"));

@@ -1,6 +1,7 @@
 //! Where the inputs come from and where they go: links, the browser's storage, undo and redo.
 
 use crate::browser::{DESKTOP, Key, Page, Result, visit};
+use crate::common::program::opened_example;
 use crate::common::{job_text, run};
 use crate::hostile::drop_file;
 use crate::{current, shows, stale, text};
@@ -379,4 +380,28 @@ fn a_result_is_shared_in_three_forms() -> Result {
         assert!(saved.contains(&rows[1400]));
         Ok(())
     })
+}
+
+#[test]
+fn a_stock_survives_a_link_and_a_reload_and_is_reported() -> Result {
+    let report = run(&opened_example("contour.nc"));
+    let link = std::cell::OnceCell::new();
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        crate::unfold(page, "path").await?;
+        page.choose("#examples", "contour.nc").await?;
+        page.wait_for("document.querySelector('#stock-kind').value === 'box'", 20.0).await?;
+        shows(page, &report).await?;
+        let stock = report.summary().cut.stock.ok_or("no stock")?;
+        let said = format!("Engagement from the stock: {stock}. It loses 2.49 cm³");
+        let markdown = shared(page, "markdown").await?;
+        assert!(
+            markdown.contains(&said) && markdown.contains("- Stock: box (default not given)"),
+            "{markdown}"
+        );
+        link.set(shared(page, "link").await?.split_once('#').ok_or("no fragment")?.1.to_owned())?;
+        page.reload().await?;
+        shows(page, &report).await
+    })?;
+    visit(&format!("/#{}", link.get().ok_or("no link")?), DESKTOP, async |page| shows(page, &report).await)
 }

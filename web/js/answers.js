@@ -22,6 +22,7 @@ const answers = {
   check: (json) => void armill.check(json),
   arm: (json) => armill.arm(json),
   place: (json) => armill.place_in_front(json),
+  stock: (json) => armill.proposed_stock(json),
   run(json = armill.default_job()) {
     let last = 0;
     const fresh = armill.run(json, (fraction, stage) => {

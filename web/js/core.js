@@ -89,6 +89,9 @@ export const armAtZero = (json) => (spare ??= spawn()).ask("arm", json);
 /** Resolves with x, y, z [mm] of the workpiece frame that bring the path in front of the robot. */
 export const placeInFront = (json) => (spare ??= spawn()).ask("place", json);
 
+/** Resolves with the stock to give a job's program if it has none of its own, or undefined. */
+export const proposedStock = (json) => (spare ??= spawn()).ask("stock", json);
+
 /** The thesis's printed figures beside ours; they are the default job's, whatever is shown. */
 export const thesis = () => (spare ??= spawn()).ask("thesis");
 

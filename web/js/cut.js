@@ -13,6 +13,8 @@ const EXACT = 1e-6; // angles nearer than this are a wall's [deg]
 /** Shows the cut of a result. */
 export function showCut({ material, material_note, cut, walls, mean_force_n }) {
   const figure = () => make("figure", { className: "engagement" }, drawing(cut), make("figcaption", {}, inWords(cut)));
+  byId("cut-stock").hidden = !cut.stock;
+  byId("cut-stock").textContent = cut.stock ? stockSentence(cut) : "";
   byId("cut-drawing").replaceChildren(figure());
   byId("group-cutting")?.querySelector("fieldset").append(sketchOf(figure));
   byId("cut-material").textContent = [material, material_note].filter(Boolean).join(". ");
@@ -47,17 +49,35 @@ function wayOf(cut) {
 
 function inWords(cut) {
   const angle = (value) => formatNumber(Number(value.toFixed(2)));
+  const where = cut.stock ? "Where the force is largest: " : "";
+  if (isAir(cut)) return `${where}no tooth cuts with its side.`;
   return (
-    `${wayOf(cut)}, seen from the spindle: a tooth cuts from ${angle(cut.entry_deg)} to ${angle(cut.exit_deg)} ` +
+    `${where}${wayOf(cut)}, seen from the spindle: a tooth cuts from ${angle(cut.entry_deg)} to ${angle(cut.exit_deg)} ` +
     `deg; radial depth ${lengthText(tidy(cut.radial_depth_mm))} ${lengthUnit()}.`
   );
 }
+
+/** Whether the side of the tool touches nothing. */
+const isAir = ({ entry_deg, exit_deg, axial_depth_mm, stock }) =>
+  stock !== undefined && (exit_deg - entry_deg < EXACT || axial_depth_mm === 0);
+
+/** What stands above the figures of a job with a stock. */
+const stockSentence = ({ stock }) =>
+  `Engagement from the stock: ${stock}. Drawing, entry, exit, depths, chip, forces, torque, power and removal rate are those where the force is largest.`;
 
 /** Where the drawing has the immersion angle: from the left (y), clockwise over the feed (up). */
 const at = (degrees, radius = RADIUS) => [-Math.cos(degrees * DEG) * radius, -Math.sin(degrees * DEG) * radius];
 const point = (xy) => xy.map((value) => value.toFixed(2)).join(" ");
 
+function toolAlone(cut) {
+  const viewBox = `${-EDGE} ${-EDGE} ${2 * EDGE} ${2 * EDGE}`;
+  const svg = makeSvg("svg", { viewBox, role: "img", "aria-label": inWords(cut) });
+  svg.append(makeSvg("circle", { class: "tool", r: RADIUS }));
+  return svg;
+}
+
 function drawing(cut) {
+  if (isAir(cut)) return toolAlone(cut);
   const { entry_deg: entry, exit_deg: exit } = cut;
   const [from, to] = [at(entry), at(exit)];
   const arc = `A ${RADIUS} ${RADIUS} 0 0 1 ${point(to)}`;
@@ -119,6 +139,12 @@ function figures(cut, mean) {
     ],
     ["Removal rate", "cm³/min", n("removal_cm3_min"), "removal_cm3_min"],
   ];
+  if (cut.stock)
+    rows.push(
+      ["Largest engaged angle", "deg", n("largest_engaged_deg"), "largest_engaged_deg"],
+      ["Removed volume", "cm³", n("removed_cm3"), "removed_cm3"],
+      ["Way in the air", "%", formatNumber(100 * cut.air_share, 2), "air_share"],
+    );
   if (cut.removal_cm3_min > 0)
     rows.push(["Power for removal rate", "N/mm²", formatNumber((cut.power_kw * 6e4) / cut.removal_cm3_min)]);
   if (cut.kc11_n_mm2) rows.splice(1, 0, ["k_c1.1; m_c", "N/mm²; 1", `${n("kc11_n_mm2", 4)}; ${n("mc")}`]);

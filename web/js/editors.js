@@ -20,6 +20,7 @@ const DH_ORDER = ["alpha_deg", "a_mm", "d_mm", "theta_offset_deg", "joint_sign",
 export const idOf = (path) => path.replaceAll(".", "-");
 
 export function editorFor(field) {
+  if (field.path === "stock.points_mm") return rows(field, ["x", "y"]);
   if (field.path.endsWith("points_mm") || field.path.endsWith("work_offsets_mm")) return rows(field, ["x", "y", "z"]);
   if (field.path.endsWith("length_offsets_mm")) return rows(field, ["H", "length"]);
   if (field.path.endsWith("springs_nm_arcmin")) return rows(field, ["joint", "torque", "turn"]);

@@ -81,7 +81,9 @@ function cannotStart(error) {
   alertOn(error.message ?? String(error));
 }
 
-function show({ verdict, before_mm, after_mm, fingerprint }) {
+function show({ verdict, before_mm, after_mm, cut, fingerprint }) {
+  byId("stock").hidden = !cut.stock;
+  byId("stock").textContent = cut.stock ? `Engagement from the stock: ${cut.stock}.` : "";
   byId("verdict").textContent = verdict;
   for (const [row, { mean, max }] of [
     [".before", before_mm.both],

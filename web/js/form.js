@@ -2,6 +2,7 @@
 
 import { byId, make, sentence } from "./dom.js";
 import { editorFor, idOf, Mistake } from "./editors.js";
+import { FROM_STOCK } from "./job.js";
 import { scrub } from "./scrub.js";
 import { asText, brief, helpText, withOwn } from "./words.js";
 
@@ -9,6 +10,7 @@ const GROUPS = {
   robot: "Robot",
   frames: "Frames",
   path: "Path",
+  stock: "Stock",
   motion: "Motion",
   tool: "Tool",
   material: "Material",
@@ -234,6 +236,7 @@ export class Form {
       row.note.textContent = this.#preset()?.world_note ?? "";
       return;
     }
+    if (row.field.path === "cutting.engagement") return this.#sourceOfEngagement(row);
     row.note.textContent = row.field.kind === "choice" ? (row.notes[this.#job.get(row.field)] ?? "") : "";
   }
 
@@ -248,6 +251,18 @@ export class Form {
     const given = this.#job.changed(row.field);
     row.note.textContent = preset && !given ? preset.stiffness_note : "";
     row.node.classList.toggle("assumed", Boolean(preset?.stiffness_assumed && !given));
+  }
+
+  /** Without a stock nothing follows from it; with one, nothing else is asked for. */
+  #sourceOfEngagement(row) {
+    const stock = this.#job.hasStock;
+    const follows = this.#job.get(row.field) === FROM_STOCK;
+    for (const option of row.editor.inputs[0].options) option.disabled = option.value === FROM_STOCK && !stock;
+    row.note.textContent = !stock
+      ? "With a stock, it can follow what is left of the material along the path."
+      : follows
+        ? "Depths and angles come from the stock, place by place."
+        : "This engagement holds all along the path: the stock is not used.";
   }
 
   /** What a folded group holds, in a few words. */

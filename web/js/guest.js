@@ -53,6 +53,8 @@ async function put(name, job, { robots, materials }) {
     if (!example)
       throw unknown("preset", name, [...robots, ...materials].map(({ id }) => id).concat(examples.map(nameOf)));
     job.path = { kind: example.kind, text: await readText(`examples/${example.file}`) };
+    if (example.stock) job.stock = example.stock;
+    Object.assign((job.tool ??= {}), example.tool);
   }
 }
 

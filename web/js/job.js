@@ -10,7 +10,11 @@ const MOST_POINTS = 5000; // in a field of their own: browsers take seconds to l
 const TURN = 2 * Math.PI;
 export const OWN = "table"; // what a preset choice says when the numbers are one's own
 export const KIENZLE = "kienzle"; // the same for a material by k_c1.1 and m_c
+export const FROM_STOCK = "from-stock"; // the engagement that a stock brings with it
 const OWN_FORMS = [OWN, "opw", KIENZLE]; // a robot's may be ortho-parallel parameters instead
+
+const ENGAGEMENT = "cutting.engagement";
+const EXTENTS = ["stock.allowance_mm", "stock.top_mm"]; // what the extents of a program give by themselves
 
 const keys = (path) => path.match(/[^.[\]]+/g);
 const parentOf = (path) => path.slice(0, Math.max(0, path.lastIndexOf(".")));
@@ -83,7 +87,12 @@ export class Job {
     const value = this.#read(field.path);
     if (value !== undefined) return value;
     if (field.path.endsWith(".preset") && part) return this.#stateOf(parentOf(field.path));
-    return this.#presetOf(parentOf(field.path))[keyOf(field.path)] ?? field.default;
+    return this.#presetOf(parentOf(field.path))[keyOf(field.path)] ?? this.#standard(field);
+  }
+
+  /** Whether the job has a stock. */
+  get hasStock() {
+    return (this.#read("stock.kind") ?? "none") !== "none";
   }
 
   /** Whether the field belongs to the job's present shape. */
@@ -98,6 +107,7 @@ export class Job {
   set(field, value) {
     if (field.path.startsWith("robot.") && field.path !== "robot.name") this.#forgetCovariance();
     if (decides(field)) return this.#reshape(field, value);
+    if (field.path === ENGAGEMENT && value === FROM_STOCK) return this.#forget(ENGAGEMENT);
     this.#write(field.path, value);
     // What the choice asks for starts as the form shows it.
     for (const { path, when, default: standard } of this.#fields) {
@@ -108,18 +118,16 @@ export class Job {
 
   /** Takes the field back to its default. */
   reset(field) {
-    const optional = this.#overrules(field) || field.when?.path === "uncertainty";
-    if (optional) delete this.#read(parentOf(field.path))?.[keyOf(field.path)];
+    const optional = this.#overrules(field) || field.when?.path === "uncertainty" || this.#isOptional(field);
+    if (optional) this.#forget(field.path);
     else this.set(field, structuredClone(field.default));
   }
 
   /** Whether the field differs from its default. */
   changed(field) {
     if (this.#read(parentOf(field.path))?.preset && !decides(field)) return this.#overrules(field);
-    const value = this.get(field);
-    return typeof value === "string"
-      ? value !== field.default
-      : JSON.stringify(value) !== JSON.stringify(field.default);
+    const [value, standard] = [this.get(field), this.#standard(field)];
+    return typeof value === "string" ? value !== standard : JSON.stringify(value) !== JSON.stringify(standard);
   }
 
   /** Another job of the same kind, from its plain object. */
@@ -164,6 +172,24 @@ export class Job {
   /** A covariance belongs to the compliances that it was identified with. */
   #forgetCovariance() {
     delete this.#data.uncertainty?.compliance_covariance;
+  }
+
+  /** What holds where the job leaves a field out. */
+  #standard(field) {
+    if (field.path === ENGAGEMENT && this.hasStock) return FROM_STOCK;
+    if (field.path === "stock.allowance_mm") return this.#read("tool.diameter_mm") ?? field.default;
+    return field.default;
+  }
+
+  /** Whether a field is better left out than given by its default. */
+  #isOptional({ path }) {
+    return path === ENGAGEMENT || (this.#read("stock.kind") === "extents" && EXTENTS.includes(path));
+  }
+
+  /** Leaves a field out; a radial depth is refused without the engagement that it belongs to. */
+  #forget(path) {
+    delete this.#read(parentOf(path))?.[keyOf(path)];
+    if (path === ENGAGEMENT) delete this.#data.cutting?.radial_depth_mm;
   }
 
   #find(path) {
@@ -237,7 +263,14 @@ export class Job {
         if (!field?.defaults) known.set(key, value);
       }
     }
+    if (path === "stock" && choice === "none") return this.#dropStock();
     this.#write(path, choice === "none" ? "none" : this.#shape(path, known, decider, choice));
+  }
+
+  /** Without a stock, the engagement cannot follow from it. */
+  #dropStock() {
+    delete this.#data.stock;
+    if (this.#read(ENGAGEMENT) === FROM_STOCK) this.#forget(ENGAGEMENT);
   }
 
   /** An object with every field of a part that is needed when `decider` is `choice`. */
@@ -255,6 +288,7 @@ export class Job {
       const asked = field.when && (field.when.path === decider?.path || (own && field.when.path === path));
       const needless = asked && !field.when.is.includes(choice);
       if (byPreset || needless || this.#inOtherUnit(field, known)) continue;
+      if (choice === "extents" && EXTENTS.includes(field.path)) continue;
       const standard = field.defaults?.[choice] ?? field.default;
       shape[key] = structuredClone(known.get(key) ?? this.#drafts.get(draftKey(field, choice)) ?? standard);
     }

@@ -27,6 +27,7 @@ class Listing {
   #visible = 12;
   #height = 18; // of a line, px
   #onpoint = () => {};
+  #onreplaced = (text) => (this.text = text);
 
   constructor(id) {
     this.#area = make("textarea", { id, rows: 8, spellcheck: false });
@@ -84,6 +85,11 @@ class Listing {
     this.#onpoint = point;
   }
 
+  /** `replace(text)` is called with a text of several lines that is pasted in place of the whole one. */
+  set onreplaced(replace) {
+    this.#onreplaced = replace;
+  }
+
   /** Points at a line, where it can be seen. */
   show(line) {
     if (this.#starts) {
@@ -107,12 +113,17 @@ class Listing {
     this.#draw();
   }
 
-  /** Takes a long text aside before the browser lays it out. */
+  /** Opens a whole program; takes a long text aside before the browser lays it out. */
   #paste(event) {
     const pasted = event.clipboardData.getData("text/plain");
+    const { value, selectionStart, selectionEnd } = this.#area;
+    if (pasted.includes("\n") && selectionEnd - selectionStart === value.length) {
+      event.preventDefault();
+      this.#onreplaced(pasted);
+      return;
+    }
     if (pasted.length <= LONG) return;
     event.preventDefault();
-    const { value, selectionStart, selectionEnd } = this.#area;
     this.text = value.slice(0, selectionStart) + pasted + value.slice(selectionEnd);
     this.node.dispatchEvent(new Event("input", { bubbles: true }));
     this.#window.focus();

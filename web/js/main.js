@@ -13,7 +13,16 @@ import { makeIdentify } from "./identify/panel.js";
 import { makePlacement } from "./placement/panel.js";
 import { formatNumber } from "./number.js";
 import { openPanels, rememberPanels, restoreGroups } from "./panels.js";
-import { followCaret, openProgram, programTools, setLines, showProgram, textIn } from "./program.js";
+import {
+  followCaret,
+  followPaste,
+  isOfExample,
+  openProgram,
+  programTools,
+  setLines,
+  showProgram,
+  textIn,
+} from "./program.js";
 import { showSummary, showThesis, showUnits } from "./results.js";
 import { Session } from "./session.js";
 import { makeScene } from "./scene/view.js";
@@ -49,6 +58,7 @@ let form;
 let session;
 let standard; // the default job
 let shown = null; // the shown result: { json, summary, preview } and its job
+let opened = 0; // programs, to tell the latest
 let slow; // timer that shows the progress
 let silent; // timer that says that there is none
 const previews = new Set(); // JSON texts of jobs with fewer samples that were asked for since the last full result
@@ -237,13 +247,35 @@ async function takeLines({ program, duration_s, samples }) {
 
 /**
  * Makes a program the path of the job, whatever the job was before. The example's shaper goes: hardly
- * any controller has one, and commands for it are wrong without.
+ * any controller has one, and commands for it are wrong without. An example brings its stock and its
+ * tool; any other program gets a stock unless the job has one. False if another program came meanwhile.
  */
-function useProgram(kind, text) {
+async function useProgram(kind, text, { stock, tool } = {}) {
+  const mine = ++opened;
+  core.cancel();
+  const given = stock ?? (await stockFor(kind, text));
+  if (mine !== opened) return false;
   const { shaper, ...rest } = JSON.parse(job.json);
   const own = JSON.stringify(shaper) !== JSON.stringify(standard.shaper);
-  session.load({ ...rest, path: { kind, text }, shaper: own ? shaper : "none" });
+  const next = { ...rest, path: { kind, text }, shaper: own ? shaper : "none" };
+  delete next.stock;
+  session.load(merged(next, { ...(given && { stock: given }), ...(tool && { tool }) }));
   byId("group-path").open = true;
+  return true;
+}
+
+/** The stock for a program: the job's own, or its extents as the core proposes them. */
+async function stockFor(kind, text) {
+  const { stock, ...rest } = JSON.parse(job.json);
+  const path = { kind, text };
+  const kept = stock && stock.kind !== "extents" && !(await isOfExample(stock));
+  if (kept) return stock;
+  try {
+    const proposed = await core.proposedStock(JSON.stringify({ ...rest, path }));
+    return proposed && { ...proposed, ...(stock?.allowance_mm !== undefined && { allowance_mm: stock.allowance_mm }) };
+  } catch {
+    return undefined; // what is wrong with the program is said when it is computed
+  }
 }
 
 /** Files dropped anywhere on the page. */
@@ -380,6 +412,7 @@ async function open() {
   form = new Form(byId("form"), job, hello.fields, hello.presets, (typing, stepped) => session.edited(typing, stepped));
   byId("group-robot").querySelector("legend").after(armView.node);
   byId("group-path").querySelector("legend").after(programTools(useProgram, alertOn));
+  followPaste(useProgram);
   followCaret((time) => setCursor(time, "program"));
   wireDrop();
   makeTakeAway(hello.fields, say, alertOn);

@@ -29,6 +29,7 @@ export function markdown({ summary, job, standard, link }) {
     `Mean force ${formatNumber(Math.hypot(...summary.mean_force_n))} N, path length ` +
       `${formatNumber(summary.path_length_mm, 4)} mm, duration ${formatNumber(summary.duration_s)} s, stops: ` +
       `${summary.stops.count}, warnings: ${summary.warnings.length}.`,
+    ...(summary.cut.stock ? ["", escaped(inStock(summary.cut))] : []),
     "",
     changed.length ? "Inputs that differ from the default job:" : "Inputs: the default job.",
     ...changed.map(
@@ -40,5 +41,10 @@ export function markdown({ summary, job, standard, link }) {
     "",
   ].join("\n");
 }
+
+/** The cut in a stock. */
+const inStock = ({ stock, removed_cm3, air_share, largest_engaged_deg }) =>
+  `Engagement from the stock: ${stock}. It loses ${formatNumber(removed_cm3)} cm³; the tool is engaged by up to ` +
+  `${formatNumber(largest_engaged_deg)} deg and in the air on ${formatNumber(100 * air_share, 2)} % of its way at feed.`;
 
 const escaped = (text) => text.replace(/[\\`*_[\]|<>]/g, "\\$&");

@@ -35,9 +35,19 @@ function languageOf(name, text) {
   return Object.keys(ENDINGS).find((language) => ENDINGS[language].includes(ending)) ?? "csv";
 }
 
+/** The example programs, `{ file, kind, title, note, stock, tool }`, of which the last two may be left out. */
+const listOfExamples = () => (examplesListed ??= readText("examples/index.json").then(JSON.parse));
+let examplesListed;
+
+/** Whether a stock is that of an example program: it has nothing to do with another one. */
+export async function isOfExample(stock) {
+  const list = await listOfExamples().catch(() => []);
+  return list.some((example) => JSON.stringify(example.stock) === JSON.stringify(stock));
+}
+
 /**
- * Buttons for programs; `use(kind, text)` is called with what was opened, `fail(message)` where
- * that did not work.
+ * Buttons for programs; `use(kind, text, example)` is called with what was opened, `fail(message)`
+ * where that did not work.
  */
 export function programTools(use, fail) {
   const file = make("input", { type: "file", id: "program-file", hidden: true, "aria-label": "Program file" });
@@ -53,7 +63,7 @@ export function programTools(use, fail) {
     file.value = "";
     if (chosen) await openProgram(chosen, use, fail);
   });
-  const listed = readText("examples/index.json").then(JSON.parse);
+  const listed = listOfExamples();
   listed.then(
     (list) =>
       examples.append(
@@ -66,7 +76,7 @@ export function programTools(use, fail) {
     examples.value = "";
     if (!chosen) return;
     try {
-      use(chosen.kind, await readText(`examples/${chosen.file}`));
+      await use(chosen.kind, await readText(`examples/${chosen.file}`), chosen);
     } catch ({ message }) {
       fail(message);
     }
@@ -90,8 +100,12 @@ export async function textIn(file, fail) {
 export async function openProgram(file, use, fail) {
   const text = await textIn(file, fail);
   if (text === undefined) return;
-  use(languageOf(file.name, text), text);
-  listing.name = file.name;
+  if (await use(languageOf(file.name, text), text)) listing.name = file.name;
+}
+
+/** A program pasted in place of the whole text is opened as one from a file is. */
+export function followPaste(use) {
+  listing.onreplaced = (text) => use(languageOf("", text), text);
 }
 
 /** What the core understood, above the path's charts; nothing for a path that was drawn. */
