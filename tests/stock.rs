@@ -445,3 +445,44 @@ fn an_earlier_program_leaves_what_it_cut() {
     );
     assert!(engaged.iter().any(|(s, angle)| *s > 0.048 && *angle > 0.5), "{engaged:?}");
 }
+
+/// An arc in a vertical plane is met on its chords: a slot over a crest and down a fillet takes half a
+/// turn all the way.
+#[test]
+fn arcs_that_dive_are_in_full_material() {
+    let text = "G90 F1000\nG0 X-120 Y0 Z-2\nG1 X-20\nG18\nG3 X-9.739396 Z-3.809221 I0 K-30\n\
+                G2 X-2.898993 Z-5.015369 R20\nG1 X120\n";
+    for corner in [0.0, R] {
+        let run = walk(text, &plate(), Cutter { corner, ..flat() });
+        for (index, step) in run.path.moves().iter().enumerate() {
+            let length = step.segment.length();
+            for (s, angle) in run.engaged(index) {
+                let dives = step.segment.tangent(s).z < -1e-3 && s > 1e-4 && s < length - 1e-4;
+                assert!(!dives || (angle - PI).abs() < 1e-9, "move {index}, {s} m: {angle}");
+            }
+        }
+    }
+}
+
+/// A ball nose that rises on an arc meets the same from chord to chord: the section in its way changes
+/// as evenly as the arc's slope does.
+#[test]
+fn rising_arcs_of_a_ball_nose_are_even() {
+    let text = "G90 F1000\nG0 X-120 Y0 Z-8\nG1 X-30\nG18\nG2 X-10 Z-3 K42.5 I0\nG1 X-5 Z-1\n";
+    let run = walk(text, &plate(), Cutter { corner: R, ..flat() });
+    let (index, step) =
+        run.path.moves().iter().enumerate().find(|(_, step)| step.segment.curvature() > 0.0).unwrap();
+    let length = step.segment.length();
+    let section = |station: usize| {
+        let sides = run.contacts.at(station).sides;
+        sides.iter().map(|arc| (arc.entry.cos() - arc.exit.cos()) * (arc.to - arc.from)).sum::<f64>()
+    };
+    let inside = |&station: &usize| {
+        let s = run.contacts.within(station);
+        s > 1e-3 && s < length - 1e-3
+    };
+    let sections: Vec<f64> = run.contacts.of_move(index).filter(inside).map(section).collect();
+    let varies: f64 = sections.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
+    let falls = sections[0] - sections[sections.len() - 1];
+    assert!(sections.len() > 20 && falls > 0.0 && varies < 2.0 * falls, "{varies} {falls}");
+}

@@ -9,7 +9,7 @@ use crate::stock::mapped;
 use crate::stock::place::{Around, Cleared, Cutter, EngagementMeasure, Surroundings, ToolPlace};
 use crate::stock::solid::Solid;
 use crate::stock::swept::Swept;
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 use std::ops::Range;
 
 /// How far inside its move an end is looked at, as a part of the radius.
@@ -95,6 +95,9 @@ fn cleared(earlier: &Earlier) -> Vec<Cleared> {
 /// A part of a move that sweeps one capsule.
 struct Leg {
     swept: Swept,
+    /// Its chord; `None` of a whole move. The tool is looked at on it: beside it, what the leg has swept
+    /// would reach ahead of the tool.
+    chord: Option<Segment>,
     /// Arc lengths of its ends within the move [m].
     within: Range<f64>,
 }
@@ -103,14 +106,16 @@ struct Leg {
 fn legs(segment: &Segment) -> Vec<Leg> {
     let length = segment.length();
     if let Some(swept) = Swept::of(segment) {
-        return vec![Leg { swept, within: 0.0..length }];
+        return vec![Leg { swept, chord: None, within: 0.0..length }];
     }
     // A chord of the angle a is r a^2 / 8 away.
     let step = (8.0 * CHORD / segment.curvature()).sqrt();
     let count = (length / step).ceil().max(1.0);
     let at = |k: usize| length * (k as f64 / count);
     let chord = |k: usize| Segment::Line { from: segment.point(at(k)), to: segment.point(at(k + 1)) };
-    let leg = |k: usize| Some(Leg { swept: Swept::of(&chord(k))?, within: at(k)..at(k + 1) });
+    let leg = |k: usize| {
+        Some(Leg { swept: Swept::of(&chord(k))?, chord: Some(chord(k)), within: at(k)..at(k + 1) })
+    };
     (0..count as usize).filter_map(leg).collect()
 }
 
@@ -269,13 +274,17 @@ impl<'a> Walk<'a> {
     /// The tool at the arc length `within` [m] of a move, of which `own` clears.
     fn at<'b>(&'b self, step: &Move, leg: &Leg, within: f64, own: Option<&'b Swept>) -> Surroundings<'b> {
         let Range { start, end } = leg.within;
-        let tip = step.segment.point(within);
+        let share = (within - start) / (end - start);
+        let (tip, feed) = match &leg.chord {
+            None => (step.segment.point(within), step.segment.tangent(within)),
+            Some(chord) => (chord.point(share * chord.length()), chord.tangent(0.0)),
+        };
         let place = ToolPlace {
             center: tip.xy(),
             height: tip.z,
-            ahead: heading(step, within).unwrap_or(self.ahead),
-            share: (within - start) / (end - start),
-            dives: step.segment.tangent(within).z < -1e-6,
+            ahead: across(&feed).unwrap_or(self.ahead),
+            share,
+            dives: feed.z < -1e-6,
             own,
         };
         Surroundings {
@@ -291,5 +300,10 @@ impl<'a> Walk<'a> {
 
 /// Direction across the tool axis; `None` if the tool only rises or dives.
 pub(super) fn heading(step: &Move, within: f64) -> Option<Vector2<f64>> {
-    step.segment.tangent(within).xy().try_normalize(1e-6)
+    across(&step.segment.tangent(within))
+}
+
+/// Direction of a feed across the tool axis; `None` if there is none.
+fn across(feed: &Vector3<f64>) -> Option<Vector2<f64>> {
+    feed.xy().try_normalize(1e-6)
 }

@@ -257,9 +257,11 @@ impl Surroundings<'_> {
         }
         for &number in cell.ramps.iter().rev() {
             let Cleared { swept, cutter } = &self.sweeps[number as usize];
-            let (lowest, highest) = swept.range();
+            let (_, highest) = swept.range();
             let Some(spine) = swept.below(height, 1.0) else { continue };
-            if subtract(&spine, cutter, (lowest + highest.min(height)) / 2.0) {
+            // With the reach of its highest place: with any larger one, a round nose that rises would
+            // have cleared what lies ahead of it.
+            if subtract(&spine, cutter, highest.min(height)) {
                 return;
             }
         }
