@@ -23,9 +23,8 @@ pub(crate) const BENCH: &str = "armill-bench";
 pub(crate) const MODULE: &str = "armill_bg.wasm";
 
 /// Size limits of the core in bytes, as it is and compressed by gzip: every visit fetches it. With the
-/// packages of robots' controllers and the macros of G-code controls it has 1,712,845 and 698,345; these
-/// are 5 % more. Raise them only with a reason in CHANGELOG.md.
-pub(super) const LIMITS: [usize; 2] = [1_798_000, 733_000];
+/// engagement from the stock and meshes it has 1,853,817 and 755,875; these are 2 % more. Raise them only with a reason in CHANGELOG.md.
+pub(super) const LIMITS: [usize; 2] = [1_890_000, 771_000];
 
 /// Makes the core in `package` from the sources in `root`: `folder` gets the module, its JavaScript
 /// side and their types.
