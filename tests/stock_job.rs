@@ -295,3 +295,19 @@ fn the_revolution_is_that_of_the_heaviest_place() {
         assert!((report.peak_force() / largest - 1.0).abs() < 5e-3, "{} {largest}", report.peak_force());
     }
 }
+
+/// A path of more moves than are followed at once is given no stock unasked.
+#[test]
+fn a_stock_is_proposed_for_what_can_be_followed() {
+    let points = |count: usize| {
+        let rows = (0..=count).map(|k| format!("{},{},-1\n", k / 1000, k % 1000)).collect::<String>();
+        let changes = job(
+            "",
+            json!({"kind":"none"}),
+            &[("path", json!({"kind":"csv","text":format!("x,y,z\n{rows}")}))],
+        );
+        armill::Job::from_json(&common::job_text(&changes)).unwrap()
+    };
+    assert!(armill::setup::proposed_stock(&points(1000)).unwrap().is_some());
+    assert!(armill::setup::proposed_stock(&points(300_000)).unwrap().is_none());
+}

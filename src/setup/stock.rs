@@ -15,6 +15,9 @@ use std::io::Cursor;
 
 /// Most triangles of a mesh.
 const MOST_TRIANGLES: usize = 2_000_000;
+/// Most moves of a path that is given a stock unasked: following more of them takes minutes where they
+/// are dense.
+const MOST_MOVES: usize = 200_000;
 /// Farthest corner of a mesh along an axis [m].
 const FARTHEST: f64 = 20.0;
 
@@ -169,13 +172,15 @@ fn block(given: &job::Stock) -> Result<Solid, Error> {
 
 /// The stock that a job may give its path if it knows none: the extents of the program, up to the
 /// highest place that it cuts at if none of it is below zero. Of a path at one height, the job's axial
-/// depth is taken. `None` where a stock cannot be followed, or nothing cuts.
+/// depth is taken. `None` where a stock cannot be followed, nothing cuts, or the path has more than
+/// 200,000 moves.
 ///
 /// # Errors
 /// If the path cannot be read.
 pub fn proposed(job: &Job) -> Result<Option<job::Stock>, Error> {
     let (path, _) = path::desired(job, &mut Progress::none())?;
-    let Some((low, high)) = bounds(&path).filter(|_| is_upright(&path)) else { return Ok(None) };
+    let follows = is_upright(&path) && path.moves().len() <= MOST_MOVES;
+    let Some((low, high)) = bounds(&path).filter(|_| follows) else { return Ok(None) };
     let level = high.z - low.z < 1e-9;
     let top = if level { low.z + job.cutting.axial_depth_mm * MM } else { high.z };
     if top <= low.z {
