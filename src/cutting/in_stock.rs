@@ -66,15 +66,8 @@ impl Cut {
     /// Mean force over a revolution at a contact, in {T}, for the feed per tooth along the path.
     pub fn mean_force_in(&self, contact: &Contact) -> LinearForce {
         let slices = self.engaged(contact);
-        let side = self.mean_of(&slices);
-        let bottom = self.bottom(contact.floors);
-        let down = contact.down.max(0.0);
-        LinearForce {
-            cutting: side.cutting * contact.across
-                + self.dipping(&slices) * contact.down
-                + bottom.cutting * down,
-            edge: side.edge + bottom.edge * rubbing(down),
-        }
+        let (side, below) = (self.mean_of(&slices), self.below(contact, &slices));
+        LinearForce { cutting: side.cutting * contact.across + below.cutting, edge: side.edge + below.edge }
     }
 
     /// Mean force of the corner [N/m] for 1 m of feed per tooth down the axis: its chip is the same all
@@ -110,22 +103,25 @@ impl Cut {
     /// that of the bottom is its mean, and runout is left out.
     pub fn peak_force_in(&self, contact: &Contact, c: f64) -> f64 {
         let slices = self.engaged(contact);
-        let below = self.below(contact, &slices, c).norm();
+        let below = self.below(contact, &slices).at(c).norm();
         if slices.is_empty() { below } else { self.peak_of(&slices, &slices, c * contact.across) + below }
     }
 
-    /// Mean force by the feed down the axis [N], for the feed per tooth `c` [m] along the path.
-    fn below(&self, contact: &Contact, slices: &[Slice], c: f64) -> Vector3<f64> {
+    /// Mean force by the feed down the axis, for the feed per tooth along the path.
+    fn below(&self, contact: &Contact, slices: &[Slice]) -> LinearForce {
         let bottom = self.bottom(contact.floors);
         let down = contact.down.max(0.0);
-        (self.dipping(slices) * contact.down + bottom.cutting * down) * c + bottom.edge * rubbing(down)
+        LinearForce {
+            cutting: self.dipping(slices) * contact.down + bottom.cutting * down,
+            edge: bottom.edge * rubbing(down),
+        }
     }
 
     /// Force over one revolution at a contact, in `steps` even steps of the immersion angle, as
     /// [`Cut::revolution`]; that of the bottom is its mean, and runout is left out.
     pub fn revolution_in(&self, contact: &Contact, steps: usize, c: f64) -> (Vec<f64>, Vec<Vector3<f64>>) {
         let slices = self.engaged(contact);
-        let below = self.below(contact, &slices, c);
+        let below = self.below(contact, &slices).at(c);
         let angles: Vec<f64> = (0..=steps).map(|step| TAU * step as f64 / steps as f64).collect();
         let force = |&phi: &f64| self.instant(&slices, phi).at(c * contact.across) + below;
         let forces = angles.iter().map(force).collect();
@@ -136,7 +132,7 @@ impl Cut {
     pub fn figures_in(&self, contact: &Contact) -> PlaceFigures {
         let Contact { across, down, .. } = *contact;
         let slices = self.engaged(contact);
-        let [chip, edge] = self.chip_in(contact);
+        let [chip, edge] = self.chip_in(contact, &slices);
         let edges = self.torque_of(&slices, 0.0);
         let mut section = Self::section_of(&slices) * across;
         let mut torque = [(self.torque_of(&slices, 1.0) - edges) * across, edges];
@@ -157,9 +153,8 @@ impl Cut {
     }
 
     /// The chip of a tooth for 1 m of feed per tooth [m], and its engaged edge times arc [m].
-    fn chip_in(&self, contact: &Contact) -> [f64; 2] {
-        let slices = self.engaged(contact);
-        let [chip, edge] = Self::chip_of(&slices);
+    fn chip_in(&self, contact: &Contact, slices: &[Slice]) -> [f64; 2] {
+        let [chip, edge] = Self::chip_of(slices);
         let dip = slices.iter().map(|slice| self.run(slice) * (slice.exit - slice.entry));
         let floor = contact.floors.iter().map(|arc| arc.width * (arc.exit - arc.entry));
         let [dip, floor] = [dip.fold(0.0, |sum, arc| sum + arc), floor.fold(0.0, |sum, arc| sum + arc)];
@@ -171,7 +166,7 @@ impl Cut {
         let (mut chip, mut edge) = (0.0, 0.0);
         for ((index, station), contact) in contacts.each() {
             let length = contacts.share(index, station);
-            let here = self.chip_in(&contact);
+            let here = self.chip_in(&contact, &self.engaged(&contact));
             chip += here[0] * length;
             edge += here[1] * length;
         }

@@ -2,6 +2,7 @@
 
 use crate::cutting::{Coefficients, Cut};
 use crate::math;
+use crate::stock::Cutter;
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -51,9 +52,8 @@ impl Cut {
 
     /// Radius at a height above the tip [m].
     pub fn radius_at(&self, height: f64) -> f64 {
-        let below = (self.corner_radius - height).max(0.0);
-        self.radius() - self.corner_radius
-            + (self.corner_radius * self.corner_radius - below * below).max(0.0).sqrt()
+        let cutter = Cutter { radius: self.radius(), corner: self.corner_radius, flutes: f64::INFINITY };
+        cutter.radius_at(height)
     }
 
     /// The engaged edge from the tip up: the corner in `count` slices, then the cylinder in

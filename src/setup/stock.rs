@@ -43,7 +43,7 @@ pub(super) fn engagement(
         Some(Engaged::FromStock) if job.stock.is_none() => {
             return Err(Error::missing(
                 "stock.kind",
-                "the engagement is to follow from the stock: box, cylinder, extents or outline",
+                "the engagement is to follow from the stock: box, cylinder, extents, outline or stl",
             ));
         }
         engagement => !job.stock.is_none() && matches!(engagement, None | Some(Engaged::FromStock)),

@@ -103,7 +103,7 @@ impl Cutter {
     }
 
     /// Radius of the tool at a height above its tip [m].
-    pub(super) fn radius_at(&self, height: f64) -> f64 {
+    pub fn radius_at(&self, height: f64) -> f64 {
         let below = self.corner - height;
         if below <= 0.0 {
             return self.radius;

@@ -42,10 +42,11 @@ export interface MaterialPreset {
 }
 export interface Presets { robots: RobotPreset[]; materials: MaterialPreset[]; }
 export interface Stock {
-  kind: "none" | "box" | "cylinder" | "extents" | "outline";
+  kind: "none" | "box" | "cylinder" | "extents" | "outline" | "stl";
   from_mm?: [number, number, number]; to_mm?: [number, number, number];
   center_mm?: [number, number, number]; radius_mm?: number; height_mm?: number; allowance_mm?: number;
-  points_mm?: [number, number][]; bottom_mm?: number; top_mm?: number;
+  points_mm?: [number, number][]; bottom_mm?: number; top_mm?: number; stl?: string;
+  earlier?: { text: string; diameter_mm: number; corner_radius_mm?: number }[];
 }
 export interface Format { id: string; name: string; extension: string; note: string; }
 "#;

@@ -251,7 +251,8 @@ fn an_opened_program_brings_a_stock() -> Result {
         shows(page, &run(&kept)).await?;
         // A program pasted over all of the text is opened as well.
         page.js("const t = document.getElementById('path-text'); t.focus(); t.select(); \
-             const data = new DataTransfer(); data.setData('text/plain', 'UNITS/MM\\nFEDRAT/1200,MMPM\\nGOTO/600,0,100\\nGOTO/640,0,100\\nFINI'); \
+             const data = new DataTransfer(); \
+             data.setData('text/plain', 'UNITS/MM\\nFEDRAT/1200,MMPM\\n' + 'GOTO/600,0,100\\nGOTO/640,0,100\\nFINI'); \
              t.dispatchEvent(new ClipboardEvent('paste', { clipboardData: data, bubbles: true, cancelable: true }))")
             .await?;
         page.wait_for("document.querySelector('#path-kind').value === 'apt'", 20.0).await?;

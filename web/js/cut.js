@@ -63,7 +63,8 @@ const isAir = ({ entry_deg, exit_deg, axial_depth_mm, stock }) =>
 
 /** What stands above the figures of a job with a stock. */
 const stockSentence = ({ stock }) =>
-  `Engagement from the stock: ${stock}. Drawing, entry, exit, depths, chip, forces, torque, power and removal rate are those where the force is largest.`;
+  `Engagement from the stock: ${stock}. Drawing, entry, exit, depths, chip, forces, torque, power and removal rate ` +
+  "are those where the force is largest.";
 
 /** Where the drawing has the immersion angle: from the left (y), clockwise over the feed (up). */
 const at = (degrees, radius = RADIUS) => [-Math.cos(degrees * DEG) * radius, -Math.sin(degrees * DEG) * radius];

@@ -133,7 +133,8 @@ impl Results {
     fn pockets(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "| a pocket in a stock | moves | reading and engagement, native ms | whole job, native ms | Chromium ms | first | MB native | MB Chromium |"
+            "| a pocket in a stock | moves | reading and engagement, native ms | whole job, native ms | \
+             Chromium ms | first | MB native | MB Chromium |"
         )?;
         writeln!(f, "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")?;
         for (i, &size) in self.sizes.iter().enumerate() {
