@@ -162,7 +162,7 @@ pub(crate) fn corrected(
     (correction, axis): (&[Vector3<f64>], &Axes),
     undone: impl Fn(Vec<Vector3<f64>>) -> Vec<Vector3<f64>>,
 ) -> (Vec<Vector3<f64>>, Axes) {
-    let missing = target.iter().zip(result.brought()).map(|(target, actual)| target - actual);
+    let missing = target.iter().enumerate().map(|(k, target)| target - result.brought(k));
     let mut bent = undone(missing.collect());
     for (more, known) in bent.iter_mut().zip(correction) {
         *more = known + *more;

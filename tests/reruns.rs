@@ -6,7 +6,7 @@ mod common;
 #[path = "common/plant.rs"]
 mod plant;
 
-use armill::cutting::MeanForces;
+use armill::cutting::{MeanForces, StiffnessAlong};
 use armill::deviation::{Reference, Sources, simulate};
 use armill::plan::Plan;
 use armill::setup::Setup;
@@ -42,14 +42,25 @@ fn rerun(report: &Report, changes: &[(&'static str, Value)], draw: &Draw) -> Vec
     let cut = drawn_cut(&setup.cut, draw);
     let shaper = setup.shaper.tuned(draw.frequency);
     let robot = setup.robot.clone().touched_off_at(&report.q[0]);
-    let drawn = Setup { mean_force: MeanForces::of(&cut, setup.contacts.as_ref()), cut, shaper, ..setup };
+    let contacts = setup.contacts.as_ref();
+    let drawn = Setup {
+        mean_force: MeanForces::of(&cut, contacts),
+        stiffness: setup.stiffness.as_ref().and(contacts).map(|contacts| StiffnessAlong::of(&cut, contacts)),
+        cut,
+        shaper,
+        ..setup
+    };
     let plan = Plan { setup: Arc::new(drawn), robot, ..report.plan.clone() };
     let reference = Reference::along(&plan, Sources::ALL);
     let errors = simulate(&plan, &reference, &report.compensation.q, &mut Progress::none()).contour_error;
     errors.iter().map(|error| error.norm()).collect()
 }
 
-const DRAWS: usize = 100;
+const DRAWS: usize = 200;
+
+/// A slot, then steps to the side, and a corner.
+const POCKET: &str =
+    "G21 G90\nG0 X0 Y0 Z5\nG1 Z-2 F600\nX40 F1800\nY3\nX0\nY6\nX40\nG2 X44 Y2 I0 J-4\nG1 Y-6\nG0 Z5\n";
 
 /// A job by an RX-90 in front of it, sampled coarsely, with its 95 % ranges.
 fn job(path: Value, more: &[(&'static str, Value)]) -> Vec<(&'static str, Value)> {
@@ -136,6 +147,39 @@ fn jobs() -> Vec<(&'static str, Vec<(&'static str, Value)>)> {
                             "loads_kg_mm":[[2,20.0,250,0,0],[6,9.0,20,0,120]]
                         }),
                     ),
+                    unshaped.clone(),
+                ],
+            ),
+        ),
+        (
+            "in a stock",
+            job(
+                json!({"kind":"gcode","text":POCKET}),
+                &[
+                    ("stock", json!({"kind":"box","from_mm":[-20,-20,-20],"to_mm":[60,40,0]})),
+                    ("cutting", json!({"spindle_rpm":8000,"feed_per_tooth_mm":0.05})),
+                    ("tool", json!({"diameter_mm":10,"flutes":3,"bending":"cantilever","stickout_mm":40})),
+                    ("compensation.max_passes", json!(6)),
+                    unshaped.clone(),
+                ],
+            ),
+        ),
+        (
+            "in a stock with weight and worn joints",
+            job(
+                json!({"kind":"gcode","text":POCKET}),
+                &[
+                    ("stock", json!({"kind":"box","from_mm":[-20,-20,-20],"to_mm":[60,40,0]})),
+                    (
+                        "robot",
+                        json!({
+                            "preset":"staubli-rx90",
+                            "joint_springs_nm_arcmin":[[2,30,0.5],[2,300,3.5],[3,20,0.6],[3,200,4.0]],
+                            "loads_kg_mm":[[2,20.0,250,0,0],[6,9.0,20,0,120]]
+                        }),
+                    ),
+                    ("cutting", json!({"spindle_rpm":8000,"feed_per_tooth_mm":0.05})),
+                    ("tool", json!({"diameter_mm":10,"flutes":3})),
                     unshaped.clone(),
                 ],
             ),

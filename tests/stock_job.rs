@@ -49,7 +49,8 @@ fn a_slot_in_a_stock_has_the_force_of_a_stated_slot() {
     let stated = json!({
         "engagement":"slot","axial_depth_mm":3,"spindle_rpm":8000,"feed_per_tooth_mm":"from_feed"
     });
-    let report = run(&job(SLOT, plate(), &[]));
+    let uncoupled = json!({"spindle_rpm":8000,"feed_per_tooth_mm":"from_feed","coupling":"none"});
+    let report = run(&job(SLOT, plate(), &[("cutting", uncoupled)]));
     let other = run(&job(SLOT, plate(), &[("cutting", stated)]));
     assert!(other.setup().contacts.is_none());
     let place = |report: &Report| {

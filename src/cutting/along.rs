@@ -1,6 +1,6 @@
 //! Milling force along the path, in the base frame (thesis eq. 4.11, Fig. 4.6).
 
-use crate::cutting::{LinearForce, Loading, MeanForces};
+use crate::cutting::{CutStiffness, LinearForce, Loading, MeanForces, PartForces, StiffnessAlong};
 use crate::motion::TimingLaw;
 use crate::path::Path;
 use nalgebra::Vector3;
@@ -21,31 +21,56 @@ pub fn forces(path: &Path, timing: &TimingLaw, mean: &MeanForces, loading: &Load
     forces
 }
 
-/// As [`forces`], split into `parts` that add up to the mean force, at the samples `at` only, which
-/// rise.
-pub fn parts<const N: usize>(
+/// The stiffness of the cut in the base frame, one per sample, under the same load as the
+/// [`forces`]; none on rapid moves.
+pub fn stiffness(
     path: &Path,
     timing: &TimingLaw,
-    parts: &[MeanForces; N],
+    stiffness: &StiffnessAlong,
     loading: &Loading,
-    at: &[usize],
-) -> Vec<[Vector3<f64>; N]> {
-    let mut forces = Vec::with_capacity(at.len());
+) -> Vec<CutStiffness> {
+    let mut all = Vec::with_capacity(timing.heading.len());
     let loads = loading.along(path);
     each(path, timing, |k, x, axis| {
-        if at.get(forces.len()) == Some(&k) {
+        let (index, within) = place(path, timing, k);
+        all.push(CutStiffness::under(&loads.at(timing, k), &stiffness.at(index, within), (&x, &axis)));
+    });
+    all
+}
+
+/// As [`forces`] and [`stiffness`], split into `parts` that add up to them, at the samples `at` only,
+/// which rise.
+pub fn parts(
+    path: &Path,
+    timing: &TimingLaw,
+    parts: &PartForces,
+    loading: &Loading,
+    at: &[usize],
+) -> Vec<([Vector3<f64>; 3], [CutStiffness; 3])> {
+    let mut all = Vec::with_capacity(at.len());
+    let loads = loading.along(path);
+    each(path, timing, |k, x, axis| {
+        if at.get(all.len()) == Some(&k) {
             let load = loads.at(timing, k);
-            let part = |part: &MeanForces| in_base(&mean_at(part, path, timing, k).under(&load), &x, &axis);
-            forces.push(parts.each_ref().map(part));
+            let (index, within) = place(path, timing, k);
+            let force = |part: LinearForce| in_base(&part.under(&load), &x, &axis);
+            let grown = |by: [LinearForce; 2]| CutStiffness::under(&load, &by, (&x, &axis));
+            all.push((parts.at(index, within).map(force), parts.stiffness_at(index, within).map(grown)));
         }
     });
-    forces
+    all
 }
 
 /// The mean force where the tool is at the sample `k`.
 pub fn mean_at(mean: &MeanForces, path: &Path, timing: &TimingLaw, k: usize) -> LinearForce {
+    let (index, within) = place(path, timing, k);
+    mean.at(index, within)
+}
+
+/// The move where the tool is at the sample `k`, and the arc length within it [m].
+fn place(path: &Path, timing: &TimingLaw, k: usize) -> (usize, f64) {
     let index = timing.index[k] as usize;
-    mean.at(index, timing.arc_length[k] - path.start(index))
+    (index, timing.arc_length[k] - path.start(index))
 }
 
 /// A force in {T}, whose x and z point along `x` and `axis`, in the base frame (eq. 4.11).

@@ -2,8 +2,7 @@
 //!
 //! {T}: x = feed direction across the tool axis, z = tool axis from tip to spindle, y = z x x. The
 //! spindle turns clockwise seen from itself; the immersion angle phi counts clockwise from +y.
-//! Forces act on the tool. Not modelled: vibration, wear, the tool's bottom edges, deflection's own
-//! effect on the chip.
+//! Forces act on the tool. Not modelled: vibration and wear.
 
 use crate::cutting::tool::Slice;
 use crate::cutting::{Coefficients, CutLoad, Engagement, Hand};
@@ -56,6 +55,16 @@ impl LinearForce {
 
     pub(super) fn zero() -> Self {
         Self { cutting: Vector3::zeros(), edge: Vector3::zeros() }
+    }
+
+    /// The difference from another one.
+    pub(super) fn less(&self, other: &Self) -> Self {
+        Self { cutting: self.cutting - other.cutting, edge: self.edge - other.edge }
+    }
+
+    /// The force `factor` times.
+    pub(super) fn times(&self, factor: f64) -> Self {
+        Self { cutting: self.cutting * factor, edge: self.edge * factor }
     }
 
     /// The force at the share `share` of the way to another one.

@@ -44,7 +44,7 @@ impl Cut {
 
     /// The piece of the edge in an arc, which lies on the corner or on the cylinder.
     fn piece(&self, arc: &SideArc) -> Slice {
-        let SideArc { from, to, entry, exit } = *arc;
+        let SideArc { from, to, entry, exit, .. } = *arc;
         let (height, corner, own) = (to - from, self.corner_radius, self.towards_spindle());
         if (from + to) / 2.0 >= corner {
             let radius = self.radius();

@@ -45,11 +45,6 @@ impl MeanForces {
         Self::InStock { contacts: contacts.clone(), forces }
     }
 
-    /// As [`MeanForces::of`], by the tangential, the radial and the axial coefficients alone.
-    pub fn parts(cut: &Cut, contacts: Option<&Arc<Contacts>>) -> [Self; 3] {
-        cut.alone().map(|alone| Self::of(&alone, contacts))
-    }
-
     /// The force at the arc length `within` [m] of the move `index`.
     pub fn at(&self, index: usize, within: f64) -> LinearForce {
         match self {
@@ -77,5 +72,46 @@ impl MeanForces {
             }
         }
         most.1
+    }
+}
+
+/// The mean force and the stiffness of a cut by the tangential, the radial and the axial coefficients
+/// alone, which add up to them. They are computed where they are asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PartForces {
+    cuts: [Cut; 3],
+    /// The forces of a stated engagement.
+    stated: [LinearForce; 3],
+    contacts: Option<Arc<Contacts>>,
+}
+
+impl PartForces {
+    /// The parts of a cut in the stock, or with its own engagement.
+    pub fn of(cut: &Cut, contacts: Option<&Arc<Contacts>>) -> Self {
+        Self { cuts: cut.alone(), stated: cut.mean_force_parts(), contacts: contacts.cloned() }
+    }
+
+    /// The parts of the force at the arc length `within` [m] of the move `index`.
+    pub fn at(&self, index: usize, within: f64) -> [LinearForce; 3] {
+        let Some(contacts) = &self.contacts else { return self.stated };
+        let Some((from, to, share)) = contacts.around(index, within) else {
+            return [LinearForce::zero(); 3];
+        };
+        let (from, to) = (contacts.at(from), contacts.at(to));
+        self.cuts.each_ref().map(|cut| cut.mean_force_in(&from).towards(&cut.mean_force_in(&to), share))
+    }
+
+    /// The parts of the stiffness there; none of a stated engagement.
+    pub fn stiffness_at(&self, index: usize, within: f64) -> [[LinearForce; 2]; 3] {
+        let around = self.contacts.as_ref().and_then(|contacts| {
+            contacts
+                .around(index, within)
+                .map(|(from, to, share)| (contacts.at(from), contacts.at(to), share))
+        });
+        let Some((from, to, share)) = around else { return [[LinearForce::zero(); 2]; 3] };
+        self.cuts.each_ref().map(|cut| {
+            let (from, to) = (cut.stiffness_in(&from), cut.stiffness_in(&to));
+            [0, 1].map(|way| from[way].towards(&to[way], share))
+        })
     }
 }

@@ -14,6 +14,7 @@ pub mod run_in;
 pub mod load;
 pub mod in_stock;
 pub mod mean_forces;
+pub mod stiffness;
 pub mod along;
 
 pub use engagement::Engagement;
@@ -22,5 +23,6 @@ pub use in_stock::PlaceFigures;
 pub use kienzle::Kienzle;
 pub use load::{ChipLoad, CutLoad, Loading, Loads};
 pub use material::Coefficients;
-pub use mean_forces::{HeaviestPlace, MeanForces};
+pub use mean_forces::{HeaviestPlace, MeanForces, PartForces};
+pub use stiffness::{CutStiffness, StiffnessAlong};
 pub use tool::{Bending, Hand};

@@ -2,6 +2,7 @@
 //! contour error of both (thesis sections 4.3-4.5, 5.2).
 
 pub mod contour;
+pub mod coupling;
 pub mod missed;
 pub mod near;
 pub mod reference;
@@ -16,6 +17,7 @@ pub use simulate::{ErrorsBySource, simulate, simulate_by_source};
 use crate::math;
 use crate::plan::Plan;
 use contour::{MeanMax, Tally};
+use coupling::SettledCut;
 use nalgebra::Vector3;
 
 /// The result of joint commands.
@@ -26,6 +28,9 @@ pub struct Deviation {
     /// Actual place of the middle of the cut in the base frame, moved down the desired tool axis by
     /// half the axial depth onto the path [m]; empty unless the job compensates there.
     pub middle: Vec<Vector3<f64>>,
+    /// Displacement of the tip that the planned force would add [m]; empty unless the force follows the
+    /// deflection.
+    pub spared: Vec<Vector3<f64>>,
     /// Actual tool axis, from tip to spindle, in the base frame; empty unless it is corrected: the
     /// path turns it, or the job compensates it.
     pub axis: Vec<Vector3<f64>>,
@@ -45,9 +50,11 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// What the compensation brings onto the path [m]: the tips, or the middles of the cut.
-    pub fn brought(&self) -> &[Vector3<f64>] {
-        if self.middle.is_empty() { &self.actual } else { &self.middle }
+    /// What the compensation brings onto the path [m], at the sample `k`: the tip, or the middle of the
+    /// cut, as it would be under the planned force. Once that is in its place, so is the actual one.
+    pub fn brought(&self, k: usize) -> Vector3<f64> {
+        let actual = if self.middle.is_empty() { self.actual[k] } else { self.middle[k] };
+        self.spared.get(k).map_or(actual, |spared| actual + spared)
     }
 }
 
@@ -92,6 +99,7 @@ impl<'a> DeviationBuilder<'a> {
         let deviation = Deviation {
             actual: Vec::with_capacity(samples),
             middle: Vec::with_capacity(room(at == CompensateAt::Middle)),
+            spared: Vec::with_capacity(reference.stiffness.len()),
             axis: Vec::with_capacity(room(keeps_axes)),
             contour_error: Vec::with_capacity(samples),
             statistics: MeanMax::default(),
@@ -100,6 +108,14 @@ impl<'a> DeviationBuilder<'a> {
             wall: Largest::default(),
         };
         Self { plan, reference, keeps_axes, keeps_angles, judged: Tally::default(), deviation }
+    }
+
+    /// Adds the sample `k`: the shaped pose, displaced by the deflection of a cut.
+    fn push_cut(&mut self, k: usize, pose: &TipAndAxis, cut: &SettledCut) {
+        self.push(k, pose, &cut.deflected);
+        if !self.reference.stiffness.is_empty() {
+            self.deviation.spared.push(cut.spared);
+        }
     }
 
     /// Adds the sample `k`: the shaped pose, displaced [m] and rotated [rad] by deflection.

@@ -1,10 +1,11 @@
 //! The reference: where the tool should be over time, and the force on it there.
 
-use crate::cutting::along;
+use crate::cutting::{CutStiffness, along};
 use crate::job::Sources;
 use crate::motion::{TimingLaw, Trajectory};
 use crate::path::{Axes, Path};
 use crate::plan::Plan;
+use crate::setup::Setup;
 use nalgebra::Vector3;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -22,7 +23,13 @@ pub struct Reference<'a> {
     pub axis: Axes,
     /// Force on the tool there in the base frame [N]; empty if deflection does not act.
     pub force: Arc<Vec<Vector3<f64>>>,
+    /// Stiffness of the cut there; empty if the force does not follow the deflection.
+    pub stiffness: Arc<Vec<CutStiffness>>,
 }
+
+/// Force on the tool as planned [N] and stiffness of the cut, one per sample or empty; see
+/// [`Reference`].
+pub type SampledCut = (Vec<Vector3<f64>>, Vec<CutStiffness>);
 
 impl<'a> Reference<'a> {
     /// The reference along a plan's motion: delayed by the shaper if shaping acts.
@@ -31,39 +38,46 @@ impl<'a> Reference<'a> {
         if acting.shaping {
             return Self::by(plan, plan.timing(acting).into_owned(), acting);
         }
+        let (force, stiffness) = cut_along(plan, timing, acting);
         Self {
             acting,
             arc_length: Cow::Borrowed(&timing.arc_length),
             target: Cow::Borrowed(position),
             axis: axis.clone(),
-            force: force(plan, timing, acting).into(),
+            force: force.into(),
+            stiffness: stiffness.into(),
         }
     }
 
     /// The reference for another timing law.
     pub fn by(plan: &Plan, timing: TimingLaw, acting: Sources) -> Self {
-        let force = force(plan, &timing, acting);
-        Self::under(&plan.path, timing, acting, force)
+        let cut = cut_along(plan, &timing, acting);
+        Self::under(&plan.path, timing, acting, cut)
     }
 
-    /// The reference for a timing law with known forces [N].
-    pub fn under(path: &Path, timing: TimingLaw, acting: Sources, force: Vec<Vector3<f64>>) -> Self {
+    /// The reference for a timing law with a known cut.
+    pub fn under(path: &Path, timing: TimingLaw, acting: Sources, (force, stiffness): SampledCut) -> Self {
         let target = timing.points(path).into();
         let axis = Axes::along(path, &timing.arc_length, &timing.index);
-        Self { acting, arc_length: timing.arc_length.into(), target, axis, force: force.into() }
+        let arc_length = timing.arc_length.into();
+        Self { acting, arc_length, target, axis, force: force.into(), stiffness: stiffness.into() }
     }
 
     /// This reference without force.
     pub fn without_force(&self) -> Self {
         let acting = Sources { deflection: false, ..self.acting };
-        Self { acting, force: Arc::default(), ..self.clone() }
+        Self { acting, force: Arc::default(), stiffness: Arc::default(), ..self.clone() }
     }
 }
 
-/// Force on the tool [N]; empty if deflection does not act.
-fn force(plan: &Plan, timing: &TimingLaw, acting: Sources) -> Vec<Vector3<f64>> {
+/// The cut along a timing law; empty if deflection does not act.
+pub(crate) fn cut_along(plan: &Plan, timing: &TimingLaw, acting: Sources) -> SampledCut {
     if !acting.deflection {
-        return Vec::new();
+        return Default::default();
     }
-    along::forces(&plan.path, timing, &plan.setup.mean_force, &plan.setup.loading)
+    let Setup { mean_force, stiffness, loading, .. } = &*plan.setup;
+    let force = along::forces(&plan.path, timing, mean_force, loading);
+    let stiffness =
+        stiffness.iter().flat_map(|stiffness| along::stiffness(&plan.path, timing, stiffness, loading));
+    (force, stiffness.collect())
 }

@@ -41,6 +41,16 @@ choice! {
     }
 }
 choice! {
+    /// What the force follows.
+    Coupling {
+        /// The deflection: a tool that is pushed away cuts less.
+        #[default]
+        Deflection = "deflection",
+        /// Nothing: it is that of the cut as planned.
+        None = "none",
+    }
+}
+choice! {
     /// The linearization of Kienzle's curve.
     Line {
         /// Exact in force and slope.
@@ -161,6 +171,9 @@ pub struct Cutting {
     /// How the engagement is given; default: from the stock if there is one, else entry and exit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub engagement: Option<Engaged>,
+    /// What the force follows; default: the deflection if the engagement is from a stock, else nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coupling: Option<Coupling>,
     /// Radial depth of cut, for climb and conventional milling.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radial_depth_mm: Option<f64>,
@@ -182,6 +195,7 @@ impl Default for Cutting {
         Self {
             axial_depth_mm: 10.0,
             engagement: None,
+            coupling: None,
             radial_depth_mm: None,
             entry_deg: 90.0,
             exit_deg: 180.0,
@@ -224,6 +238,7 @@ keys!(new Material {
 keys!(Cutting {
     axial_depth_mm,
     engagement,
+    coupling,
     radial_depth_mm,
     entry_deg,
     exit_deg,

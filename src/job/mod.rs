@@ -22,7 +22,7 @@ pub use choice::{
     BlendingDistance, ChipThickness, Choice, CornerDwell, CornerRadius, FeedPerTooth, LoadMass, SpindlePower,
     SpreadPercent,
 };
-pub use cutting::{Cutting, Engaged, HelixHand, Line, Material, Tool, ToolBending};
+pub use cutting::{Coupling, Cutting, Engaged, HelixHand, Line, Material, Tool, ToolBending};
 pub use input::{
     Branch, CompensateAt, Compensation, DhRow, Elbow, Frame, Job, Joint3, Motion, Opw, Robot, SagZero,
     Shaper, ShaperKind, ShaperSpec, Shoulder, Wrist,

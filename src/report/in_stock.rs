@@ -17,7 +17,24 @@ use std::sync::Arc;
 pub(super) fn collisions(report: &Report) -> Vec<Warning> {
     let Some(contacts) = &report.setup().contacts else { return Vec::new() };
     let kinds = [Collider::Rapid, Collider::Shank].into_iter();
-    kinds.filter_map(|kind| collision(report, contacts, kind)).chain(coarse(report, contacts)).collect()
+    let collisions = kinds.filter_map(|kind| collision(report, contacts, kind));
+    collisions.chain(coarse(report, contacts)).chain(pulls_in(report)).collect()
+}
+
+/// A cut that pulls the tool in by more than the arm holds it back.
+fn pulls_in(report: &Report) -> Option<Warning> {
+    let first = *report.unsettled.first()?;
+    let timing = &report.plan.trajectory.timing;
+    let line = match report.plan.path.moves()[timing.index[first] as usize].line {
+        0 => String::new(),
+        line => format!("line {line}: "),
+    };
+    let spans = spans(report.samples(), |k| report.unsettled.binary_search(&k).is_ok());
+    let message = format!(
+        "{line}the cut pulls the tool into the material by more than the arm holds it back, so force and deflection find \
+         no balance; they are stated as for the planned cut: take less depth, or mill in the other direction"
+    );
+    Warning::new("cut-pulls-in", message).within(&spans, report.plan.trajectory.sample_time)
 }
 
 /// A map of heights whose cells are wide for the tool: the stock is large, the tool small.

@@ -57,9 +57,13 @@ pub struct Report {
     pub branch: Branch,
     /// Gain from a free roll about the tool axis, if it is free.
     pub roll: Option<RollGain>,
-    /// Force on the tool in the base frame, every source acting [N]; it does not depend on the
-    /// command.
+    /// Force on the tool in its place, in the base frame, every source acting [N].
+    pub planned_force: Arc<Vec<Vector3<f64>>>,
+    /// Force on the tool in the base frame with the desired path commanded, every source acting [N]:
+    /// the planned one, unless it follows the deflection.
     pub force: Arc<Vec<Vector3<f64>>>,
+    /// Samples at which a force that follows the deflection finds no balance with it.
+    pub unsettled: Vec<usize>,
     /// Tip deflection under that force with the desired path commanded [m].
     pub deflection: Vec<Vector3<f64>>,
     /// Deviation with the desired path commanded, only cutting forces acting.

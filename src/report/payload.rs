@@ -16,7 +16,7 @@ const GRAVITY: f64 = 9.80665;
 pub(super) fn warning(report: &Report) -> Option<Warning> {
     let payload = report.setup().payload?;
     let rated = payload * GRAVITY;
-    let force = |k: usize| report.force[k].norm();
+    let force = |k: usize| report.planned_force[k].norm();
     let spans = spans(report.samples(), |k| force(k) > rated);
     let worst = (0..report.samples()).max_by(|&a, &b| force(a).total_cmp(&force(b)))?;
     let dt = report.plan.trajectory.sample_time;

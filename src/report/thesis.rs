@@ -86,7 +86,7 @@ impl ConstantForce {
             let timing = plan.timing(acting).into_owned();
             let full = TimingLaw { speed: vec![setup.limits.feed; timing.speed.len()], ..timing.clone() };
             let force = along::forces(&plan.path, &full, &mean, &loading);
-            Reference::under(&plan.path, timing, acting, force)
+            Reference::under(&plan.path, timing, acting, (force, Vec::new()))
         };
         let alone = reference(Sources::only(Source::Deflection));
         let both = reference(Sources::ALL);

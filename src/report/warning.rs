@@ -162,7 +162,7 @@ fn springs(report: &Report, warnings: &mut Vec<Warning>) {
     let Some(statics) = report.plan.robot.statics() else { return };
     let q = report.shaped(&report.compensation.q);
     let unsettled =
-        |k: usize| !equilibrium(&report.plan.robot, statics, &q.at(k), &report.force[k]).converged;
+        |k: usize| !equilibrium(&report.plan.robot, statics, &q.at(k), &report.planned_force[k]).converged;
     let samples = report.samples();
     if (0..samples).step_by(samples.div_ceil(LOOKS)).any(unsettled) {
         let message = "the joints are so soft under this load that their springs do not come to rest: deflections are not to be trusted";

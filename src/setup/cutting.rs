@@ -3,7 +3,7 @@
 use crate::cutting::material::{self, Material, Model};
 use crate::cutting::{Bending, ChipLoad, Coefficients, Cut, Engagement, Hand, Kienzle, Loading};
 use crate::error::Error;
-use crate::job::{self, Choice, Engaged, HelixHand, Job, Line, ToolBending};
+use crate::job::{self, Choice, Coupling, Engaged, HelixHand, Job, Line, ToolBending};
 use crate::stock::{Contacts, Cutter};
 use crate::units::{DEG, GPA, MM, RPM};
 use std::f64::consts::PI;
@@ -203,6 +203,22 @@ fn chip_thickness(job: &Job, cut: &Cut, contacts: Option<&Contacts>) -> Result<f
         THINNEST / MM
     );
     Err(Error::missing("material.chip_thickness_mm", expected))
+}
+
+/// Whether the force follows the deflection: by default where the engagement follows from a stock.
+pub(super) fn follows_deflection(job: &Job, in_stock: bool) -> Result<bool, Error> {
+    let why = "only a stock tells how the force changes as the tool is pushed away";
+    match (job.cutting.coupling, job.cutting.engagement) {
+        (Some(Coupling::Deflection), _) if job.stock.is_none() => {
+            Err(Error::missing("stock.kind", format!("{why}: box, cylinder, extents, outline or stl")))
+        }
+        (Some(Coupling::Deflection), Some(engaged)) if engaged != Engaged::FromStock => {
+            Err(Error::invalid("cutting.engagement", engaged.word(), format!("from-stock; {why}")))
+        }
+        (Some(Coupling::None), _) => Ok(false),
+        // Along a tilted axis the stock is not followed, which has its own remark.
+        _ => Ok(in_stock),
+    }
 }
 
 /// The tool's bending model, if it bends.

@@ -17,7 +17,7 @@ pub use program::{Controller, ProgramOptions};
 pub use robot::robot;
 pub use stock::proposed as proposed_stock;
 
-use crate::cutting::{Bending, Cut, HeaviestPlace, Loading, MeanForces};
+use crate::cutting::{Bending, Cut, HeaviestPlace, Loading, MeanForces, StiffnessAlong};
 use crate::error::Error;
 use crate::job::{Choice, CompensateAt, Frame, Job, Source, Sources, fields};
 use crate::math::Pose;
@@ -78,6 +78,8 @@ pub struct Setup {
     pub cut: Cut,
     /// Mean milling force in {T}.
     pub mean_force: MeanForces,
+    /// Stiffness of the cut, if its force follows the deflection.
+    pub stiffness: Option<StiffnessAlong>,
     /// What the tool meets along the path, if the engagement follows from a stock.
     pub contacts: Option<Arc<Contacts>>,
     /// That stock in words.
@@ -176,6 +178,9 @@ impl Setup {
         // The stock says where a cut begins.
         let loading = if contacts.is_some() { Loading { run_in: 0.0, ..loading } } else { loading };
         let mean_force = MeanForces::of(&cut, contacts.as_ref());
+        let follows = cutting::follows_deflection(job, contacts.is_some())?;
+        let stiffness =
+            contacts.as_ref().filter(|_| follows).map(|contacts| StiffnessAlong::of(&cut, contacts));
         let bending = cutting::bending(&job.tool)?;
         let limits = motion::limits(&job.motion, &shaper);
         check_samples(&path, &limits)?;
@@ -205,6 +210,7 @@ impl Setup {
             shaper,
             mode,
             mean_force,
+            stiffness,
             material,
             rake: job.tool.rake_deg.unwrap_or(0.0) * DEG,
             bending,

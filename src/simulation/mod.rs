@@ -39,10 +39,11 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     let reference = Reference::along(&plan, Sources::ALL);
     let mut model = steps.part(progress, "deflection and shaping", 1.0, 2.0);
     let before = simulate_by_source(&plan, &reference, &q, &mut model);
-    let force = reference.force.clone();
+    let planned_force = reference.force.clone();
     let (compensation, after, deflection_only) = correct(&plan, reference, &q, &before, &steps, progress);
     let roll = roll::gain(&plan, &q, &before.total);
-    let ErrorsBySource { total: before, shaping: shaping_only, deflection } = before;
+    let ErrorsBySource { total: before, shaping: shaping_only, deflection, force, unsettled } = before;
+    let force = if force.is_empty() { planned_force.clone() } else { Arc::new(force) };
     let errors = NominalErrors {
         before: &before.contour_error,
         after: &after.contour_error,
@@ -56,7 +57,9 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
         q,
         branch,
         roll,
+        planned_force,
         force,
+        unsettled,
         deflection,
         deflection_only,
         shaping_only,

@@ -3,10 +3,11 @@
 use crate::math;
 use crate::path::{Move, MovePace, Path, Segment};
 use crate::progress::Progress;
+use crate::stock::circle::left_of;
 use crate::stock::contact::{Collider, Contacts, FloorArc, SideArc};
 use crate::stock::grid::Grid;
 use crate::stock::mapped;
-use crate::stock::place::{Around, Cleared, Cutter, EngagementMeasure, Surroundings, ToolPlace};
+use crate::stock::place::{ArcEnd, Around, Cleared, Cutter, EngagementMeasure, Surroundings, ToolPlace};
 use crate::stock::solid::Solid;
 use crate::stock::swept::Swept;
 use nalgebra::{Vector2, Vector3};
@@ -22,6 +23,13 @@ pub(super) const MOST_STATIONS: f64 = 1e6;
 pub(super) const LOOK: f64 = 0.5;
 /// Least distance of stations, as a part of the radius.
 const NEAR: f64 = 0.002;
+/// Shift that tells how a contact changes, as a part of the radius.
+const SHIFT: f64 = 1e-4;
+/// How many times as fast as that of a wall along the feed an end of an arc is taken to move at most: where
+/// two circles just touch, it jumps.
+const STEEPEST: f64 = 10.0;
+/// Length of what is shifted along, as a part of the radius: the tool has not stepped aside from it.
+const TRAIL: f64 = 1e-2;
 /// Part of the largest engagement by which a station may differ from the middle of its neighbours.
 const BENT: f64 = 0.002;
 
@@ -126,6 +134,10 @@ struct Walk<'a> {
     sweeps: &'a [Cleared],
     /// Number of sweeps before the move.
     before: usize,
+    /// Number of sweeps by earlier paths.
+    earlier: usize,
+    /// Number of the leg that is walked.
+    number: usize,
     flat: bool,
     /// Distance of stations where the contact does not change [m].
     far: f64,
@@ -167,6 +179,8 @@ impl<'a> Walk<'a> {
             path,
             sweeps,
             before,
+            earlier: before,
+            number: before,
             flat: sweeps.iter().all(|cleared| cleared.cutter.corner == 0.0),
             far: (FAR * cutter.radius).max(path.length() / MOST_STATIONS),
             solid,
@@ -190,6 +204,7 @@ impl<'a> Walk<'a> {
             return;
         }
         for (number, leg) in (first..).zip(legs) {
+            self.number = number;
             self.leg(step, leg);
             self.ahead = heading(step, leg.within.end).unwrap_or(self.ahead);
             self.grid.add(number as u32, &leg.swept);
@@ -201,11 +216,11 @@ impl<'a> Walk<'a> {
         let Range { start, end } = leg.within;
         let pieces = ((end - start) / self.far).ceil().max(1.0);
         let mut from = self.find(step, leg, start);
-        self.keep(step, &from);
+        self.keep(step, leg, &mut from);
         for piece in 1..=pieces as usize {
-            let to = self.find(step, leg, start + (end - start) * (piece as f64 / pieces));
+            let mut to = self.find(step, leg, start + (end - start) * (piece as f64 / pieces));
             self.refine(step, leg, &from, &to);
-            self.keep(step, &to);
+            self.keep(step, leg, &mut to);
             from = to;
         }
     }
@@ -231,7 +246,7 @@ impl<'a> Walk<'a> {
         if to.within - from.within < 2.0 * NEAR * self.cutter.radius {
             return;
         }
-        let middle = self.find(step, leg, (from.within + to.within) / 2.0);
+        let mut middle = self.find(step, leg, (from.within + to.within) / 2.0);
         let height = self.solid.top - step.segment.point(middle.within).z.max(self.solid.bottom);
         let most = 2.0 * self.cutter.radius * height;
         let bent =
@@ -240,13 +255,14 @@ impl<'a> Walk<'a> {
         let parted = from.sides.len() != to.sides.len();
         if parted || bent(0) || bent(1) {
             self.refine(step, leg, from, &middle);
-            self.keep(step, &middle);
+            self.keep(step, leg, &mut middle);
             self.refine(step, leg, &middle, to);
         }
     }
 
     /// Keeps what was found.
-    fn keep(&mut self, step: &Move, found: &FoundContact) {
+    fn keep(&mut self, step: &Move, leg: &Leg, found: &mut FoundContact) {
+        self.shift(step, leg, found);
         let feed = step.segment.tangent(found.within);
         let lean = [math::hypot(feed.x, feed.y), -feed.z];
         self.contacts.push(found.within, lean, &found.sides, &found.floors);
@@ -254,10 +270,7 @@ impl<'a> Walk<'a> {
 
     /// Finds the contact at the arc length `within` [m] of a move.
     fn find(&mut self, step: &Move, leg: &Leg, within: f64) -> FoundContact {
-        let Range { start, end } = leg.within;
-        // At the very ends the tool may touch what it does not cut: seen from just inside.
-        let inside = (INSIDE * self.cutter.radius).min((end - start) / 2.0);
-        let seen = within.clamp(start + inside, end - inside);
+        let seen = self.seen(leg, within);
         let mut found = std::mem::take(&mut self.around);
         let around = self.at(step, leg, seen, Some(&leg.swept));
         let measure = around.find(&mut found);
@@ -269,6 +282,51 @@ impl<'a> Walk<'a> {
             self.contacts.collide(Collider::Shank, within);
         }
         FoundContact { within, measure, sides, floors: self.around.floors.clone() }
+    }
+
+    /// Where a place of a leg is looked at: at the very ends the tool may touch what it does not cut, so
+    /// they are seen from just inside.
+    fn seen(&self, leg: &Leg, within: f64) -> f64 {
+        let Range { start, end } = leg.within;
+        let inside = (INSIDE * self.cutter.radius).min((end - start) / 2.0);
+        within.clamp(start + inside, end - inside)
+    }
+
+    /// Finds how fast the ends of the arcs move as the tool shifts to its left.
+    fn shift(&mut self, step: &Move, leg: &Leg, found: &mut FoundContact) {
+        if found.sides.is_empty() {
+            return;
+        }
+        let by = SHIFT * self.cutter.radius;
+        let mut around = std::mem::take(&mut self.around);
+        let mut shifted = self.at(step, leg, self.seen(leg, found.within), None);
+        let offset = left_of(&shifted.place.ahead) * by;
+        let own = leg.swept.moved(&offset);
+        shifted.place.center += offset;
+        shifted.place.own = Some(&own);
+        shifted.place.trail = (self.trail(found.within - leg.within.start), offset);
+        for arc in &mut found.sides {
+            let known = *arc;
+            let mut fast = |end: ArcEnd, angle: f64| {
+                let place = -math::cos(angle);
+                if place.abs() >= 1.0 {
+                    return 0.0;
+                }
+                (shifted.end(&known, end, (place, STEEPEST * SHIFT), &mut around) - place) / by
+            };
+            arc.shift = [fast(ArcEnd::Entry, known.entry), fast(ArcEnd::Exit, known.exit)];
+        }
+        self.around = around;
+    }
+
+    /// What was swept within a short way before the place `behind` [m] after the start of a leg.
+    fn trail(&self, mut behind: f64) -> Range<usize> {
+        let mut first = self.number;
+        while behind < TRAIL * self.cutter.radius && first > self.earlier {
+            first -= 1;
+            behind += self.sweeps[first].swept.length();
+        }
+        first..self.number
     }
 
     /// The tool at the arc length `within` [m] of a move, of which `own` clears.
@@ -286,6 +344,7 @@ impl<'a> Walk<'a> {
             share,
             dives: feed.z < -1e-6,
             own,
+            trail: Default::default(),
         };
         Surroundings {
             solid: self.solid,

@@ -99,8 +99,13 @@ pub(super) trait Region {
 impl ArcParts {
     /// The whole half.
     pub(super) fn fill(&mut self, half: &HalfCircle) {
+        self.fill_range(half, (-1.0, 1.0));
+    }
+
+    /// One range of it.
+    pub(super) fn fill_range(&mut self, half: &HalfCircle, range: (f64, f64)) {
         self.ranges.clear();
-        self.ranges.push((-1.0, 1.0));
+        self.ranges.push(range);
         self.surround(half);
     }
 
@@ -124,16 +129,14 @@ impl ArcParts {
         &self.ranges
     }
 
-    /// Takes away what lies in a swept region that reaches `reach` [m] from its spine, whose distance
-    /// to a point [m] is `distance`.
+    /// Takes away what lies in a region; `near` tells whether it comes within a distance [m] of a point.
     pub(super) fn subtract(
         &mut self,
         half: &HalfCircle,
         region: &impl Region,
-        distance: impl Fn(&Vector2<f64>) -> f64,
-        reach: f64,
+        near: impl Fn(&Vector2<f64>, f64) -> bool,
     ) {
-        if self.discs.iter().any(|(middle, span)| distance(middle) < reach + span) {
+        if self.discs.iter().any(|(middle, span)| near(middle, *span)) {
             self.keep(half, region, false);
         }
     }
@@ -157,7 +160,9 @@ impl ArcParts {
                 begin = end;
             }
         }
-        std::mem::swap(&mut self.ranges, &mut self.spare);
-        self.surround(half);
+        if self.ranges != self.spare {
+            std::mem::swap(&mut self.ranges, &mut self.spare);
+            self.surround(half);
+        }
     }
 }

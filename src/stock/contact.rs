@@ -13,6 +13,9 @@ pub struct SideArc {
     pub entry: f64,
     /// Immersion angle where it leaves [rad].
     pub exit: f64,
+    /// How fast -cos(entry) and -cos(exit) grow as the tool shifts to its left [1/m]: 1 / r where the
+    /// material ends along the feed, 0 where it goes on around the tool.
+    pub shift: [f64; 2],
 }
 
 /// An arc of a ring of the tool's bottom that is in material.

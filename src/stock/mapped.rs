@@ -217,7 +217,12 @@ impl MapView<'_> {
         let at = |k: usize| {
             if on_corner { angle(k) } else { immersion(-math::cos(angle(k)) * radius / self.cutter.radius) }
         };
-        sides.extend(runs.map(|(first, end)| SideArc { from, to, entry: at(first), exit: at(end) }));
+        // Taken as ending along the feed: cells are too coarse to see how a border moves.
+        let shift = |angle: f64| if angle > 0.0 && angle < math::PI { 1.0 / radius } else { 0.0 };
+        sides.extend(runs.map(|(first, end)| {
+            let (entry, exit) = (at(first), at(end));
+            SideArc { from, to, entry, exit, shift: [shift(entry), shift(exit)] }
+        }));
     }
 
     /// The arcs under the flat bottom, if the tool dives.

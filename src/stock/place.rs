@@ -8,6 +8,8 @@ use crate::stock::grid::{Grid, SAME_HEIGHT};
 use crate::stock::solid::Solid;
 use crate::stock::swept::{Capsule, Spine, Swept};
 use nalgebra::Vector2;
+use std::borrow::Cow;
+use std::ops::Range;
 
 /// The tool as far as it clears material.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,6 +60,15 @@ pub(super) struct Around {
     heights: Vec<f64>,
 }
 
+/// An end of an arc.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ArcEnd {
+    /// Where a tooth enters.
+    Entry,
+    /// Where it leaves.
+    Exit,
+}
+
 /// Engagement as two numbers whose changes matter [m^2]: the section in the tool's way, and how it is
 /// spread.
 pub(super) type EngagementMeasure = [f64; 2];
@@ -79,6 +90,8 @@ pub(super) struct ToolPlace<'a> {
     pub(super) dives: bool,
     /// The own move, if it clears.
     pub(super) own: Option<&'a Swept>,
+    /// What was swept right before, and how far it is shifted along with the tool.
+    pub(super) trail: (Range<usize>, Vector2<f64>),
 }
 
 /// The tool at a place, and what was cut before.
@@ -170,6 +183,36 @@ impl Surroundings<'_> {
         parts.ranges().iter().any(|(from, to)| (to - from) * half.radius > THIN)
     }
 
+    /// Where one end of an arc is, near the place `near` at the middle of the arc's height; no farther than
+    /// `far` from it.
+    pub(super) fn end(
+        &self,
+        arc: &SideArc,
+        end: ArcEnd,
+        (near, far): (f64, f64),
+        around: &mut Around,
+    ) -> f64 {
+        let height = (arc.from + arc.to) / 2.0;
+        let half = HalfCircle {
+            center: self.place.center,
+            radius: self.cutter.radius_at(height),
+            ahead: self.place.ahead,
+        };
+        let (low, high) = ((near - far).max(-1.0), (near + far).min(1.0));
+        let parts = &mut around.parts;
+        parts.fill_range(&half, (low, high));
+        parts.keep(&half, &self.solid.outline, true);
+        self.clear(&half, (f64::NEG_INFINITY, self.place.height + height), parts);
+        match end {
+            ArcEnd::Entry => {
+                parts.ranges().last().filter(|range| range.1 == high).map_or(high, |range| range.0)
+            }
+            ArcEnd::Exit => {
+                parts.ranges().first().filter(|range| range.0 == low).map_or(low, |range| range.1)
+            }
+        }
+    }
+
     /// The arcs around the side between two heights [m].
     fn sides(&self, half: HalfCircle, (low, high): (f64, f64), around: &mut Around) {
         self.borders((low, high), &mut around.heights);
@@ -197,6 +240,7 @@ impl Surroundings<'_> {
                 to,
                 entry: immersion(a),
                 exit: immersion(b),
+                shift: [0.0; 2],
             }));
         }
     }
@@ -237,7 +281,9 @@ impl Surroundings<'_> {
         let cell = self.grid.at(&self.place.center);
         let mut subtract = |spine: &Spine, cutter: &Cutter, tip: f64| {
             let reach = cutter.radius_at(height - tip) * (1.0 - TOUCH);
-            parts.subtract(half, &Capsule { spine, reach }, |point| spine.distance(point), reach);
+            parts.subtract(half, &Capsule { spine, reach }, |point, span| {
+                spine.is_within(point, reach + span)
+            });
             parts.is_empty()
         };
         let own = self.place.own.and_then(|own| own.below(height, self.place.share));
@@ -249,14 +295,15 @@ impl Surroundings<'_> {
                 break;
             }
             for &number in level.moves.iter().rev() {
-                let Cleared { swept, cutter } = &self.sweeps[number as usize];
-                if subtract(&swept.spine, cutter, level.height) {
+                let cleared = self.swept(number as usize);
+                if subtract(&cleared.swept.spine, &cleared.cutter, level.height) {
                     return;
                 }
             }
         }
         for &number in cell.ramps.iter().rev() {
-            let Cleared { swept, cutter } = &self.sweeps[number as usize];
+            let cleared = self.swept(number as usize);
+            let Cleared { swept, cutter } = &*cleared;
             let (_, highest) = swept.range();
             let Some(spine) = swept.below(height, 1.0) else { continue };
             // With the reach of its highest place: with any larger one, a round nose that rises would
@@ -265,6 +312,16 @@ impl Surroundings<'_> {
                 return;
             }
         }
+    }
+
+    /// What a move has cleared, as seen by a tool that is shifted with its trail.
+    fn swept(&self, number: usize) -> Cow<'_, Cleared> {
+        let cleared = &self.sweeps[number];
+        let (trail, by) = &self.place.trail;
+        if !trail.contains(&number) {
+            return Cow::Borrowed(cleared);
+        }
+        Cow::Owned(Cleared { swept: cleared.swept.moved(by), ..*cleared })
     }
 
     /// The arcs of half a ring of the bottom, whose immersion angles begin at `turn` [rad].

@@ -69,6 +69,13 @@ impl Spine {
         }
     }
 
+    /// Whether a point is nearer than `distance` [m]; cheaper than [`Spine::distance`] for a line.
+    pub(super) fn is_within(&self, point: &Vector2<f64>, distance: f64) -> bool {
+        let Self::Line { from, along, length } = self else { return self.distance(point) < distance };
+        let offset = point - from;
+        (offset - along * offset.dot(along).clamp(0.0, *length)).norm_squared() < distance * distance
+    }
+
     /// Smallest box that holds it: lower and upper corner [m].
     pub(super) fn bounds(&self) -> [Vector2<f64>; 2] {
         match self {
@@ -120,6 +127,18 @@ impl Region for Capsule<'_> {
 }
 
 impl Swept {
+    /// The same, moved across the tool axis by `by` [m].
+    pub(super) fn moved(&self, by: &Vector2<f64>) -> Self {
+        let spine = match self.spine {
+            Spine::Point(at) => Spine::Point(at + by),
+            Spine::Line { from, along, length } => Spine::Line { from: from + by, along, length },
+            Spine::Arc { center, radius, ends, sweep } => {
+                Spine::Arc { center: center + by, radius, ends, sweep }
+            }
+        };
+        Self { spine, ..*self }
+    }
+
     /// What a move along a segment sweeps; the tool axis is z. `None` for an arc that does not lie
     /// across it.
     pub(super) fn of(segment: &Segment) -> Option<Self> {
@@ -147,6 +166,16 @@ impl Swept {
                 Some(Self { spine, backwards: normal < 0.0, turns: sweep / TAU, heights })
             }
         }
+    }
+
+    /// Length of the way of its tip [m], at least.
+    pub(super) fn length(&self) -> f64 {
+        let along = match self.spine {
+            Spine::Point(_) => 0.0,
+            Spine::Line { length, .. } => length,
+            Spine::Arc { radius, sweep, .. } => radius * sweep,
+        };
+        along.max((self.heights[1] - self.heights[0]).abs())
     }
 
     /// Lowest and highest tip [m].

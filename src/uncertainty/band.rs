@@ -1,7 +1,7 @@
 //! The band of the largest contour error over the drawn plants, what widens it, and what it would
 //! be otherwise.
 
-use crate::cutting::MeanForces;
+use crate::cutting::PartForces;
 use crate::deviation::Largest;
 use crate::job::Sources;
 use crate::plan::Plan;
@@ -130,7 +130,7 @@ pub fn band(plan: &Plan, (desired, kept): (&[Joints], &[Joints]), errors: &Nomin
     let filtered = plans.iter().zip(&timings).map(|((factor, plan), timing)| (*factor, plan, &**timing));
     let plants = Plants {
         filtered: filtered.collect(),
-        parts: MeanForces::parts(&plan.setup.cut, plan.setup.contacts.as_ref()),
+        parts: PartForces::of(&plan.setup.cut, plan.setup.contacts.as_ref()),
     };
     let DrawnColumn { samples, p95, largest, outcomes: compensated } =
         DrawnColumn::new(&plants, (kept, &draws), (first, &estimate), PLACES);
@@ -249,7 +249,7 @@ fn shares(outcomes: &Outcomes, widest: usize) -> Vec<Share> {
     let spreads = &plan.setup.spreads;
     let tangent = plan.path.tangent(place.arc_length);
     let across = |v: Vector3<f64>| v - tangent * tangent.dot(&v);
-    let joints = place.by_joint(plan, &[1.0; 3]).map(across);
+    let joints = place.by_joint(plan).map(across);
     let covariance = spreads.stiffness.covariance();
     let mut squares: Vec<(String, f64)> = (0..6)
         .map(|i| {

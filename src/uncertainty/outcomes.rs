@@ -1,6 +1,6 @@
 //! Where commands take the tip at a few places, with any drawn plant.
 
-use crate::cutting::MeanForces;
+use crate::cutting::PartForces;
 use crate::deviation::{Reference, Sources, contour, missed, simulate};
 use crate::motion::TimingLaw;
 use crate::plan::Plan;
@@ -36,7 +36,7 @@ pub(super) fn filtered(plan: &Plan) -> Vec<(f64, Plan)> {
 /// What every set of commands is sent through.
 pub(super) struct Plants<'a> {
     pub(super) filtered: Vec<Filtered<'a>>,
-    pub(super) parts: [MeanForces; 3],
+    pub(super) parts: PartForces,
 }
 
 impl Plants<'_> {

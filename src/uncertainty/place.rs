@@ -1,10 +1,12 @@
 //! A place on the path: where the tip goes there as a function of the drawn plant.
 //!
 //! Actual tip = shaped pose + C F (eqs. 3.47, 3.48), with C a sum over the joints and F a sum over
-//! the parts of the force: bilinear in the factors on both. Springs that are not linear and weight
+//! the parts of the force: bilinear in the factors on both. Where the force follows the deflection, so
+//! do its parts, and the balance is that of the drawn plant. Springs that are not linear and weight
 //! are kept, with the levers held as they are under the nominal force (they turn by less than 1e-3).
 
-use crate::cutting::{MeanForces, along};
+use crate::cutting::{CutStiffness, PartForces, along};
+use crate::deviation::coupling::settled;
 use crate::deviation::near::NearMove;
 use crate::motion::TimingLaw;
 use crate::plan::Plan;
@@ -23,7 +25,7 @@ pub struct DrawnPlace {
     pub near: NearMove,
     /// Shaped pose without deflection [m].
     base: Vector3<f64>,
-    /// Displacement of the tip per unit turn of each joint [m].
+    /// Displacement of the point per unit turn of each joint [m].
     moves: [Vector3<f64>; 6],
     /// Torque about each joint by each part of the nominal force [N m].
     torque: [[f64; 3]; 6],
@@ -33,6 +35,29 @@ pub struct DrawnPlace {
     bending: Option<[Vector3<f64>; 3]>,
     /// Sag by each joint where the workpiece was touched off [m], if joints sag.
     sag: Option<[Vector3<f64>; 6]>,
+    /// What the force follows, if it does.
+    follows: Option<FollowedTip>,
+}
+
+/// The tip, whose shift the force follows, where a point above it is looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct FollowedTip {
+    /// Parts of the planned force [N].
+    force: [Vector3<f64>; 3],
+    /// Parts of the stiffness of the cut.
+    stiffness: [CutStiffness; 3],
+    /// The undeflected tip from where it should be [m].
+    shift: Vector3<f64>,
+    /// Lever of a force on the tip about each joint [m].
+    levers: [Vector3<f64>; 6],
+    /// Displacement of the tip per unit turn of each joint [m].
+    moves: [Vector3<f64>; 6],
+    /// Sag of the tip by each joint where the workpiece was touched off [m].
+    sag: [Vector3<f64>; 6],
+    /// Tool axis.
+    axis: Vector3<f64>,
+    /// Height of the point above the tip [m].
+    height: f64,
 }
 
 /// The places of joint commands `q` [rad] at the samples `at`, with the point of the tool at the
@@ -40,13 +65,13 @@ pub struct DrawnPlace {
 /// force.
 pub fn places(
     plan: &Plan,
-    (timing, parts): (&TimingLaw, &[MeanForces; 3]),
+    (timing, parts): (&TimingLaw, &PartForces),
     (q, at): (&[Joints], &[usize]),
     height: f64,
 ) -> Vec<DrawnPlace> {
-    let forces = along::parts(&plan.path, timing, parts, &plan.setup.loading, at);
+    let cuts = along::parts(&plan.path, timing, parts, &plan.setup.loading, at);
     let shaped = plan.shaper().shaped(q, plan.trajectory.sample_time);
-    let place = |(&sample, force): (&usize, [Vector3<f64>; 3])| {
+    let place = |(&sample, (force, stiffness)): (&usize, ([Vector3<f64>; 3], [CutStiffness; 3]))| {
         let q = shaped.at(sample);
         let robot = &plan.robot;
         let frames = forward::frames(robot, &q);
@@ -86,38 +111,63 @@ pub fn places(
             weight,
             bending,
             sag: robot.statics().map(|_| sag),
+            follows: plan.setup.stiffness.as_ref().map(|_| FollowedTip {
+                force,
+                stiffness,
+                shift: tcp.position - target,
+                levers,
+                moves: moves.map(|(_, v)| v),
+                sag: robot.statics().map_or([Vector3::zeros(); 6], |_| robot.sag().map(|(moved, _)| moved)),
+                axis,
+                height,
+            }),
         }
     };
-    at.iter().zip(forces).map(place).collect()
+    at.iter().zip(cuts).map(place).collect()
 }
 
-impl DrawnPlace {
-    /// Turn of each joint [rad] with a drawn force and nominal stiffness.
-    fn turns(&self, plan: &Plan, [tangential, radial, axial]: &[f64; 3]) -> [f64; 6] {
-        let torque = |joint: usize| {
-            let [t, r, a] = self.torque[joint];
-            t * tangential + r * radial + a * axial + self.weight[joint]
-        };
-        match plan.robot.statics() {
-            Some(statics) => std::array::from_fn(|joint| statics.springs[joint].turn(torque(joint))),
-            None => std::array::from_fn(|joint| plan.robot.compliance()[joint] * torque(joint)),
-        }
+/// Turn of a joint [rad] under a torque [N m], with nominal stiffness.
+fn turn(plan: &Plan, joint: usize, torque: f64) -> f64 {
+    match plan.robot.statics() {
+        Some(statics) => statics.springs[joint].turn(torque),
+        None => plan.robot.compliance()[joint] * torque,
     }
+}
 
-    /// Displacement of the tip by each joint's turn [m] with a drawn force and nominal stiffness.
-    pub fn by_joint(&self, plan: &Plan, force: &[f64; 3]) -> [Vector3<f64>; 6] {
-        let turns = self.turns(plan, force);
+/// Step of a factor that makes a derivative, even with springs that are not linear.
+const STEP: f64 = 1e-3;
+
+impl DrawnPlace {
+    /// Growth of the tip's displacement with the factor on each joint's compliance [m].
+    pub fn by_joint(&self, plan: &Plan) -> [Vector3<f64>; 6] {
+        if self.follows.is_some() {
+            return std::array::from_fn(|joint| {
+                let tip = |factor: f64| {
+                    let mut draw = Draw::NOMINAL;
+                    draw.compliance[joint] = factor;
+                    self.tip(plan, &draw)
+                };
+                (tip(1.0 + STEP) - tip(1.0 - STEP)) / (2.0 * STEP)
+            });
+        }
         let sag = self.sag.unwrap_or_default();
-        std::array::from_fn(|joint| self.moves[joint] * turns[joint] - sag[joint])
+        std::array::from_fn(|joint| {
+            let [t, r, a] = self.torque[joint];
+            self.moves[joint] * turn(plan, joint, t + r + a + self.weight[joint]) - sag[joint]
+        })
     }
 
     /// The actual tip [m] with a drawn plant.
     pub fn tip(&self, plan: &Plan, draw: &Draw) -> Vector3<f64> {
+        if let Some(follows) = &self.follows {
+            return self.followed(plan, draw, follows);
+        }
         let mut tip = self.base;
-        for ((moved, turn), factor) in
-            self.moves.iter().zip(self.turns(plan, &draw.force)).zip(draw.compliance)
-        {
-            tip += moved * (turn * factor);
+        let [tangential, radial, axial] = draw.force;
+        for (joint, factor) in draw.compliance.into_iter().enumerate() {
+            let [t, r, a] = self.torque[joint];
+            let torque = t * tangential + r * radial + a * axial + self.weight[joint];
+            tip += self.moves[joint] * (turn(plan, joint, torque) * factor);
         }
         for (sagged, factor) in self.sag.iter().flatten().zip(draw.compliance) {
             tip -= sagged * factor;
@@ -126,5 +176,37 @@ impl DrawnPlace {
             tip += bent * factor;
         }
         tip
+    }
+
+    /// The actual tip [m] with a drawn plant where the force follows the deflection.
+    fn followed(&self, plan: &Plan, draw: &Draw, follows: &FollowedTip) -> Vector3<f64> {
+        let drawn = |parts: &[Vector3<f64>; 3]| {
+            parts.iter().zip(draw.force).fold(Vector3::zeros(), |sum, (part, factor)| sum + part * factor)
+        };
+        let growth = [0, 1].map(|way| drawn(&follows.stiffness.each_ref().map(|part| part.growth[way])));
+        let stiffness = CutStiffness { growth, ..follows.stiffness[0] };
+        let turned = |force: &Vector3<f64>| -> [f64; 6] {
+            std::array::from_fn(|joint| {
+                turn(plan, joint, follows.levers[joint].dot(force) + self.weight[joint])
+                    * draw.compliance[joint]
+            })
+        };
+        let sum = |moves: &[Vector3<f64>; 6], turns: [f64; 6], sag: &[Vector3<f64>; 6]| {
+            let moved =
+                moves.iter().zip(turns).fold(Vector3::zeros(), |sum, (moved, turn)| sum + moved * turn);
+            sag.iter().zip(draw.compliance).fold(moved, |sum, (sagged, factor)| sum - sagged * factor)
+        };
+        let bent = |force: &Vector3<f64>| {
+            plan.setup.bending.map(|bending| bending.deflection(&follows.axis, force)).unwrap_or_default()
+        };
+        let deflect = |force: &Vector3<f64>| {
+            (sum(&follows.moves, turned(force), &follows.sag) + bent(force).0, Vector3::zeros())
+        };
+        let cut = settled(&drawn(&follows.force), &stiffness, &follows.shift, deflect);
+        let (moved, leant) = bent(&cut.force);
+        self.base
+            + sum(&self.moves, turned(&cut.force), &self.sag.unwrap_or_default())
+            + moved
+            + leant.cross(&follows.axis) * follows.height
     }
 }

@@ -6,8 +6,8 @@
 //! point of the program corresponds to the instant of that run at which the same point was
 //! commanded. Thinned moves stray from those points by no more than the thinning tolerance.
 
-use crate::cutting::along;
 use crate::deviation::missed::missed;
+use crate::deviation::reference::{SampledCut, cut_along};
 use crate::deviation::{Deviation, Reference, Sources, simulate};
 use crate::error::Error;
 use crate::export::commanded_path::CommandedPath;
@@ -128,26 +128,34 @@ pub fn run_under(
     let (trajectory, share) = standing_for(report, &own, &instants);
     let plan = Plan { trajectory: trajectory.into(), ..report.plan.clone() };
     let timing = plan.timing(acting).into_owned();
-    let force = if acting.deflection { force(&plan, &timing, &share, acting) } else { Vec::new() };
-    let reference = Reference::under(&plan.path, timing, acting, force);
+    let cut = cut(&plan, &timing, &share, acting);
+    let reference = Reference::under(&plan.path, timing, acting, cut);
     let deviation = simulate(&plan, &reference, &q, &mut Progress::none());
     let Reference { target, axis, .. } = reference;
     let target = target.into_owned();
     Ok(Replay { target, axis, deviation, instants, trajectory: plan.trajectory })
 }
 
-/// Force on the tool [N] along a timing law, of which `share` acts across the tool axis.
-fn force(plan: &Plan, timing: &TimingLaw, share: &[f64], acting: Sources) -> Vec<Vector3<f64>> {
+/// The cut along a timing law, of whose force `share` acts across the tool axis.
+fn cut(plan: &Plan, timing: &TimingLaw, share: &[f64], acting: Sources) -> SampledCut {
     let none = Shaper::none();
     let shaper = if acting.shaping { plan.shaper() } else { &none };
     let share = shaper.apply(share, plan.trajectory.sample_time);
-    let mut force = along::forces(&plan.path, timing, &plan.setup.mean_force, &plan.setup.loading);
-    for (k, (force, share)) in force.iter_mut().zip(share).enumerate() {
-        let axis = timing.axis(&plan.path, k);
+    let (mut force, mut stiffness) = cut_along(plan, timing, acting);
+    let shrink = |force: &mut Vector3<f64>, axis: &Vector3<f64>, share: f64| {
         let along = axis * axis.dot(force);
         *force = along + (*force - along) * share;
+    };
+    for (k, share) in share.into_iter().enumerate() {
+        let axis = timing.axis(&plan.path, k);
+        let grown = stiffness.get_mut(k).map(|stiffness| &mut stiffness.growth);
+        force
+            .get_mut(k)
+            .into_iter()
+            .chain(grown.into_iter().flatten())
+            .for_each(|force| shrink(force, &axis, share));
     }
-    force
+    (force, stiffness)
 }
 
 /// A command may turn back by so much while a correction changes [m]; further, it is the path that
