@@ -31,6 +31,15 @@ impl ChipLoad {
             ChipLoad::FromFeed { flutes, spindle } => feed / (flutes * programmed.unwrap_or(*spindle)),
         }
     }
+
+    /// Feed [m/s] for a feed per tooth `chip` [m] at the program's spindle speed [1/s], if it states
+    /// one; `None` if a stated feed per tooth goes with every feed.
+    pub fn feed(&self, chip: f64, programmed: Option<f64>) -> Option<f64> {
+        match self {
+            ChipLoad::Stated(_) => None,
+            ChipLoad::FromFeed { flutes, spindle } => Some(chip * flutes * programmed.unwrap_or(*spindle)),
+        }
+    }
 }
 
 /// Load of the cut at an instant: the factors of the two parts of a

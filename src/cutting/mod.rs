@@ -15,8 +15,10 @@ pub mod load;
 pub mod in_stock;
 pub mod mean_forces;
 pub mod stiffness;
+pub mod constant_force;
 pub mod along;
 
+pub use constant_force::{ConstantForceFeed, CutAlong};
 pub use engagement::Engagement;
 pub use force::{Cut, LinearForce};
 pub use in_stock::PlaceFigures;

@@ -1,5 +1,6 @@
 //! The header of every program: its origin, its simulated accuracy, and its limits.
 
+use crate::cutting::ConstantForceFeed;
 use crate::export::command::{Command, ProgramRun};
 use crate::export::orientation::roll_pitch_yaw;
 use crate::export::style::Junctions;
@@ -36,6 +37,15 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
             millimetres(report.before.statistics.max)
         ),
     ];
+    if let Some(by_force) = &setup.feed_rule {
+        let ConstantForceFeed { force, least, most } = by_force.rule;
+        lines.push(format!(
+            "Feeds hold a mean force of {} N, from {} to {} % of those programmed",
+            number(force, 1),
+            number(least * 100.0, 1),
+            number(most * 100.0, 1)
+        ));
+    }
     if let Some(command) = command {
         lines.extend(points(report, command));
     }

@@ -45,6 +45,13 @@ impl Keyword for Mean {
     const WORD: &'static str = "mean";
 }
 
+/// `"median"`: the median along the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Median;
+impl Keyword for Median {
+    const WORD: &'static str = "median";
+}
+
 /// `"unknown"`: not known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Unknown;
@@ -71,6 +78,8 @@ pub type CornerDwell = Choice<Settle>;
 /// Feed per tooth [mm], or `"from_feed"`.
 pub type FeedPerTooth = Choice<FromFeed>;
 
+/// Mean force to hold [N], or `"median"`.
+pub type HeldForce = Choice<Median>;
 /// Corner radius of a tool [mm], or `"ball"`.
 pub type CornerRadius = Choice<Ball>;
 /// Spindle power [kW], or `"unknown"`.

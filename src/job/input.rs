@@ -1,9 +1,10 @@
 //! The job's keys, mirroring the JSON. Values are as typed, not yet checked.
 
 use crate::error::Error;
-use crate::job::choice::{Choice, CornerDwell, choice};
+use crate::job::choice::choice;
 use crate::job::cutting::{Cutting, Material, Tool};
 use crate::job::json::{Node, Read, keys};
+use crate::job::motion::Motion;
 use crate::job::path::{Path, PathKind};
 use crate::job::program::RobotProgram;
 use crate::job::source::Source;
@@ -280,36 +281,6 @@ choice! {
         Ei = "ei",
     }
 }
-/// Speed and sampling.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Motion {
-    /// Feed along the path.
-    pub feed_mm_s: f64,
-    /// Speed of a program's rapid moves.
-    pub rapid_mm_s: f64,
-    /// Acceleration along the path.
-    pub acceleration_mm_s2: f64,
-    /// Sample time.
-    pub sample_time_s: f64,
-    /// A sharper corner is a full stop.
-    pub corner_angle_deg: f64,
-    /// Time at rest in a full-stop corner.
-    pub corner_dwell: CornerDwell,
-}
-
-impl Default for Motion {
-    fn default() -> Self {
-        Self {
-            feed_mm_s: 100.0,
-            rapid_mm_s: 250.0,
-            acceleration_mm_s2: 200.0,
-            sample_time_s: 0.001,
-            corner_angle_deg: 5.0,
-            corner_dwell: Choice::Word,
-        }
-    }
-}
-
 /// Input shaper: `"none"`, or a kind with its frequency and damping.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shaper {
@@ -411,6 +382,5 @@ keys!(new Opw {
 } required c2_mm, c3_mm);
 keys!(Frame { xyz_mm, rpy_deg });
 keys!(Branch { shoulder, elbow, wrist });
-keys!(Motion { feed_mm_s, rapid_mm_s, acceleration_mm_s2, sample_time_s, corner_angle_deg, corner_dwell });
 keys!(new ShaperSpec { kind, frequency_rad_s, frequency_hz, damping } required kind, damping);
 keys!(Compensation { tolerance_mm, max_passes, sources, at });

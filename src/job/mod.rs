@@ -9,6 +9,7 @@ mod choice;
 mod source;
 mod spin;
 mod input;
+mod motion;
 mod cutting;
 mod path;
 mod program;
@@ -19,14 +20,15 @@ pub mod presets;
 pub mod fields;
 
 pub use choice::{
-    BlendingDistance, ChipThickness, Choice, CornerDwell, CornerRadius, FeedPerTooth, LoadMass, SpindlePower,
-    SpreadPercent,
+    BlendingDistance, ChipThickness, Choice, CornerDwell, CornerRadius, FeedPerTooth, HeldForce, LoadMass,
+    SpindlePower, SpreadPercent,
 };
 pub use cutting::{Coupling, Cutting, Engaged, HelixHand, Line, Material, Tool, ToolBending};
 pub use input::{
-    Branch, CompensateAt, Compensation, DhRow, Elbow, Frame, Job, Joint3, Motion, Opw, Robot, SagZero,
-    Shaper, ShaperKind, ShaperSpec, Shoulder, Wrist,
+    Branch, CompensateAt, Compensation, DhRow, Elbow, Frame, Job, Joint3, Opw, Robot, SagZero, Shaper,
+    ShaperKind, ShaperSpec, Shoulder, Wrist,
 };
+pub use motion::{FeedRule, Motion};
 pub use path::{FeedUnit, Path, PathKind, ProgramDialect, Unit};
 pub use program::{ControllerWord, FrameValues, RobotProgram};
 pub use source::{Source, Sources};

@@ -16,7 +16,7 @@ use nalgebra::Vector3;
 pub const BESIDE: f64 = 0.01 * MM;
 
 /// Longest stretch looked at on either side of a corner [m].
-const LONGEST: f64 = 5.0 * MM;
+pub const LONGEST: f64 = 5.0 * MM;
 
 /// Points looked at on an arc.
 const ON_ARC: usize = 16;

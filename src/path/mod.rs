@@ -10,6 +10,7 @@ pub mod reference;
 pub mod roll;
 pub mod program;
 pub mod unit;
+mod pieces;
 mod lines;
 mod builder;
 pub mod gcode;
@@ -17,6 +18,7 @@ pub mod apt;
 pub mod csv;
 
 pub use axes::{Axes, AxisArc};
+pub use pieces::Piece;
 pub use program::{Move, MovePace, Program, Remark, SourceProgram, Tool};
 pub use reference::{RollReference, RollZero};
 pub use roll::Roll;

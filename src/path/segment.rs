@@ -117,6 +117,25 @@ impl Segment {
         }
     }
 
+    /// The part between two arc lengths [m].
+    pub fn part(&self, from: f64, to: f64) -> Self {
+        match *self {
+            Segment::Line { .. } => Segment::Line { from: self.point(from), to: self.point(to) },
+            Segment::Arc { center, u, v, radius, sweep, rise } => {
+                let length = self.length();
+                let (sin, cos) = math::sin_cos(from / length * sweep);
+                Segment::Arc {
+                    center: center + u.cross(&v) * (rise * from / length),
+                    u: u * cos + v * sin,
+                    v: v * cos - u * sin,
+                    radius,
+                    sweep: sweep * (to - from) / length,
+                    rise: rise * (to - from) / length,
+                }
+            }
+        }
+    }
+
     /// Arc length [m] in [`from`, `to`] of the point closest to `p`.
     pub fn closest(&self, p: &Vector3<f64>, from: f64, to: f64) -> f64 {
         match self {

@@ -7,6 +7,7 @@ pub mod scene;
 mod budget;
 mod cut;
 mod drives;
+mod feed_rule;
 pub(crate) mod limit;
 mod onset;
 mod payload;
@@ -24,6 +25,7 @@ mod in_stock;
 
 pub use budget::{Budget, Parts};
 pub use cut::{CutFigures, WallFigures};
+pub use feed_rule::{FeedOutcome, FeedRuleGain};
 pub use remedy::Remedy;
 pub use roll::{RollGain, RollOutcome};
 pub use severity::Severity;
@@ -57,6 +59,8 @@ pub struct Report {
     pub branch: Branch,
     /// Gain from a free roll about the tool axis, if it is free.
     pub roll: Option<RollGain>,
+    /// Gain of the feed rule over the programmed feed, if there is one.
+    pub feed_rule: Option<FeedRuleGain>,
     /// Force on the tool in its place, in the base frame, every source acting [N].
     pub planned_force: Arc<Vec<Vector3<f64>>>,
     /// Force on the tool in the base frame with the desired path commanded, every source acting [N]:

@@ -8,7 +8,9 @@ use crate::model::MODEL;
 use crate::path::gcode::GcodeDialect;
 use crate::path::{MovePace, Path, SourceProgram};
 use crate::report::expected::{ExpectedError, HowSure};
-use crate::report::{Budget, CutFigures, Report, RollGain, Stops, VerdictState, WallFigures, Warning};
+use crate::report::{
+    Budget, CutFigures, FeedRuleGain, Report, RollGain, Stops, VerdictState, WallFigures, Warning,
+};
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -136,6 +138,9 @@ pub struct Summary {
     /// Gain from a free spin, if it is free.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spin: Option<RollGain>,
+    /// Gain of the feed rule over the programmed feed, if there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub feed_rule: Option<FeedRuleGain>,
     /// Name of the robot.
     pub robot: String,
     /// Source of the joint compliances, and how far to trust them.
@@ -290,6 +295,7 @@ impl Report {
             how_sure: self.how_sure(),
             program: self.setup().program.as_ref().map(|source| ProgramSummary::of(source, &self.plan.path)),
             spin: self.roll.clone(),
+            feed_rule: self.feed_rule.clone(),
             robot: self.plan.robot.name().to_owned(),
             controller: self.setup().output.controller.id(),
             inverse: if self.plan.robot.closed_form().is_ok() { "closed form" } else { "numerically" },

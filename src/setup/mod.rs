@@ -5,6 +5,7 @@ mod path;
 mod cutting;
 mod statics;
 mod stock;
+mod feed_rule;
 mod motion;
 mod uncertainty;
 mod reserved;
@@ -13,6 +14,7 @@ pub mod program;
 use stock::StockEngagement;
 
 pub use cutting::ResolvedMaterial;
+pub use feed_rule::{FeedByForce, PathInStock};
 pub use program::{Controller, ProgramOptions};
 pub use robot::robot;
 pub use stock::proposed as proposed_stock;
@@ -86,6 +88,8 @@ pub struct Setup {
     pub stock: Option<String>,
     /// Whether a stock cannot be followed because the tool axis is not the workpiece's z axis.
     pub tilted_in_stock: bool,
+    /// The rule that sets the feeds of the path by the force, and the path as programmed.
+    pub feed_rule: Option<FeedByForce>,
     /// Where the force in the stock is largest.
     pub heaviest: Option<HeaviestPlace>,
     /// The material, and how its coefficients were derived.
@@ -178,12 +182,20 @@ impl Setup {
         // The stock says where a cut begins.
         let loading = if contacts.is_some() { Loading { run_in: 0.0, ..loading } } else { loading };
         let mean_force = MeanForces::of(&cut, contacts.as_ref());
-        let follows = cutting::follows_deflection(job, contacts.is_some())?;
-        let stiffness =
-            contacts.as_ref().filter(|_| follows).map(|contacts| StiffnessAlong::of(&cut, contacts));
         let bending = cutting::bending(&job.tool)?;
         let limits = motion::limits(&job.motion, &shaper);
         check_samples(&path, &limits)?;
+        let (path, contacts, mean_force, feed_rule) =
+            match feed_rule::held(job, &path, &mean_force, &loading)? {
+                Some((PathInStock { path, contacts, mean_force }, rule)) => {
+                    check_samples(&path, &limits)?;
+                    (path, Some(contacts), mean_force, Some(rule))
+                }
+                None => (path, contacts, mean_force, None),
+            };
+        let follows = cutting::follows_deflection(job, contacts.is_some())?;
+        let stiffness =
+            contacts.as_ref().filter(|_| follows).map(|contacts| StiffnessAlong::of(&cut, contacts));
         let sources = sources(&job.compensation.sources)?;
         let compliance = (*robot.compliance()).into();
         let spreads = uncertainty::spreads(&job.uncertainty, &compliance, spread, &material)?;
@@ -220,6 +232,7 @@ impl Setup {
             },
             loading,
             contacts,
+            feed_rule,
             stock,
             tilted_in_stock,
             cut,

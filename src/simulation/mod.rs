@@ -1,5 +1,6 @@
 //! The pipeline, end to end: from a job to its report.
 
+mod feed_rule;
 mod given;
 mod remedy;
 mod roll;
@@ -42,6 +43,7 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     let planned_force = reference.force.clone();
     let (compensation, after, deflection_only) = correct(&plan, reference, &q, &before, &steps, progress);
     let roll = roll::gain(&plan, &q, &before.total);
+    let feed_rule = feed_rule::gain(&plan, &planned_force, &before.total)?;
     let ErrorsBySource { total: before, shaping: shaping_only, deflection, force, unsettled } = before;
     let force = if force.is_empty() { planned_force.clone() } else { Arc::new(force) };
     let errors = NominalErrors {
@@ -57,6 +59,7 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
         q,
         branch,
         roll,
+        feed_rule,
         planned_force,
         force,
         unsettled,

@@ -187,6 +187,14 @@ impl Contacts {
         first..end
     }
 
+    /// The stations of the move `index` between two arc lengths within it [m].
+    pub(super) fn between(&self, index: usize, from: f64, to: f64) -> std::ops::Range<usize> {
+        let stations = self.of_move(index);
+        let before =
+            |limit| self.stations[stations.clone()].partition_point(|station| station.within < limit);
+        stations.start + before(from)..stations.start + before(to)
+    }
+
     /// The contact at a station.
     pub fn at(&self, station: usize) -> Contact<'_> {
         let before = station.checked_sub(1).map(|before| self.stations[before]);

@@ -13,6 +13,7 @@ mod circle;
 mod swept;
 mod grid;
 pub mod contact;
+mod pieces;
 mod place;
 mod height_map;
 mod mapped;

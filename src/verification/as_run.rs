@@ -153,19 +153,5 @@ fn part(step: &Move, from: f64, to: f64) -> Move {
         let turned: Vector3<f64> = step.axis_from * (1.0 - s / length) + step.axis_to * (s / length);
         turned.normalize()
     };
-    let segment = match step.segment {
-        Segment::Line { .. } => Segment::Line { from: step.segment.point(from), to: step.segment.point(to) },
-        Segment::Arc { center, u, v, radius, sweep, rise } => {
-            let (sin, cos) = math::sin_cos(from / length * sweep);
-            Segment::Arc {
-                center: center + u.cross(&v) * (rise * from / length),
-                u: u * cos + v * sin,
-                v: v * cos - u * sin,
-                radius,
-                sweep: sweep * (to - from) / length,
-                rise: rise * (to - from) / length,
-            }
-        }
-    };
-    Move { segment, axis_from: axis(from), axis_to: axis(to), ..*step }
+    Move { segment: step.segment.part(from, to), axis_from: axis(from), axis_to: axis(to), ..*step }
 }

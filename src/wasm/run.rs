@@ -50,6 +50,14 @@ export interface WallFigures {
   side: number; mean_force_n: number; instant_force_n: number; instant_force_max_n: number;
   by_mean_force_mm: number; by_mean_force_max_mm: number; at_instant_mm: number; at_instant_max_mm: number;
 }
+export interface FeedOutcome {
+  largest_force_n: number; mean_force_n: number; peak_force_n: number;
+  largest_error_mm: number; mean_error_mm: number; time_s: number;
+}
+export interface FeedRuleGain {
+  force_n: number; least_percent: number; most_percent: number; share_at_least: number; share_at_most: number;
+  programmed: FeedOutcome; constant_force: FeedOutcome; sentence: string;
+}
 export interface WorstPlace { max: number; at_arc_length_mm: number }
 export interface Summary {
   fingerprint: string; model: number; samples: number; duration_s: number; path_length_mm: number;
@@ -59,7 +67,7 @@ export interface Summary {
   before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics };
   after_mm: Statistics; missed_mm: WorstPlace; wall_mm: WorstPlace; budget: Budget;
   before_axis_deg: Statistics; after_axis_deg: Statistics;
-  program?: Understood; spin?: SpinGain;
+  program?: Understood; spin?: SpinGain; feed_rule?: FeedRuleGain;
   passes: number; converged: boolean; tolerance_mm: number;
   history_max_mm: number[]; history_mean_mm: number[]; verdict: string;
   verdict_state: "cannot-run" | "met" | "met-if-nominal" | "not-met";

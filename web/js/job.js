@@ -14,6 +14,7 @@ export const FROM_STOCK = "from-stock"; // the engagement that a stock brings wi
 const OWN_FORMS = [OWN, "opw", KIENZLE]; // a robot's may be ortho-parallel parameters instead
 
 const ENGAGEMENT = "cutting.engagement";
+const FEED_RULE = "motion.feed_rule";
 const EXTENTS = ["stock.allowance_mm", "stock.top_mm"]; // what the extents of a program give by themselves
 
 const keys = (path) => path.match(/[^.[\]]+/g);
@@ -267,9 +268,10 @@ export class Job {
     this.#write(path, choice === "none" ? "none" : this.#shape(path, known, decider, choice));
   }
 
-  /** Without a stock, the engagement cannot follow from it. */
+  /** Without a stock, neither engagement nor feed can follow from it. */
   #dropStock() {
     delete this.#data.stock;
+    if (this.#read(FEED_RULE)) this.#write(FEED_RULE, "programmed");
     if (this.#read(ENGAGEMENT) === FROM_STOCK) this.#forget(ENGAGEMENT);
   }
 

@@ -30,6 +30,7 @@ export function markdown({ summary, job, standard, link }) {
       `${formatNumber(summary.path_length_mm, 4)} mm, duration ${formatNumber(summary.duration_s)} s, stops: ` +
       `${summary.stops.count}, warnings: ${summary.warnings.length}.`,
     ...(summary.cut.stock ? ["", escaped(inStock(summary.cut))] : []),
+    ...(summary.feed_rule ? ["", escaped(summary.feed_rule.sentence)] : []),
     "",
     changed.length ? "Inputs that differ from the default job:" : "Inputs: the default job.",
     ...changed.map(

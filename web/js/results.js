@@ -44,6 +44,8 @@ export function showSummary(summary, apply) {
   byId("branch").textContent = summary.branch;
   byId("spin-gain").hidden = !summary.spin;
   byId("spin-gain").lastElementChild.textContent = summary.spin?.sentence ?? "";
+  byId("feed-gain").hidden = !summary.feed_rule;
+  byId("feed-gain").textContent = summary.feed_rule?.sentence ?? "";
   byId("fingerprint").textContent = summary.fingerprint;
   showWarnings(summary.warnings, apply);
 }
