@@ -38,7 +38,7 @@ pub struct PlaceFigures {
 
 impl Cut {
     /// The edge in material around the side.
-    fn engaged(&self, contact: &Contact) -> Vec<Slice> {
+    pub(super) fn engaged(&self, contact: &Contact) -> Vec<Slice> {
         contact.sides.iter().map(|arc| self.piece(arc)).collect()
     }
 

@@ -9,6 +9,7 @@ pub mod tool;
 pub mod force;
 pub mod peak;
 pub mod spindle;
+pub mod largest_chip;
 pub mod surface;
 pub mod run_in;
 pub mod load;

@@ -84,6 +84,12 @@ pub type HeldForce = Choice<Median>;
 pub type CornerRadius = Choice<Ball>;
 /// Spindle power [kW], or `"unknown"`.
 pub type SpindlePower = Choice<Unknown>;
+/// Spindle torque [N m], or `"unknown"`.
+pub type SpindleTorque = Choice<Unknown>;
+/// Least or largest chip thickness of a tool [mm], or `"unknown"`.
+pub type ChipLimit = Choice<Unknown>;
+/// Diameter of a tool holder [mm], or `"unknown"`.
+pub type HolderDiameter = Choice<Unknown>;
 /// Mass of a load [kg], or `"unknown"`.
 pub type LoadMass = Choice<Unknown>;
 /// Blending distance [mm], or `"tolerance"`.
@@ -103,6 +109,14 @@ impl<W> Choice<W> {
     /// A number.
     pub fn value(value: f64) -> Self {
         Self::Value(value, std::marker::PhantomData)
+    }
+
+    /// Its number; `None` of the keyword.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Value(value, _) => Some(*value),
+            Self::Word => None,
+        }
     }
 }
 

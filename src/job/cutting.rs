@@ -1,6 +1,9 @@
 //! The job's tool, material and cutting, mirroring the JSON. Values are as typed, not yet checked.
 
-use crate::job::choice::{ChipThickness, Choice, CornerRadius, FeedPerTooth, SpindlePower, choice};
+use crate::job::choice::{
+    ChipLimit, ChipThickness, Choice, CornerRadius, FeedPerTooth, HolderDiameter, SpindlePower,
+    SpindleTorque, choice,
+};
 use crate::job::json::keys;
 use serde::Serialize;
 
@@ -82,6 +85,12 @@ pub struct Tool {
     /// Offset of the tool axis from the spindle axis; default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub runout_mm: Option<f64>,
+    /// Least chip thickness that the edges cut; not checked if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub min_chip_mm: Option<ChipLimit>,
+    /// Largest chip thickness that the tool takes; not checked if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_chip_mm: Option<ChipLimit>,
     /// Whether the tool bends; default rigid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bending: Option<ToolBending>,
@@ -94,6 +103,9 @@ pub struct Tool {
     /// Diameter above the flutes; default: the tool's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shank_diameter_mm: Option<f64>,
+    /// Diameter of the holder, which begins a stickout above the tip; not checked if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub holder_diameter_mm: Option<HolderDiameter>,
     /// Young's modulus; default 600, carbide.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub modulus_gpa: Option<f64>,
@@ -109,10 +121,13 @@ impl Default for Tool {
             corner_radius_mm: None,
             rake_deg: None,
             runout_mm: None,
+            min_chip_mm: None,
+            max_chip_mm: None,
             bending: None,
             stickout_mm: None,
             flute_length_mm: None,
             shank_diameter_mm: None,
+            holder_diameter_mm: None,
             modulus_gpa: None,
         }
     }
@@ -186,6 +201,9 @@ pub struct Cutting {
     /// Rated spindle power; not checked if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spindle_power_kw: Option<SpindlePower>,
+    /// Rated spindle torque; not checked if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spindle_torque_nm: Option<SpindleTorque>,
     /// Feed per tooth.
     pub feed_per_tooth_mm: FeedPerTooth,
 }
@@ -201,6 +219,7 @@ impl Default for Cutting {
             exit_deg: 180.0,
             spindle_rpm: 4000.0,
             spindle_power_kw: None,
+            spindle_torque_nm: None,
             feed_per_tooth_mm: Choice::value(0.1),
         }
     }
@@ -214,10 +233,13 @@ keys!(Tool {
     corner_radius_mm,
     rake_deg,
     runout_mm,
+    min_chip_mm,
+    max_chip_mm,
     bending,
     stickout_mm,
     flute_length_mm,
     shank_diameter_mm,
+    holder_diameter_mm,
     modulus_gpa
 });
 keys!(new Material {
@@ -244,5 +266,6 @@ keys!(Cutting {
     exit_deg,
     spindle_rpm,
     spindle_power_kw,
+    spindle_torque_nm,
     feed_per_tooth_mm
 });

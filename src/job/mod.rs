@@ -20,8 +20,8 @@ pub mod presets;
 pub mod fields;
 
 pub use choice::{
-    BlendingDistance, ChipThickness, Choice, CornerDwell, CornerRadius, FeedPerTooth, HeldForce, LoadMass,
-    SpindlePower, SpreadPercent,
+    BlendingDistance, ChipLimit, ChipThickness, Choice, CornerDwell, CornerRadius, FeedPerTooth, HeldForce,
+    HolderDiameter, LoadMass, SpindlePower, SpindleTorque, SpreadPercent,
 };
 pub use cutting::{Coupling, Cutting, Engaged, HelixHand, Line, Material, Tool, ToolBending};
 pub use input::{

@@ -39,6 +39,8 @@ pub struct CutFigures {
     pub feed_per_tooth_mm: f64,
     /// Mean chip thickness [mm].
     pub mean_chip_mm: f64,
+    /// Thickest chip of a turn [mm].
+    pub largest_chip_mm: f64,
     /// Cross-section of the material in the tool's way [mm^2].
     pub section_mm2: f64,
     /// Material removal rate [cm^3/min].
@@ -77,6 +79,9 @@ pub struct CutFigures {
     /// Rated power of the spindle [kW], if given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spindle_power_kw: Option<f64>,
+    /// Rated torque of the spindle [N m], if given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spindle_torque_nm: Option<f64>,
     /// Bending of the tool at its tip [um/N], unless it is rigid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tool_bending_um_n: Option<f64>,
@@ -101,6 +106,8 @@ struct LocalCut {
     /// Entry and exit [rad].
     angles: (f64, f64),
     chip: f64,
+    /// Thickest chip of a turn for 1 m of feed per tooth.
+    thickest: f64,
     section: f64,
     peak: f64,
     torque: f64,
@@ -143,6 +150,11 @@ impl Report {
         self.local_cut().torque * turns * math::TAU
     }
 
+    /// Mean torque on the tool [N m] at [`Report::feed_per_tooth`].
+    pub fn spindle_torque(&self) -> f64 {
+        self.local_cut().torque
+    }
+
     /// Largest force within a revolution [N] at [`Report::feed_per_tooth`].
     pub fn peak_force(&self) -> f64 {
         self.local_cut().peak
@@ -170,6 +182,7 @@ impl Report {
                 radial: radius * (math::cos(entry) - math::cos(exit)),
                 angles: (entry, exit),
                 chip: cut.mean_chip(c),
+                thickest: cut.largest_chip(),
                 section: cut.section(),
                 peak: cut.peak_force(c),
                 torque: cut.torque(c),
@@ -181,6 +194,7 @@ impl Report {
             radial: contact.radial_depth(|height| cut.radius_at(height)),
             angles: contact.bounds().unwrap_or_default(),
             chip: chip * c,
+            thickest: cut.largest_chip_in(&contact),
             section,
             peak: cut.peak_force_in(&contact, c),
             torque: torque[0] * c + torque[1],
@@ -212,6 +226,7 @@ impl Report {
             axial_depth_mm: local.axial / MM,
             feed_per_tooth_mm: c / MM,
             mean_chip_mm: local.chip / MM,
+            largest_chip_mm: local.thickest * c / MM,
             section_mm2: local.section / (MM * MM),
             removal_cm3_min: local.section * feed * MINUTE * 1e6,
             peak_force_n: local.peak,
@@ -227,6 +242,7 @@ impl Report {
             stock_cell_mm: setup.contacts.as_ref().and_then(|contacts| contacts.cell).map(|cell| cell / MM),
             largest_engaged_deg: whole.map(|whole| whole.engaged / DEG),
             spindle_power_kw: setup.spindle_power.map(|power| power / KILOWATT),
+            spindle_torque_nm: setup.spindle_torque,
             tool_bending_um_n: setup.bending.map(|bending| bending.displacement / (1e-3 * MM)),
             made_at_chip_mm: setup.material.chip.map(|chip| chip / MM),
             spread_percent: setup.material.material.map(|material| material.spread),

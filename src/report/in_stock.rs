@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// Warnings about the cut in a stock: what meets material without cutting it.
 pub(super) fn collisions(report: &Report) -> Vec<Warning> {
     let Some(contacts) = &report.setup().contacts else { return Vec::new() };
-    let kinds = [Collider::Rapid, Collider::Shank].into_iter();
+    let kinds = [Collider::Rapid, Collider::Shank, Collider::Holder].into_iter();
     let collisions = kinds.filter_map(|kind| collision(report, contacts, kind));
     collisions.chain(coarse(report, contacts)).chain(pulls_in(report)).collect()
 }
@@ -69,6 +69,7 @@ fn collision(report: &Report, contacts: &Contacts, kind: Collider) -> Option<War
         Collider::Shank => {
             ("shank-in-stock", "the stock is higher than the flutes: shank or holder run into it")
         }
+        Collider::Holder => ("holder-in-stock", "the holder runs into the stock"),
     };
     let timing = &report.plan.trajectory.timing;
     let struck = |k: usize| {
@@ -82,17 +83,22 @@ fn collision(report: &Report, contacts: &Contacts, kind: Collider) -> Option<War
     warning.clone().within(&spans, report.plan.trajectory.sample_time).or(Some(warning))
 }
 
-/// Where the cut takes more power than the spindle has, with the largest power [W] and its line.
-pub(super) fn overloads(report: &Report, rated: f64) -> Option<(Vec<Span>, f64, usize)> {
+/// Where a figure of the cut in the stock is above its `rated` value, with its largest value and the line
+/// of that; `None` without a stock.
+pub(super) fn above(
+    report: &Report,
+    rated: f64,
+    figure: impl Fn(&SampleCut) -> f64,
+) -> Option<(Vec<Span>, f64, usize)> {
     let contacts = report.setup().contacts.as_ref()?;
     let timing = report.plan.timing(Sources::ALL);
     let loads = report.setup().loading.along(&report.plan.path);
     let mut last = LastFigures::default();
-    let power = |k: usize| report.sample_cut(contacts, &timing, &loads, k, &mut last).power;
-    let powers: Vec<f64> = (0..report.samples()).map(power).collect();
-    let worst = (0..powers.len()).max_by(|&a, &b| powers[a].total_cmp(&powers[b]))?;
+    let at = |k: usize| figure(&report.sample_cut(contacts, &timing, &loads, k, &mut last));
+    let values: Vec<f64> = (0..report.samples()).map(at).collect();
+    let worst = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b]))?;
     let line = report.plan.path.moves()[timing.index[worst] as usize].line;
-    Some((spans(powers.len(), |k| powers[k] > rated), powers[worst], line))
+    Some((spans(values.len(), |k| values[k] > rated), values[worst], line))
 }
 
 /// Width of a cell from which it is wide for the tool, as a part of the diameter.
@@ -111,7 +117,7 @@ pub(super) struct WholeCut {
 
 /// The cut at a sample.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct SampleCut {
+pub(super) struct SampleCut {
     entry: f64,
     exit: f64,
     engaged: f64,
@@ -119,8 +125,10 @@ struct SampleCut {
     radial: f64,
     removal: f64,
     chip: f64,
-    power: f64,
-    torque: f64,
+    /// Power [W].
+    pub(super) power: f64,
+    /// Torque [N m].
+    pub(super) torque: f64,
 }
 
 /// Figures at the last two stations, for samples are closer than stations.

@@ -10,6 +10,7 @@ mod drives;
 mod feed_rule;
 pub(crate) mod limit;
 mod onset;
+mod overload;
 mod payload;
 mod reference;
 mod remedy;

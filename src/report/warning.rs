@@ -8,11 +8,12 @@ use crate::path::{Move, MovePace, Tool};
 use crate::plan::Plan;
 use crate::report::span::{MOST_SPANS, Span, joined, spans};
 use crate::report::{
-    Remedy, Report, Severity, Stops, drives, in_stock, limit, millimetres, onset, payload, reference,
+    Remedy, Report, Severity, Stops, drives, in_stock, limit, millimetres, onset, overload, payload,
+    reference,
 };
 use crate::robot::equilibrium::equilibrium;
 use crate::setup::Setup;
-use crate::units::{DEG, HZ, KILOWATT, MM};
+use crate::units::{DEG, HZ, MM};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -148,7 +149,7 @@ pub(crate) fn warnings(report: &Report) -> Vec<Warning> {
         );
         warnings.push(Warning::new("tolerance-not-met", message));
     }
-    warnings.extend(spindle(report));
+    warnings.extend(overload::warnings(report));
     warnings.extend(in_stock::collisions(report));
     warnings.extend(onset::warnings(report));
     warnings.extend(drives::warnings(report));
@@ -307,25 +308,6 @@ fn sampling(setup: &Setup) -> Option<Warning> {
         frequency / HZ
     );
     (frequency / HZ > highest).then(|| Warning::new("shaper-sampling", message))
-}
-
-/// A cut that needs more power than the spindle has.
-fn spindle(report: &Report) -> Option<Warning> {
-    let rated = report.setup().spindle_power?;
-    let text = |what: &str, power: f64| {
-        format!(
-            "{what} {:.2} kW on average, more than the spindle's {:.2} kW; coefficients are known to ±30 %",
-            power / KILOWATT,
-            rated / KILOWATT
-        )
-    };
-    if let Some((spans, power, line)) = in_stock::overloads(report, rated) {
-        let line = if line > 0 { format!("line {line}: ") } else { String::new() };
-        let warning = Warning::new("spindle-power", text(&format!("{line}the cut takes up to"), power));
-        return warning.within(&spans, report.plan.trajectory.sample_time);
-    }
-    let power = report.spindle_power();
-    (power > rated).then(|| Warning::new("spindle-power", text("the cut takes", power)))
 }
 
 /// Without the wait, shaping rounds corners: the error within a shaper duration's travel of a stop.

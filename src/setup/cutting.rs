@@ -4,7 +4,7 @@ use crate::cutting::material::{self, Material, Model};
 use crate::cutting::{Bending, ChipLoad, Coefficients, Cut, Engagement, Hand, Kienzle, Loading};
 use crate::error::Error;
 use crate::job::{self, Choice, Coupling, Engaged, HelixHand, Job, Line, ToolBending};
-use crate::stock::{Contacts, Cutter};
+use crate::stock::{Contacts, Cutter, Holder};
 use crate::units::{DEG, GPA, MM, RPM};
 use std::f64::consts::PI;
 
@@ -50,6 +50,29 @@ pub(super) fn cutter(tool: &job::Tool) -> Result<Cutter, Error> {
     let corner = corner_radius(tool)? * MM;
     let flutes = tool.flute_length_mm.or(tool.stickout_mm).map_or(f64::INFINITY, |length| length * MM);
     Ok(Cutter { radius: tool.diameter_mm / 2.0 * MM, corner, flutes })
+}
+
+/// The holder, if its diameter is known.
+pub(super) fn holder(tool: &job::Tool) -> Result<Option<Holder>, Error> {
+    let Some(diameter) = tool.holder_diameter_mm.and_then(|given| given.number()) else { return Ok(None) };
+    let height = tool.stickout_mm.ok_or_else(|| {
+        Error::missing(
+            "tool.stickout_mm",
+            "how far above the tip the holder begins, with a holder's diameter",
+        )
+    })?;
+    Ok(Some(Holder { radius: diameter / 2.0 * MM, height: height * MM }))
+}
+
+/// Least and largest chip thickness of the tool [m], as far as they are known.
+pub(super) fn chip_limits(tool: &job::Tool) -> Result<[Option<f64>; 2], Error> {
+    let [least, most] = [tool.min_chip_mm, tool.max_chip_mm].map(|given| given?.number());
+    if let (Some(least), Some(most)) = (least, most)
+        && least > most
+    {
+        return Err(Error::invalid("tool.min_chip_mm", least, format!("at most max_chip_mm = {most}")));
+    }
+    Ok([least, most].map(|limit| limit.map(|limit| limit * MM)))
 }
 
 /// The cut and its material. In a stock, its depth is the largest along the path.
@@ -224,7 +247,9 @@ pub(super) fn follows_deflection(job: &Job, in_stock: bool) -> Result<bool, Erro
 /// The tool's bending model, if it bends.
 pub(super) fn bending(tool: &job::Tool) -> Result<Option<Bending>, Error> {
     match (tool.bending, tool.stickout_mm) {
-        (None, Some(_)) => Err(Error::missing("tool.bending", "cantilever, with a stickout")),
+        (None, Some(_)) if tool.holder_diameter_mm.is_none() => {
+            Err(Error::missing("tool.bending", "cantilever, with a stickout"))
+        }
         (None | Some(ToolBending::Rigid), _) => Ok(None),
         (Some(ToolBending::Cantilever), None) => {
             Err(Error::missing("tool.stickout_mm", "the length out of the holder"))

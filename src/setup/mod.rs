@@ -21,7 +21,7 @@ pub use stock::proposed as proposed_stock;
 
 use crate::cutting::{Bending, Cut, HeaviestPlace, Loading, MeanForces, StiffnessAlong};
 use crate::error::Error;
-use crate::job::{Choice, CompensateAt, Frame, Job, Source, Sources, fields};
+use crate::job::{CompensateAt, Frame, Job, Source, Sources, fields};
 use crate::math::Pose;
 use crate::model::MODEL;
 use crate::motion::joints::StartBranch;
@@ -100,6 +100,10 @@ pub struct Setup {
     pub bending: Option<Bending>,
     /// Rated spindle power [W], if it is given.
     pub spindle_power: Option<f64>,
+    /// Rated spindle torque [N m], if it is given.
+    pub spindle_torque: Option<f64>,
+    /// Least and largest chip thickness of the tool [m], as far as they are given.
+    pub chip_limits: [Option<f64>; 2],
     /// What the load of the cut depends on along the path.
     pub loading: Loading,
     /// Tooth passing frequency [1/s].
@@ -226,10 +230,9 @@ impl Setup {
             material,
             rake: job.tool.rake_deg.unwrap_or(0.0) * DEG,
             bending,
-            spindle_power: match job.cutting.spindle_power_kw {
-                Some(Choice::Value(power, _)) => Some(power * KILOWATT),
-                _ => None,
-            },
+            spindle_power: job.cutting.spindle_power_kw.and_then(|power| Some(power.number()? * KILOWATT)),
+            spindle_torque: job.cutting.spindle_torque_nm.and_then(|torque| torque.number()),
+            chip_limits: cutting::chip_limits(&job.tool)?,
             loading,
             contacts,
             feed_rule,

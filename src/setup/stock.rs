@@ -5,8 +5,8 @@ use crate::job::fields;
 use crate::job::{self, EarlierProgram, Engaged, Job, StockKind};
 use crate::path::{MovePace, Path};
 use crate::progress::Progress;
-use crate::setup::path;
-use crate::stock::{Contacts, Cutter, Earlier, Outline, Solid, contacts};
+use crate::setup::{cutting, path};
+use crate::stock::{Contacts, Cutter, Earlier, Outline, Solid, contacts, with_holder};
 use crate::units::MM;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -49,6 +49,7 @@ pub(super) fn engagement(
         engagement => !job.stock.is_none() && matches!(engagement, None | Some(Engaged::FromStock)),
     };
     // Invalid numbers are refused even if they are not used.
+    let holder = cutting::holder(&job.tool)?;
     let solid = solid(job, path)?;
     Ok(match solid.filter(|_| from_stock) {
         None => StockEngagement::Stated,
@@ -56,7 +57,12 @@ pub(super) fn engagement(
         Some(solid) => {
             let earlier = earlier(job)?;
             let words = in_words(&job.stock, &solid);
-            StockEngagement::Followed(contacts(path, (&solid, &earlier), cutter, progress), words)
+            let contacts = contacts(path, (&solid, &earlier), cutter, progress);
+            let contacts = match holder {
+                Some(holder) => with_holder(contacts, path, (&solid, &earlier), (cutter, &holder)),
+                None => contacts,
+            };
+            StockEngagement::Followed(contacts, words)
         }
     })
 }

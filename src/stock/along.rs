@@ -94,24 +94,24 @@ fn level(
 }
 
 /// What an earlier path has cleared.
-fn cleared(earlier: &Earlier) -> Vec<Cleared> {
+pub(super) fn cleared(earlier: &Earlier) -> Vec<Cleared> {
     let cuts = earlier.path.moves().iter().filter(|step| step.pace != MovePace::Rapid);
     let legs = cuts.flat_map(|step| legs(&step.segment));
     legs.map(|leg| Cleared { swept: leg.swept, cutter: earlier.cutter }).collect()
 }
 
 /// A part of a move that sweeps one capsule.
-struct Leg {
-    swept: Swept,
+pub(super) struct Leg {
+    pub(super) swept: Swept,
     /// Its chord; `None` of a whole move. The tool is looked at on it: beside it, what the leg has swept
     /// would reach ahead of the tool.
-    chord: Option<Segment>,
+    pub(super) chord: Option<Segment>,
     /// Arc lengths of its ends within the move [m].
-    within: Range<f64>,
+    pub(super) within: Range<f64>,
 }
 
 /// The legs of a move: itself, or the chords of an arc that does not lie across the tool axis.
-fn legs(segment: &Segment) -> Vec<Leg> {
+pub(super) fn legs(segment: &Segment) -> Vec<Leg> {
     let length = segment.length();
     if let Some(swept) = Swept::of(segment) {
         return vec![Leg { swept, chord: None, within: 0.0..length }];

@@ -97,6 +97,8 @@ pub enum Collider {
     Rapid,
     /// What is above the flutes: shank or holder.
     Shank,
+    /// The holder.
+    Holder,
 }
 
 /// The first place in a move where something meets material that it does not cut.
@@ -159,8 +161,8 @@ impl Contacts {
     /// Notes a collision in the last move, unless its kind is already noted there.
     pub(super) fn collide(&mut self, collider: Collider, within: f64) {
         let collision = Collision { collider, index: self.firsts.len() - 1, within };
-        let noted = |known: &Collision| known.index == collision.index && known.collider == collider;
-        if !self.collisions.iter().rev().take(2).any(noted) {
+        let own = self.collisions.iter().rev().take_while(|known| known.index == collision.index);
+        if !own.map(|known| known.collider).any(|known| known == collider) {
             self.collisions.push(collision);
         }
     }

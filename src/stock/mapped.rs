@@ -12,9 +12,9 @@ use crate::stock::solid::Solid;
 use nalgebra::{Vector2, Vector3};
 
 /// Distance of stations, as a part of the radius.
-const STEP: f64 = 0.1;
+pub(super) const STEP: f64 = 0.1;
 /// Stamps from one station to the next.
-const STAMPS: usize = 2;
+pub(super) const STAMPS: usize = 2;
 /// Directions ahead that are looked at.
 const AHEAD: usize = 180;
 /// Every so many directions are enough to find what must not be met.
@@ -89,7 +89,7 @@ pub(super) fn contacts(
 }
 
 /// Clears what an earlier path has cut.
-fn clear(map: &mut HeightMap, earlier: &Earlier) {
+pub(super) fn clear(map: &mut HeightMap, earlier: &Earlier) {
     let stamp = Stamp::new(&earlier.cutter);
     for step in earlier.path.moves().iter().filter(|step| step.pace != MovePace::Rapid) {
         let length = step.segment.length();

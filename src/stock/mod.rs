@@ -14,6 +14,7 @@ mod swept;
 mod grid;
 pub mod contact;
 mod pieces;
+mod holder;
 mod place;
 mod height_map;
 mod mapped;
@@ -21,5 +22,6 @@ mod along;
 
 pub use along::{Earlier, contacts};
 pub use contact::{Collider, Collision, Contact, Contacts, FloorArc, SideArc};
+pub use holder::{Holder, with_holder};
 pub use place::Cutter;
 pub use solid::{Outline, Solid};

@@ -175,7 +175,7 @@ impl Surroundings<'_> {
     }
 
     /// Whether a half circle meets material at a height [m].
-    fn is_met(&self, half: &HalfCircle, height: f64, around: &mut Around) -> bool {
+    pub(super) fn is_met(&self, half: &HalfCircle, height: f64, around: &mut Around) -> bool {
         let parts = &mut around.parts;
         parts.fill(half);
         parts.keep(half, &self.solid.outline, true);

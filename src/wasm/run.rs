@@ -39,11 +39,11 @@ export interface CutFigures {
   ktc_n_mm2: number; krc_n_mm2: number; kac_n_mm2: number;
   kte_n_mm: number; kre_n_mm: number; kae_n_mm: number;
   diameter_mm: number; corner_radius_mm: number; axial_depth_mm: number;
-  feed_per_tooth_mm: number; mean_chip_mm: number; section_mm2: number; removal_cm3_min: number;
+  feed_per_tooth_mm: number; mean_chip_mm: number; largest_chip_mm: number; section_mm2: number; removal_cm3_min: number;
   peak_force_n: number; torque_nm: number; tooth_passing_hz: number; power_kw: number;
   entry_deg: number; exit_deg: number; radial_depth_mm: number;
   stock?: string; removed_cm3?: number; air_share?: number; largest_engaged_deg?: number; stock_cell_mm?: number;
-  spindle_power_kw?: number; tool_bending_um_n?: number;
+  spindle_power_kw?: number; spindle_torque_nm?: number; tool_bending_um_n?: number;
   made_at_chip_mm?: number; spread_percent?: number; kc11_n_mm2?: number; mc?: number;
 }
 export interface WallFigures {

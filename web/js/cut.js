@@ -129,9 +129,18 @@ function figures(cut, mean) {
     ["Edge k_te, k_re, k_ae", "N/mm", [n("kte_n_mm"), n("kre_n_mm"), n("kae_n_mm")].join(", ")],
     ["Entry, exit", "deg", `${n("entry_deg")}, ${n("exit_deg")}`],
     ["Radial × axial depth", lengthUnit(), `${length("radial_depth_mm")} × ${length("axial_depth_mm")}`],
-    ["Feed per tooth; mean chip", lengthUnit(), `${length("feed_per_tooth_mm")}; ${length("mean_chip_mm")}`],
+    [
+      "Feed per tooth; mean, largest chip",
+      lengthUnit(),
+      `${length("feed_per_tooth_mm")}; ${length("mean_chip_mm")}, ${length("largest_chip_mm")}`,
+    ],
     ["Mean force; largest in a turn", forceUnit(), `${forceText(Math.hypot(...mean))}; ${forceText(cut.peak_force_n)}`],
-    ["Torque", "N m", n("torque_nm"), "torque_nm"],
+    [
+      "Torque" + (cut.spindle_torque_nm ? ", of rated" : ""),
+      "N m",
+      n("torque_nm") + (cut.spindle_torque_nm ? ` of ${n("spindle_torque_nm")}` : ""),
+      "torque_nm",
+    ],
     [
       "Spindle power" + (cut.spindle_power_kw ? ", of rated" : ""),
       "kW",
