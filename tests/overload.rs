@@ -174,6 +174,25 @@ fn the_holder_meets_the_stock() {
     assert!(warning(&with(&pocket, 50.0, 10.0, 0.0), "holder-in-stock").is_some());
 }
 
+/// A line in a thousand points is seen as the line is: one stretch from about the same place on.
+#[test]
+fn dense_points_are_a_line() {
+    let points: String = (1..=1400).map(|k| format!("X{:.1}\n", f64::from(k) * 0.1 - 70.0)).collect();
+    let dense = DEEP.replace("Z-12\nX70\n", &format!("Z-12\n{points}"));
+    let tool = json!({"diameter_mm":10,"flutes":3,"helix_deg":30,"holder_diameter_mm":30,"stickout_mm":10});
+    let stretch = |text: &str| {
+        let report = run(&job(text, &[("tool", tool.clone())]));
+        let found = warning(&report, "holder-in-stock").unwrap().clone();
+        let all = places(&report, &found);
+        (found.spans_s.len(), all[0][0], all[all.len() - 1][0])
+    };
+    let ((one, from, to), (spans, first, last)) = (stretch(DEEP), stretch(&dense));
+    assert_eq!((one, spans), (1, 1));
+    assert!((from - first).abs() < 2.6 && to > last - 0.1, "{from} {first}, {to} {last}");
+    // The whole move counts from its first place on; dense points end where the holder is clear.
+    assert!((62.0..68.0).contains(&last), "{last}");
+}
+
 /// A rapid move that is clear with the tool may not be with the holder.
 #[test]
 fn rapid_moves_are_looked_at() {

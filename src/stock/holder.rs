@@ -70,6 +70,9 @@ fn level(
     sweeps[..number].iter().zip(0..).for_each(|(cleared, number)| grid.add(number, &cleared.swept));
     let flat = sweeps.iter().all(|cleared| cleared.cutter.corner == 0.0);
     let (mut found, mut around) = (Vec::new(), Around::default());
+    // Short legs are looked at together: the length since the last look, and what was seen there.
+    let far = LOOK * cutter.radius;
+    let (mut since, mut met) = (far, false);
     for (index, (step, legs)) in path.moves().iter().zip(&moves).enumerate() {
         let cuts = step.pace != MovePace::Rapid;
         for leg in legs {
@@ -83,8 +86,12 @@ fn level(
                 surroundings.is_holder_in(holder, &mut around)
             };
             let length = leg.within.end - leg.within.start;
-            let met = if is_known { None } else { shares(length / (LOOK * cutter.radius)).find(meets) };
-            found.extend(met.map(|share| (index, leg.within.start + share * length)));
+            since += length;
+            if !is_known {
+                let first = if since < far { met.then_some(0.0) } else { shares(length / far).find(meets) };
+                (since, met) = (if since < far { since } else { 0.0 }, first.is_some());
+                found.extend(first.map(|share| (index, leg.within.start + share * length)));
+            }
             if cuts {
                 grid.add(number as u32, &leg.swept);
             }
