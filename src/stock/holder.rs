@@ -80,8 +80,15 @@ fn level(
             let meets = |share: &f64| {
                 let (center, height) = tip(step, leg, *share);
                 let own = cuts.then_some(&leg.swept);
-                let place =
-                    ToolPlace { center, height, ahead: Vector2::x(), share: *share, dives: false, own };
+                let place = ToolPlace {
+                    center,
+                    height,
+                    ahead: Vector2::x(),
+                    share: *share,
+                    dives: false,
+                    own,
+                    trail: Default::default(),
+                };
                 let surroundings = Surroundings { solid, cutter, sweeps: &sweeps, flat, grid: &grid, place };
                 surroundings.is_holder_in(holder, &mut around)
             };
