@@ -51,6 +51,7 @@ pub mod plan;
 pub mod deviation;
 pub mod compensation;
 pub mod uncertainty;
+pub mod surface;
 pub mod report;
 pub mod placement;
 pub mod simulation;

@@ -2,7 +2,7 @@
 
 use crate::chart::chart::{Chart, ChartOptions};
 use crate::chart::content::Content;
-use crate::chart::cut_in_stock::{ENGAGEMENT, REMOVAL};
+use crate::chart::cut_in_stock::{ENGAGEMENT, REMOVAL, SURFACE};
 use crate::chart::figures::{BOTH, DEFLECTION, Figures, SHAPING};
 use crate::chart::unit::Units;
 use crate::column::Column;
@@ -40,7 +40,7 @@ const fn entry(
 const SPIN: &str = "spin";
 
 /// All charts, in the order of the page.
-pub const CATALOG: [Entry; 30] = [
+pub const CATALOG: [Entry; 31] = [
     entry("before-after", "Contour error before and after compensation", "overview", "5.18", "time"),
     entry("actual-path", "Desired and actual path, deviation magnified", "overview", "5.7", "space"),
     entry("convergence", "Contour error left after each pass", "overview", "", "curve"),
@@ -66,6 +66,7 @@ pub const CATALOG: [Entry; 30] = [
     entry("after-deflection", "Forces alone, before and after compensation", "error", "5.13", "time"),
     entry("after-shaping", "Shaping alone, before and after compensation", "error", "5.15", "time"),
     entry("after-both", "Both together, before and after compensation", "error", "5.18", "time"),
+    entry(SURFACE, "Surface left, before and after compensation", "error", "", "time"),
     entry("axis-error", "Tool axis error before and after compensation", "error", "", "time"),
     entry("joints", "Joint commands for the desired path", "joints", "5.4", "time"),
     entry("joint-1", "Joint 1, original and shaped", "joints", "4.11", "time"),
@@ -83,7 +84,7 @@ pub const CATALOG: [Entry; 30] = [
 pub fn charts_of(report: &Report) -> Vec<Entry> {
     let applies = |entry: &Entry| match entry.name {
         SPIN => report.roll.is_some(),
-        ENGAGEMENT | REMOVAL => report.setup().contacts.is_some(),
+        ENGAGEMENT | REMOVAL | SURFACE => report.setup().contacts.is_some(),
         _ => true,
     };
     CATALOG.into_iter().filter(applies).collect()
@@ -135,6 +136,7 @@ fn content(report: &Report, name: &str, units: Units) -> Result<Content, Error> 
         "force" => figures.forces(),
         ENGAGEMENT => figures.engagement()?,
         REMOVAL => figures.removal()?,
+        SURFACE => figures.surface()?,
         "deflection" => figures.lengths("Deflection", &report.deflection),
         "error-deflection" => figures.errors(&[(DEFLECTION, &forces.contour_error)]),
         "error-shaping" => figures.errors(&[(SHAPING, &shaping.contour_error)]),

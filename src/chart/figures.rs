@@ -31,7 +31,7 @@ pub(super) struct Figures<'a> {
 impl Figures<'_> {
     /// A length [m] as text in a sentence, without its unit: no finer than a tenth of a micrometre,
     /// beyond any machine's resolution.
-    fn read(&self, length: f64) -> String {
+    pub(super) fn read(&self, length: f64) -> String {
         match self.units.length {
             LengthUnit::Mm => length_text(length, MM, 4),
             LengthUnit::Inch => length_text(length, LengthUnit::Inch.in_m(), 6),

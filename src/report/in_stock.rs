@@ -175,7 +175,7 @@ impl Report {
                 samples.map(&mut at).collect()
             })
         };
-        COLUMNS.into_iter().map(column).collect()
+        COLUMNS.into_iter().map(column).chain(self.surface_series(timing.clone())).collect()
     }
 
     /// The cut where the tool is by `timing` at the sample `k`.

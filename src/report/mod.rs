@@ -23,6 +23,7 @@ mod summary;
 mod verdict;
 mod expected;
 mod in_stock;
+mod surface;
 
 pub use budget::{Budget, Parts};
 pub use cut::{CutFigures, WallFigures};
@@ -33,6 +34,7 @@ pub use severity::Severity;
 pub use span::MOST_SPANS;
 pub use stops::Stops;
 pub use summary::{Statistics, Summary, WorstPlace};
+pub use surface::{PartKind, SurfaceFigures, SurfaceSpot};
 pub use verdict::VerdictState;
 pub use warning::Warning;
 
@@ -44,6 +46,7 @@ use crate::progress::Progress;
 use crate::robot::Joints;
 use crate::robot::inverse::Branch;
 use crate::setup::Setup;
+use crate::surface::Surface;
 use crate::uncertainty::ErrorBand;
 use crate::units::MM;
 use nalgebra::Vector3;
@@ -83,6 +86,8 @@ pub struct Report {
     pub after: Arc<Deviation>,
     /// What is left on the part with what is known of robot and material.
     pub band: ErrorBand,
+    /// The surface that is left, if the engagement follows a stock.
+    pub surface: Option<Surface>,
     /// Conditions that are odd but workable.
     pub warnings: Vec<Warning>,
     /// See [`Report::alone`]; computed on first use.

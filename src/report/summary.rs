@@ -9,7 +9,8 @@ use crate::path::gcode::GcodeDialect;
 use crate::path::{MovePace, Path, SourceProgram};
 use crate::report::expected::{ExpectedError, HowSure};
 use crate::report::{
-    Budget, CutFigures, FeedRuleGain, Report, RollGain, Stops, VerdictState, WallFigures, Warning,
+    Budget, CutFigures, FeedRuleGain, Report, RollGain, Stops, SurfaceFigures, VerdictState, WallFigures,
+    Warning,
 };
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
@@ -107,6 +108,9 @@ pub struct Summary {
     /// Largest error at the top of the cut after compensation, every source acting [mm]: that of the
     /// tip and what the tilt of the tool adds over the axial depth.
     pub wall_mm: WorstPlace,
+    /// The surface that is left, if the engagement follows a stock.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surface: Option<SurfaceFigures>,
     /// Angle between actual and desired tool axis before compensation, every source acting [deg].
     pub before_axis_deg: Statistics,
     /// Angle between actual and desired tool axis after compensation, every source acting [deg]; it
@@ -282,6 +286,7 @@ impl Report {
             after_mm: statistics(&self.after),
             missed_mm: self.missed().into(),
             wall_mm: self.wall().into(),
+            surface: self.surface_figures(),
             before_axis_deg: Statistics::of_angles(&self.before.axis_error),
             after_axis_deg: Statistics::of_angles(&self.after.axis_error),
             passes: self.compensation.passes,

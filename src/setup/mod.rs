@@ -32,7 +32,7 @@ use crate::path::{Path, Roll, SourceProgram};
 use crate::progress::Progress;
 use crate::robot::{Joints, Robot, World};
 use crate::spread::Spreads;
-use crate::stock::Contacts;
+use crate::stock::{Blank, Contacts};
 use crate::units::{DEG, KILOWATT, MM, RPM};
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -84,7 +84,9 @@ pub struct Setup {
     pub stiffness: Option<StiffnessAlong>,
     /// What the tool meets along the path, if the engagement follows from a stock.
     pub contacts: Option<Arc<Contacts>>,
-    /// That stock in words.
+    /// That stock.
+    pub blank: Option<Arc<Blank>>,
+    /// The same in words.
     pub stock: Option<String>,
     /// Whether a stock cannot be followed because the tool axis is not the workpiece's z axis.
     pub tilted_in_stock: bool,
@@ -166,15 +168,17 @@ impl Setup {
         let read = if job.stock.is_none() { 1.0 } else { 0.5 };
         let (path, program) = path::desired(job, &mut progress.part("", 0.0, read))?;
         let cutter = cutting::cutter(&job.tool)?;
-        let (contacts, stock, tilted_in_stock) = match stock::engagement(
+        let (contacts, blank, stock, tilted_in_stock) = match stock::engagement(
             job,
             &path,
             &cutter,
             &mut progress.part("cut in the stock", read, 1.0),
         )? {
-            StockEngagement::Stated => (None, None, false),
-            StockEngagement::Tilted => (None, None, true),
-            StockEngagement::Followed(contacts, words) => (Some(Arc::new(contacts)), Some(words), false),
+            StockEngagement::Stated => (None, None, None, false),
+            StockEngagement::Tilted => (None, None, None, true),
+            StockEngagement::Followed(contacts, blank, words) => {
+                (Some(Arc::new(contacts)), Some(Arc::new(blank)), Some(words), false)
+            }
         };
         let roll = job.spin.angle_deg * DEG;
         let path = motion::with_reference(path, &job.spin)?;
@@ -236,6 +240,7 @@ impl Setup {
             loading,
             contacts,
             feed_rule,
+            blank,
             stock,
             tilted_in_stock,
             cut,

@@ -6,7 +6,7 @@ use crate::job::{self, EarlierProgram, Engaged, Job, StockKind};
 use crate::path::{MovePace, Path};
 use crate::progress::Progress;
 use crate::setup::{cutting, path};
-use crate::stock::{Contacts, Cutter, Earlier, Outline, Solid, contacts, with_holder};
+use crate::stock::{Blank, Contacts, Cutter, Earlier, Outline, Solid, contacts, with_holder};
 use crate::units::MM;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -27,8 +27,8 @@ pub(super) enum StockEngagement {
     Stated,
     /// The job states it, for a stock cannot be followed: the tool axis is not the workpiece's z axis.
     Tilted,
-    /// What the tool meets in the stock, and the stock in words.
-    Followed(Contacts, String),
+    /// What the tool meets in the stock, the stock, and the same in words.
+    Followed(Contacts, Blank, String),
 }
 
 /// The engagement along a path in the workpiece frame.
@@ -62,7 +62,7 @@ pub(super) fn engagement(
                 Some(holder) => with_holder(contacts, path, (&solid, &earlier), (cutter, &holder)),
                 None => contacts,
             };
-            StockEngagement::Followed(contacts, words)
+            StockEngagement::Followed(contacts, Blank { solid, earlier }, words)
         }
     })
 }

@@ -17,6 +17,7 @@ use crate::plan::Plan;
 use crate::report::{Report, singularity, warning};
 use crate::robot::Joints;
 use crate::setup::{Goal, Setup};
+use crate::surface::surface;
 use crate::uncertainty::{NominalErrors, band};
 use std::sync::Arc;
 
@@ -54,6 +55,7 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     };
     let missed = errors.missed;
     let band = band(&plan, (&q, &compensation.q), &errors);
+    let surface = surface(&plan, (&before, &after), &compensation);
     let mut report = Report {
         plan,
         q,
@@ -70,6 +72,7 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
         compensation,
         after,
         band,
+        surface,
         warnings: singular,
         alone: Default::default(),
         fingerprint: Default::default(),

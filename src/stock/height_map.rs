@@ -4,6 +4,7 @@
 //! tool's profile over its centre, at stamps close enough that no ridge between two of them is higher
 //! than the profile's fall across a step.
 
+use crate::path::{MovePace, Path};
 use crate::stock::circle::Region;
 use crate::stock::place::Cutter;
 use crate::stock::solid::Solid;
@@ -13,23 +14,28 @@ use nalgebra::{Vector2, Vector3};
 const MOST_CELLS: f64 = 4e6;
 /// Cells along the tool's radius, where there are not too many.
 const ALONG_RADIUS: f64 = 32.0;
+/// Distance of stations along a path, as a part of the radius.
+pub(super) const STEP: f64 = 0.1;
+/// Stamps from one station to the next.
+pub(super) const STAMPS: usize = 2;
 /// Steps of the profile's table.
 const PROFILE: usize = 1024;
 
 /// Heights over the plane across the tool axis.
 #[derive(Debug, Clone)]
-pub(super) struct HeightMap {
+pub struct HeightMap {
     corner: Vector2<f64>,
     /// Width of a cell [m].
-    pub(super) cell: f64,
-    columns: usize,
-    /// Height of the material in each cell [m]; minus infinity where there is none.
-    heights: Vec<f32>,
+    pub cell: f64,
+    /// Number of cells along x.
+    pub columns: usize,
+    /// Height of the material in each cell [m], row by row; minus infinity where there is none.
+    pub heights: Vec<f32>,
 }
 
 /// A tool to stamp the map with.
 #[derive(Debug, Clone)]
-pub(super) struct Stamp {
+pub struct Stamp {
     /// Radius [m].
     radius: f64,
     /// Height of the profile above the tip [m], by the square of the distance from the axis.
@@ -38,7 +44,7 @@ pub(super) struct Stamp {
 
 impl Stamp {
     /// The stamp of a tool.
-    pub(super) fn new(cutter: &Cutter) -> Self {
+    pub fn new(cutter: &Cutter) -> Self {
         let fall = |k: usize| cutter.profile(cutter.radius * (k as f64 / PROFILE as f64).sqrt()) as f32;
         Self { radius: cutter.radius, profile: (0..=PROFILE).map(fall).collect() }
     }
@@ -51,11 +57,32 @@ impl HeightMap {
         let size = to - from;
         let cell = (cutter.radius / ALONG_RADIUS).max((size.x * size.y / MOST_CELLS).sqrt());
         let count = |length: f64| (length / cell).ceil().max(1.0) as usize;
-        let (columns, rows) = (count(size.x), count(size.y));
+        Self::over(solid, (from, cell), (count(size.x), count(size.y)), |middle| middle)
+    }
+
+    /// The map of a solid whose cells have their middles on its border and all over it, `cell` [m] apart.
+    pub fn with_border(solid: &Solid, cell: f64) -> Self {
+        let [from, to] = solid.outline.bounds();
+        let count = |length: f64| (length / cell - 1e-9).ceil().max(1.0) as usize + 1;
+        let counts = (count(to.x - from.x), count(to.y - from.y));
+        // A middle on the border, or beyond it by less than a cell, counts as just inside.
+        let inside = |at: Vector2<f64>| at.sup(&from).inf(&to).lerp(&((from + to) / 2.0), 1e-9);
+        Self::over(solid, (from - Vector2::repeat(cell / 2.0), cell), counts, inside)
+    }
+
+    /// The map of a solid with cells from a corner; there is material in a cell if there is at the place that
+    /// `at` gives for its middle.
+    fn over(
+        solid: &Solid,
+        (from, cell): (Vector2<f64>, f64),
+        (columns, rows): (usize, usize),
+        at: impl Fn(Vector2<f64>) -> Vector2<f64>,
+    ) -> Self {
         let middle =
             |k: usize| from + Vector2::new((k % columns) as f64 + 0.5, (k / columns) as f64 + 0.5) * cell;
-        let height =
-            |k: usize| if solid.outline.holds(&middle(k)) { solid.top as f32 } else { f32::NEG_INFINITY };
+        let height = |k: usize| {
+            if solid.outline.holds(&at(middle(k))) { solid.top as f32 } else { f32::NEG_INFINITY }
+        };
         let heights = (0..columns * rows).map(height).collect();
         let mut map = Self { corner: from, cell, columns, heights };
         if !solid.relief.is_empty() {
@@ -63,6 +90,18 @@ impl HeightMap {
             solid.relief.iter().for_each(|triangle| map.raise(triangle));
         }
         map
+    }
+
+    /// Clears what a cutter reaches along a path; rapid moves clear nothing.
+    pub fn cut(&mut self, path: &Path, cutter: &Cutter) {
+        let stamp = Stamp::new(cutter);
+        for step in path.moves().iter().filter(|step| step.pace != MovePace::Rapid) {
+            let length = step.segment.length();
+            let count = (length * STAMPS as f64 / (STEP * cutter.radius)).ceil().max(1.0);
+            for k in 0..=count as usize {
+                self.stamp(&stamp, &step.segment.point(length * (k as f64 / count)));
+            }
+        }
     }
 
     /// Raises the cells whose middles a triangle covers to it.
@@ -103,7 +142,7 @@ impl HeightMap {
     }
 
     /// Clears what a tool reaches with its tip at a point [m].
-    pub(super) fn stamp(&mut self, stamp: &Stamp, tip: &Vector3<f64>) {
+    pub fn stamp(&mut self, stamp: &Stamp, tip: &Vector3<f64>) {
         // In cells, with their centres at whole numbers.
         let place = (tip.xy() - self.corner) / self.cell - Vector2::repeat(0.5);
         let reach = stamp.radius / self.cell;

@@ -9,8 +9,8 @@ use crate::stock::along::{Earlier, LOOK, Leg, cleared, legs};
 use crate::stock::circle::HalfCircle;
 use crate::stock::contact::{Collider, Collision, Contacts};
 use crate::stock::grid::{Grid, SAME_HEIGHT};
-use crate::stock::height_map::{HeightMap, Stamp};
-use crate::stock::mapped::{self, STAMPS, STEP};
+use crate::stock::height_map::{HeightMap, STAMPS, STEP, Stamp};
+
 use crate::stock::place::{Around, Cleared, Cutter, Surroundings, ToolPlace, WITHIN};
 use crate::stock::solid::Solid;
 use nalgebra::{Vector2, Vector3};
@@ -148,7 +148,7 @@ fn on_map(
     (cutter, holder): (&Cutter, &Holder),
 ) -> Vec<(usize, f64)> {
     let mut map = HeightMap::new(solid, cutter);
-    earlier.iter().for_each(|earlier| mapped::clear(&mut map, earlier));
+    earlier.iter().for_each(|earlier| map.cut(&earlier.path, &earlier.cutter));
     let stamp = Stamp::new(cutter);
     let directions: Vec<Vector2<f64>> = (0..DIRECTIONS)
         .map(|k| math::sin_cos(TAU * k as f64 / DIRECTIONS as f64))

@@ -6,15 +6,11 @@ use crate::progress::Progress;
 use crate::stock::along::{Earlier, INSIDE, LOOK, MOST_STATIONS, heading};
 use crate::stock::circle::{immersion, left_of};
 use crate::stock::contact::{Collider, Contacts, FloorArc, SideArc};
-use crate::stock::height_map::{HeightMap, Stamp};
+use crate::stock::height_map::{HeightMap, STAMPS, STEP, Stamp};
 use crate::stock::place::{CORNER, Cutter, RINGS, WITHIN};
 use crate::stock::solid::Solid;
 use nalgebra::{Vector2, Vector3};
 
-/// Distance of stations, as a part of the radius.
-pub(super) const STEP: f64 = 0.1;
-/// Stamps from one station to the next.
-pub(super) const STAMPS: usize = 2;
 /// Directions ahead that are looked at.
 const AHEAD: usize = 180;
 /// Every so many directions are enough to find what must not be met.
@@ -35,7 +31,7 @@ pub(super) fn contacts(
     progress: &mut Progress,
 ) -> Contacts {
     let mut map = HeightMap::new(solid, cutter);
-    earlier.iter().for_each(|earlier| clear(&mut map, earlier));
+    earlier.iter().for_each(|earlier| map.cut(&earlier.path, &earlier.cutter));
     let stamp = Stamp::new(cutter);
     let step_length = (STEP * cutter.radius).max(path.length() / MOST_STATIONS);
     let mut contacts = Contacts::on_map(map.cell);
@@ -86,18 +82,6 @@ pub(super) fn contacts(
         reached = Some(step.segment.point(length));
     }
     contacts
-}
-
-/// Clears what an earlier path has cut.
-pub(super) fn clear(map: &mut HeightMap, earlier: &Earlier) {
-    let stamp = Stamp::new(&earlier.cutter);
-    for step in earlier.path.moves().iter().filter(|step| step.pace != MovePace::Rapid) {
-        let length = step.segment.length();
-        let count = (length * STAMPS as f64 / (STEP * earlier.cutter.radius)).ceil().max(1.0);
-        for k in 0..=count as usize {
-            map.stamp(&stamp, &step.segment.point(length * (k as f64 / count)));
-        }
-    }
 }
 
 /// Whether a move only rises or dives.

@@ -19,9 +19,14 @@ mod place;
 mod height_map;
 mod mapped;
 mod along;
+mod blank;
+mod remaining;
 
 pub use along::{Earlier, contacts};
+pub use blank::Blank;
 pub use contact::{Collider, Collision, Contact, Contacts, FloorArc, SideArc};
+pub use height_map::{HeightMap, Stamp};
 pub use holder::{Holder, with_holder};
 pub use place::Cutter;
+pub use remaining::Remaining;
 pub use solid::{Outline, Solid};

@@ -54,7 +54,7 @@ impl Outline {
     }
 
     /// Smallest box that holds it: lower and upper corner [m].
-    pub(super) fn bounds(&self) -> [Vector2<f64>; 2] {
+    pub fn bounds(&self) -> [Vector2<f64>; 2] {
         match self {
             Self::Circle { center, radius } => {
                 [center - Vector2::repeat(*radius), center + Vector2::repeat(*radius)]

@@ -178,6 +178,11 @@ impl Swept {
         along.max((self.heights[1] - self.heights[0]).abs())
     }
 
+    /// Number of pieces of an eighth of a turn or less.
+    pub(super) fn pieces(&self) -> usize {
+        (8.0 * self.turns).ceil().max(1.0) as usize
+    }
+
     /// Lowest and highest tip [m].
     pub(super) fn range(&self) -> (f64, f64) {
         let [from, to] = self.heights;

@@ -12,8 +12,10 @@ pub mod quantile;
 mod band;
 mod chosen;
 mod column;
+mod largest;
 mod outcomes;
 
 pub use band::{BreakEven, ErrorBand, Measure, NominalErrors, Share, band};
 pub use draw::Draw;
+pub use largest::largest;
 pub use quantile::Quantiles;

@@ -93,19 +93,25 @@ impl Outcomes<'_> {
 
     /// Contour error at a place with a drawn plant [m].
     pub(super) fn error(&self, place: usize, draw: &Draw) -> Vector3<f64> {
-        let (path, node) = (&self.plan.path, |k: usize| &self.nodes[k].1[place]);
+        let ((s, target), tip) = self.drawn(place, draw);
+        contour::closest(&self.plan.path, (s, &target), &tip).point - tip
+    }
+
+    /// Where the tool should be at a place with a drawn plant, as arc length and point of the path [m], and
+    /// where its tip is [m].
+    pub(super) fn drawn(&self, place: usize, draw: &Draw) -> ((f64, Vector3<f64>), Vector3<f64>) {
+        let node = |k: usize| &self.nodes[k].1[place];
         let above = self.nodes.partition_point(|(factor, _)| *factor < draw.frequency);
         if above == 0 || above == self.nodes.len() {
             let place = node(above.min(self.nodes.len() - 1));
-            let tip = place.tip(self.plan, draw);
-            return contour::closest(path, (place.arc_length, &place.target), &tip).point - tip;
+            return ((place.arc_length, place.target), place.tip(self.plan, draw));
         }
         let (from, to) = (node(above - 1), node(above));
         let (low, high) = (self.nodes[above - 1].0, self.nodes[above].0);
         let part = (draw.frequency - low) / (high - low);
         let s = from.arc_length + (to.arc_length - from.arc_length) * part;
         let tip = from.tip(self.plan, draw).lerp(&to.tip(self.plan, draw), part);
-        contour::closest(path, (s, &path.point(s)), &tip).point - tip
+        ((s, self.plan.path.point(s)), tip)
     }
 
     /// Length of that error [m].

@@ -13,6 +13,7 @@ mod chart;
 mod export;
 mod identify;
 mod placement;
+mod part;
 mod thesis;
 
 pub use identify::{Identified, identify_response, identify_stiffness};

@@ -58,6 +58,13 @@ export interface FeedRuleGain {
   force_n: number; least_percent: number; most_percent: number; share_at_least: number; share_at_most: number;
   programmed: FeedOutcome; constant_force: FeedOutcome; sentence: string;
 }
+export interface SurfaceSpot {
+  kind: "wall" | "floor" | "corner"; sample: number; line?: number; at_arc_length_mm: number;
+  place_mm: [number, number, number]; height_mm: number; before_mm: number; after_mm: number; sentence: string;
+}
+export interface SurfaceFigures {
+  worst_before_mm?: number; worst_after_mm?: number; after_p95_mm?: number; worst: SurfaceSpot[];
+}
 export interface WorstPlace { max: number; at_arc_length_mm: number }
 export interface Summary {
   fingerprint: string; model: number; samples: number; duration_s: number; path_length_mm: number;
@@ -65,7 +72,7 @@ export interface Summary {
   mean_force_n: [number, number, number];
   material: string; material_note: string; cut: CutFigures; walls: WallFigures[];
   before_mm: { deflection: Statistics; shaping: Statistics; both: Statistics };
-  after_mm: Statistics; missed_mm: WorstPlace; wall_mm: WorstPlace; budget: Budget;
+  after_mm: Statistics; missed_mm: WorstPlace; wall_mm: WorstPlace; surface?: SurfaceFigures; budget: Budget;
   before_axis_deg: Statistics; after_axis_deg: Statistics;
   program?: Understood; spin?: SpinGain; feed_rule?: FeedRuleGain;
   passes: number; converged: boolean; tolerance_mm: number;
