@@ -94,8 +94,8 @@ pub fn surface(
     };
     let timing = plan.timing(Sources::ALL);
     let excesses = Excesses::new(plan, &left, contacts);
-    let Survey { before: worst_before, after: worst_after, lines, stretches } =
-        Survey::of(&excesses, &timing, (before, after));
+    let WorstFound { before: worst_before, after: worst_after, lines, stretches } =
+        WorstFound::of(&excesses, &timing, (before, after));
     let describe = |found: &Worst| excesses.describe(&timing, (found.sample, found.facet), (before, after));
     let places = |found: Option<Worst>| found.as_ref().map(describe);
     let mut worst: Vec<SurfacePlace> = lines.worst.iter().map(|(_, found)| describe(found)).collect();
@@ -130,7 +130,7 @@ struct Worst {
 }
 
 /// What a walk over the samples finds.
-struct Survey {
+struct WorstFound {
     before: Option<Worst>,
     after: Option<Worst>,
     lines: WorstLines,
@@ -144,7 +144,7 @@ fn raise(worst: &mut Option<Worst>, found: Worst) {
     }
 }
 
-impl Survey {
+impl WorstFound {
     fn of(excesses: &Excesses, timing: &TimingLaw, (before, after): (&Deviation, &Deviation)) -> Self {
         let samples = timing.arc_length.len();
         let stretches = vec![None; STRETCHES.min(samples)];
