@@ -489,14 +489,13 @@ fn every_chart_draws() {
         let report = run(&changes);
         let stock = report.setup().contacts.is_some();
         let charts = charts_of(&report);
-        for name in ["engagement", "removal"] {
+        for name in ["engagement", "removal", "surface"] {
             assert_eq!(charts.iter().any(|entry| entry.name == name), stock, "{name}");
             let drawn = chart(&report, name, &ChartOptions::sized(700.0, 320.0));
             assert_eq!(drawn.is_ok(), stock, "{name}");
         }
-        for entry in
-            CATALOG.into_iter().filter(|entry| stock || !["engagement", "removal"].contains(&entry.name))
-        {
+        let in_stock = ["engagement", "removal", "surface"];
+        for entry in CATALOG.into_iter().filter(|entry| stock || !in_stock.contains(&entry.name)) {
             let options = ChartOptions::sized(700.0, 320.0);
             let drawn = chart(&report, entry.name, &options).unwrap();
             assert!(drawn.svg.starts_with("<svg") && !drawn.svg.contains("NaN"), "{}", entry.name);

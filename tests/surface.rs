@@ -54,10 +54,7 @@ fn tips(report: &Report) -> Vec<Vector3<f64>> {
 fn on_line(report: &Report, line: usize) -> Vec<(usize, f64, f64)> {
     let (lines, excess) = (column(report, "program_line"), column(report, "surface_before_mm"));
     let x = column(report, "desired_x_mm");
-    (0..lines.len())
-        .filter(|&k| lines[k] == line as f64)
-        .map(|k| (k, x[k] - AT[0], excess[k]))
-        .collect()
+    (0..lines.len()).filter(|&k| lines[k] == line as f64).map(|k| (k, x[k] - AT[0], excess[k])).collect()
 }
 
 /// Asserts that the column is the larger one of some excesses [mm] on a straight line of the program, away from its
@@ -106,12 +103,14 @@ fn a_slot_has_two_walls_of_opposite_signs() {
 /// second only the new one.
 #[test]
 fn only_the_finishing_pass_leaves_its_wall() {
-    let text = "G21 G90\nG0 X-60 Y0 Z5\nG1 Z-3 F300\nG1 X60 F600\nG0 Z5\nX-60 Y1\nG1 Z-3 F300\nG1 X60 F600\nG0 Z5\n";
+    let text =
+        "G21 G90\nG0 X-60 Y0 Z5\nG1 Z-3 F300\nG1 X60 F600\nG0 Z5\nX-60 Y1\nG1 Z-3 F300\nG1 X60 F600\nG0 Z5\n";
     let report = job(text, plate(), &[]);
     follows(&report, 4, 0.0, -3.0, |y, z| vec![y, z]);
     follows(&report, 8, 1.0, -3.0, |y, z| vec![-y, z]);
     // Deeper later: of the first level only what stands above the second's cut, its walls.
-    let text = "G21 G90\nG0 X-60 Y0 Z5\nG1 Z-2 F300\nG1 X60 F600\nG0 Z5\nX-60\nG1 Z-4 F300\nG1 X60 F600\nG0 Z5\n";
+    let text =
+        "G21 G90\nG0 X-60 Y0 Z5\nG1 Z-2 F300\nG1 X60 F600\nG0 Z5\nX-60\nG1 Z-4 F300\nG1 X60 F600\nG0 Z5\n";
     let report = job(text, block([-50.0, 0.0, -20.0], [50.0, 50.0, 0.0]), &[]);
     follows(&report, 4, 0.0, -2.0, |y, _| vec![-y]);
     follows(&report, 8, 0.0, -4.0, |y, z| vec![-y, z]);
@@ -134,12 +133,14 @@ fn an_island_keeps_its_walls() {
         assert!((excess.abs() - y.abs().max(z.abs())).abs() < 1e-9, "{x}: {excess} {y} {z}");
     }
     // Across the island afterwards: what its walls were is gone over the width of the tool.
-    let cut = text.replace("G0 Z5\n", "").replace("G0 X-10 Y-10\n", "G0 X-10 Y-10 Z5\n") + "G1 Y0\nX10\nG0 Z5\n";
+    let cut =
+        text.replace("G0 Z5\n", "").replace("G0 X-10 Y-10\n", "G0 X-10 Y-10 Z5\n") + "G1 Y0\nX10\nG0 Z5\n";
     let cut = job(&cut, plate(), &[]);
     let at = |report: &Report, line: usize, y: f64| {
         let lines = column(report, "program_line");
         let ys = column(report, "desired_y_mm");
-        let k = (0..lines.len()).find(|&k| lines[k] == line as f64 && (ys[k] - AT[1] - y).abs() < 0.06).unwrap();
+        let k =
+            (0..lines.len()).find(|&k| lines[k] == line as f64 && (ys[k] - AT[1] - y).abs() < 0.06).unwrap();
         column(report, "surface_before_mm")[k]
     };
     // On the way up at x = 10, the pocket's wall is right, the island's left; both are through the slot's width.
@@ -179,14 +180,21 @@ fn a_ball_nose_leaves_what_lies_across_the_feed() {
 #[test]
 fn climb_leaves_too_much_and_conventional_too_little() {
     // The tool turns clockwise: with the wall on the right it cuts down.
-    let pass = |side: f64| {
-        let text = format!("G21 G90\nG0 X-60 Y0 Z5\nG1 Z-3 F300\nG1 X60 F600\nG0 Z5\n");
-        let (low, high) = if side > 0.0 { (4.5, 50.0) } else { (-50.0, -4.5) };
-        let report = job(&text, block([-50.0, low, -3.0], [50.0, high, 0.0]), &[]);
+    let pass = |side: f64, depth: f64| {
+        let text = "G21 G90\nG0 X-60 Y0 Z5\nG1 Z-3 F300\nG1 X60 F600\nG0 Z5\n";
+        let (low, high) = if side > 0.0 { (5.0 - depth, 50.0) } else { (-50.0, depth - 5.0) };
+        let report = job(text, block([-50.0, low, -3.0], [50.0, high, 0.0]), &[]);
         on_line(&report, 4).into_iter().find(|(_, x, _)| x.abs() < 0.1).unwrap().2
     };
-    assert!(pass(-1.0) > 1e-3, "{}", pass(-1.0));
-    assert!(pass(1.0) < pass(-1.0), "{}", pass(1.0));
+    for depth in [0.5, 4.0] {
+        let excess = pass(-1.0, depth);
+        assert!(excess > 1e-3, "{depth}: {excess}");
+    }
+    let excess = pass(1.0, 4.0);
+    assert!(excess < -1e-3, "{excess}");
+    // Where a thin chip is rubbed more than cut, the radial force outweighs the pull.
+    let excess = pass(1.0, 0.5);
+    assert!(excess > 1e-3, "{excess}");
 }
 
 /// Figures, columns and words say the same; without a stock there is none of them.
@@ -257,7 +265,8 @@ fn volume(stl: &[u8]) -> f64 {
         for k in 0..3 {
             *edges.entry((corners[k], corners[(k + 1) % 3])).or_default() += 1;
         }
-        let [a, b, c] = corners.map(|corner| Vector3::from(corner.map(|bits| f64::from(f32::from_bits(bits)))));
+        let [a, b, c] =
+            corners.map(|corner| Vector3::from(corner.map(|bits| f64::from(f32::from_bits(bits)))));
         sum += a.dot(&b.cross(&c)) / 6.0;
     }
     for (&(from, to), &count) in &edges {
@@ -283,7 +292,8 @@ fn the_simulated_part_is_closed_and_has_its_volume() {
     }
     assert!(report.simulated_part(PartKind::Before, None).unwrap().len() < 30_000_000);
     // Through the part and over its edge: holes and a bay.
-    let through = "G21 G90\nG0 X-60 Y0 Z5\nG1 Z-21 F300\nG1 X-20 F600\nG0 Z5\nX10\nG1 Z-21 F300\nX20\nG0 Z5\n";
+    let through =
+        "G21 G90\nG0 X-60 Y0 Z5\nG1 Z-21 F300\nG1 X-20 F600\nG0 Z5\nX10\nG1 Z-21 F300\nX20\nG0 Z5\n";
     let report = job(through, plate(), &[]);
     let gone = 20.0 * (30.0 * 10.0 + PI * 12.5 + 10.0 * 10.0 + PI * 25.0);
     let removed = whole - volume(&report.simulated_part(PartKind::Nominal, Some(0.5e-3)).unwrap());
@@ -304,7 +314,8 @@ fn the_actual_part_lies_where_the_tip_was() {
     assert!((floor(&nominal) + 3.0).abs() < 1e-6 && (floor(&before) - tips[k].z).abs() < 1e-3);
     assert!((floor(&after) + 3.0).abs() < 1e-3);
     // The middle of the slot's width, by its first and last low height.
-    let low: Vec<f64> = (0..rows).filter(|&row| before.heights[at(row)] < -1e-3).map(|row| row as f64).collect();
+    let low: Vec<f64> =
+        (0..rows).filter(|&row| before.heights[at(row)] < -1e-3).map(|row| row as f64).collect();
     let middle = (low[0] + low[low.len() - 1]) / 2.0 * 0.05 - 8.0;
     assert!((middle - tips[k].y).abs() < 0.05, "{middle} {}", tips[k].y);
     assert!(tips[k].y.abs() > 0.1);
@@ -328,7 +339,8 @@ fn above(path: &Path, cutter: &Cutter, point: &Vector3<f64>) -> f64 {
             let away = (tip - point).xy().norm();
             if away <= radius {
                 let beyond = (away - (radius - corner)).max(0.0);
-                most = most.max(point.z - tip.z - (corner - (corner * corner - beyond * beyond).max(0.0).sqrt()));
+                most = most
+                    .max(point.z - tip.z - (corner - (corner * corner - beyond * beyond).max(0.0).sqrt()));
             }
         }
     }
@@ -339,13 +351,15 @@ fn above(path: &Path, cutter: &Cutter, point: &Vector3<f64>) -> f64 {
 /// plunges of flat, bull and ball nose; the same on a map of heights, where cells leave it open.
 #[test]
 fn material_remains_where_no_place_of_the_tool_clears_it() {
-    let text = "G21 G90 F600\nG0 X-9 Y-6 Z0\nG1 Z-2\nX4\nG2 X4 Y4 I0 J5\nG1 X-6 Y5 Z-4\nG3 X-6 Y5 Z-5 I3 J0\nG1 X-2 Y-2 Z-1\nG0 Z5\nX8 Y-8 Z1\nG1 Z-6\nG0 Z2\nX9 Y9\nG1 X9 Y2 Z-3\n";
+    let text = "G21 G90 F600\nG0 X-9 Y-6 Z0\nG1 Z-2\nX4\nG2 X4 Y4 I0 J5\nG1 X-6 Y5 Z-4\nG3 X-6 Y5 Z-5 I3 J0\n\
+        G1 X-2 Y-2 Z-1\nG0 Z5\nX8 Y-8 Z1\nG1 Z-6\nG0 Z2\nX9 Y9\nG1 X9 Y2 Z-3\n";
     let path = program(text);
     let outline = Outline::rectangle(Vector2::new(-12e-3, -12e-3), Vector2::new(12e-3, 12e-3));
     let mut random = fastrand::Rng::with_seed(7);
     for corner in [0.0, 0.5e-3, 2e-3] {
         let cutter = Cutter { radius: 2e-3, corner, flutes: f64::INFINITY };
-        let earlier = vec![Earlier { path: program("G21 G90 F600\nG0 X-12 Y10 Z-1\nG1 X0 Y10 Z-1\n"), cutter }];
+        let earlier =
+            vec![Earlier { path: program("G21 G90 F600\nG0 X-12 Y10 Z-1\nG1 X0 Y10 Z-1\n"), cutter }];
         let blank = Blank { solid: Solid::prism(outline.clone(), -8e-3, 0.0), earlier: earlier.clone() };
         for on_map in [false, true] {
             let remaining = Remaining::of(&path, &blank, &cutter, on_map);
@@ -358,8 +372,10 @@ fn material_remains_where_no_place_of_the_tool_clears_it() {
                 let most = above(&path, &cutter, &point).max(above(&earlier[0].path, &cutter, &point));
                 // Near a border, across or in height, the sampling or the cells leave it open.
                 let near = if on_map { 0.12 } else { 2e-4 };
-                let around = [Vector3::x(), -Vector3::x(), Vector3::y(), -Vector3::y(), Vector3::z(), -Vector3::z()];
-                let inside = |p: &Vector3<f64>| p.x.abs() < 12.0 && p.y.abs() < 12.0 && p.z < 0.0 && p.z > -8.0;
+                let around =
+                    [Vector3::x(), -Vector3::x(), Vector3::y(), -Vector3::y(), Vector3::z(), -Vector3::z()];
+                let inside =
+                    |p: &Vector3<f64>| p.x.abs() < 12.0 && p.y.abs() < 12.0 && p.z < 0.0 && p.z > -8.0;
                 let open = |p: Vector3<f64>| {
                     let there = above(&path, &cutter, &p).max(above(&earlier[0].path, &cutter, &p));
                     (there > 0.0) != (most > 0.0) || inside(&p) != inside(&point)
@@ -368,7 +384,11 @@ fn material_remains_where_no_place_of_the_tool_clears_it() {
                     continue;
                 }
                 let expected = inside(&point) && most <= 0.0;
-                assert_eq!(remaining.is_material(&(point / 1e3)), expected, "{corner} {on_map} {point:?} {most}");
+                assert_eq!(
+                    remaining.is_material(&(point / 1e3)),
+                    expected,
+                    "{corner} {on_map} {point:?} {most}"
+                );
                 if expected { material += 1 } else { air += 1 }
             }
             assert!(material > 80 && air > 80, "{material} {air}");

@@ -39,8 +39,8 @@ struct PartMaps {
 #[wasm_bindgen]
 impl Run {
     /// The simulated part as a binary STL file in millimetres, in the workpiece frame: `before` or `after`
-    /// compensation, or `nominal`. Its heights are `cell_mm` apart; if not given, so far that the file stays below about
-    /// 30 MB. Throws an error if the job has no stock that is followed.
+    /// compensation, or `nominal`. Its heights are `cell_mm` apart; if not given, so far that the file stays
+    /// below about 30 MB. Throws an error if the job has no stock that is followed.
     pub fn simulated_part(&self, part: &str, cell_mm: Option<f64>) -> Result<Vec<u8>, JsValue> {
         let stl = PartKind::named(part)
             .and_then(|kind| self.report.simulated_part(kind, cell_mm.map(|cell| cell * MM)));

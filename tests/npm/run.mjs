@@ -8,6 +8,8 @@ await init();
 const program = { ...JSON.parse(armill.default_job()), path: { kind: "gcode", text: "G21 G90 M8\nS4000 M3\nG0 X600 Y-60 Z120\nG1 Z100 F1200\nY20\nM30" } };
 const result = armill.run(armill.default_job());
 const other = armill.run(JSON.stringify(program));
+const box = { kind: "box", from_mm: [550, -100, 80], to_mm: [650, 60, 105] };
+const stocked = armill.run(JSON.stringify({ ...program, stock: box }));
 const charts = result.charts().map(({ name }) => result.chart(name, { width: 640, height: 300 }));
 const answers = {
   fields: [armill.fields()],
@@ -17,7 +19,7 @@ const answers = {
   thesis_recomputed: [armill.thesis_recomputed()],
 };
 const methods = {
-  summary: [result.summary(), other.summary()],
+  summary: [result.summary(), other.summary(), stocked.summary()],
   columns: [result.columns()],
   column: [result.column("time_s")],
   charts: [result.charts()],
@@ -31,6 +33,8 @@ const methods = {
   package_zip: [result.package_zip("kuka")],
   promise: [result.promise(), result.promise("krl")],
   replay: [other.replay("gcode")],
+  simulated_part: [stocked.simulated_part("after"), stocked.simulated_part("nominal", 2)],
+  part_map: [stocked.part_map(5)],
   fingerprint: [result.fingerprint()],
 };
 
@@ -42,6 +46,7 @@ const identified = [armill.identify_stiffness(armill.default_job(), poses, "tabl
 
 const literal = (value) => {
   if (value instanceof Float64Array) return `new Float64Array([${value.slice(0, 3)}])`;
+  if (value instanceof Float32Array) return `new Float32Array([${value.slice(0, 3)}])`;
   if (value instanceof Uint8Array) return `new Uint8Array([${value.slice(0, 3)}])`;
   if (Array.isArray(value)) return `[${value.map(literal)}]`;
   if (value === null || typeof value !== "object") return JSON.stringify(value);

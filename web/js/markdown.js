@@ -31,6 +31,7 @@ export function markdown({ summary, job, standard, link }) {
       `${summary.stops.count}, warnings: ${summary.warnings.length}.`,
     ...(summary.cut.stock ? ["", escaped(inStock(summary.cut))] : []),
     ...(summary.feed_rule ? ["", escaped(summary.feed_rule.sentence)] : []),
+    ...(summary.surface?.worst.length ? ["", escaped(surfaceLeft(summary.surface))] : []),
     "",
     changed.length ? "Inputs that differ from the default job:" : "Inputs: the default job.",
     ...changed.map(
@@ -47,5 +48,10 @@ export function markdown({ summary, job, standard, link }) {
 const inStock = ({ stock, removed_cm3, air_share, largest_engaged_deg }) =>
   `Engagement from the stock: ${stock}. It loses ${formatNumber(removed_cm3)} cm³; the tool is engaged by up to ` +
   `${formatNumber(largest_engaged_deg)} deg and in the air on ${formatNumber(100 * air_share, 2)} % of its way at feed.`;
+
+/** The surface that is left. */
+const surfaceLeft = ({ worst_before_mm, worst_after_mm, after_p95_mm, worst }) =>
+  `Surface left on the part: up to ${formatError(worst_before_mm)} mm off before compensation, ${formatError(worst_after_mm)} mm after ` +
+  `(95 %: ${formatError(after_p95_mm)} mm). ${worst.map(({ sentence }) => `${sentence}.`).join(" ")}`;
 
 const escaped = (text) => text.replace(/[\\`*_[\]|<>]/g, "\\$&");
