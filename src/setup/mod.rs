@@ -177,7 +177,7 @@ impl Setup {
             StockEngagement::Stated => (None, None, None, false),
             StockEngagement::Tilted => (None, None, None, true),
             StockEngagement::Followed(contacts, blank, words) => {
-                (Some(Arc::new(contacts)), Some(Arc::new(blank)), Some(words), false)
+                (Some(Arc::new(contacts)), Some(blank), Some(words), false)
             }
         };
         let roll = job.spin.angle_deg * DEG;

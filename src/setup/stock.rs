@@ -12,6 +12,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use nalgebra::{Vector2, Vector3};
 use std::io::Cursor;
+use std::sync::Arc;
 
 /// Most triangles of a mesh.
 const MOST_TRIANGLES: usize = 2_000_000;
@@ -28,7 +29,7 @@ pub(super) enum StockEngagement {
     /// The job states it, for a stock cannot be followed: the tool axis is not the workpiece's z axis.
     Tilted,
     /// What the tool meets in the stock, the stock, and the same in words.
-    Followed(Contacts, Blank, String),
+    Followed(Contacts, Arc<Blank>, String),
 }
 
 /// The engagement along a path in the workpiece frame.
@@ -62,7 +63,7 @@ pub(super) fn engagement(
                 Some(holder) => with_holder(contacts, path, (&solid, &earlier), (cutter, &holder)),
                 None => contacts,
             };
-            StockEngagement::Followed(contacts, Blank { solid, earlier }, words)
+            StockEngagement::Followed(contacts, Arc::new(Blank { solid, earlier }), words)
         }
     })
 }
