@@ -9,6 +9,8 @@ use armill::Report;
 use armill::path::{MovePace, Path, gcode};
 use armill::report::PartKind;
 use armill::stock::{Blank, Cutter, Earlier, Outline, Remaining, Solid};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use common::{between, column, run};
 use nalgebra::{Vector2, Vector3};
 use serde_json::{Value, json};
@@ -319,6 +321,20 @@ fn the_actual_part_lies_where_the_tip_was() {
     let middle = (low[0] + low[low.len() - 1]) / 2.0 * 0.05 - 8.0;
     assert!((middle - tips[k].y).abs() < 0.05, "{middle} {}", tips[k].y);
     assert!(tips[k].y.abs() > 0.1);
+}
+
+/// The mesh of a part is a stock again. On its map of heights the same walls and floors are found, but for those
+/// that a later pass takes.
+#[test]
+fn the_mesh_of_a_part_is_a_stock_for_the_next_program() {
+    let uncut = job("G21 G90\nG0 X-20 Y0 Z5\nG1 X20 F600\n", plate(), &[]);
+    let stl = STANDARD.encode(uncut.simulated_part(PartKind::After, Some(5e-3)).unwrap());
+    let text =
+        "G21 G90\nG0 X-60 Y0 Z5\nG1 Z-3 F300\nG1 X60 F600\nG0 Z5\nX-60 Y1\nG1 Z-3 F300\nG1 X60 F600\nG0 Z5\n";
+    let report = job(text, json!({"kind":"stl","stl":stl}), &[]);
+    assert!(report.summary().cut.stock_cell_mm.is_some());
+    follows(&report, 4, 0.0, -3.0, |y, z| vec![y, z]);
+    follows(&report, 8, 1.0, -3.0, |y, z| vec![-y, z]);
 }
 
 fn program(text: &str) -> Path {

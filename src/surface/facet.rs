@@ -107,8 +107,7 @@ impl Across {
         t * facet.normal[0] + y * facet.normal[1] + w * facet.normal[2]
     }
 
-    /// From the tip to the facet [m], and its height above the tip [m], at a contact; `None` if the tool does
-    /// not cut it there.
+    /// From the tip to the facet [m], at a contact; `None` if the tool does not cut it there.
     pub(super) fn place(&self, facet: &Facet, cutter: &Cutter, contact: &Contact) -> Option<Vector3<f64>> {
         if contact.is_air() {
             return None;
