@@ -110,7 +110,7 @@ fn a_corner_has_the_force_that_is_held() {
     let lowest = json!({"feed_rule":"constant-force","feed_least_percent":5,"force_n":130});
     let report = run(&job(POCKET, lowest));
     let before = run(&job(POCKET, json!({})));
-    let largest = |report: &Report| report.force.iter().map(Vector3::norm).fold(0.0, f64::max);
+    let largest = |report: &Report| report.planned_force.iter().map(Vector3::norm).fold(0.0, f64::max);
     assert!(largest(&before) > 160.0, "{}", largest(&before));
     assert!(largest(&report) < 130.0 * (1.0 + 1e-9) && largest(&report) > 129.9, "{}", largest(&report));
     let gain = &summary(&report)["feed_rule"];
