@@ -486,3 +486,53 @@ fn rising_arcs_of_a_ball_nose_are_even() {
     let falls = sections[0] - sections[sections.len() - 1];
     assert!(sections.len() > 20 && falls > 0.0 && varies < 2.0 * falls, "{varies} {falls}");
 }
+
+/// A path in dense points, whose legs clear together, meets what its arcs and lines meet: a slot along a
+/// circle, a second circle beside it, a line across both, and back along that line.
+#[test]
+fn dense_points_meet_what_arcs_meet() {
+    let arcs = "G21 G90\nG0 X10 Y0 Z5\nG1 Z-3 F300\nG3 X-10 Y0 I-10 J0 F600\nG1 X-13\nG2 X13 Y0 I13 J0\n\
+        G1 X17 Y4\nX-17 Y4\nY4.8\nX17\nG0 Z5\n";
+    let mut points = vec![];
+    let mut line = |from: [f64; 2], to: [f64; 2]| {
+        let count = ((to[0] - from[0]).hypot(to[1] - from[1]) / 0.01).ceil();
+        (1..=count as usize).for_each(|k| {
+            let share = k as f64 / count;
+            points.push([from[0] + (to[0] - from[0]) * share, from[1] + (to[1] - from[1]) * share]);
+        });
+    };
+    let turn = |radius: f64, k: usize| {
+        let angle = PI * k as f64 / 4000.0;
+        [radius * angle.cos(), radius * angle.sin()]
+    };
+    (1..=4000).for_each(|k| line(turn(10.0, k - 1), turn(10.0, k)));
+    line([-10.0, 0.0], [-13.0, 0.0]);
+    (1..=4000).for_each(|k| line(turn(13.0, 4001 - k), turn(13.0, 4000 - k)));
+    for pair in [[13.0, 0.0], [17.0, 4.0], [-17.0, 4.0], [-17.0, 4.8], [17.0, 4.8]].windows(2) {
+        line(pair[0], pair[1]);
+    }
+    let words = points.iter().map(|p| format!("X{:.4} Y{:.4}\n", p[0], p[1])).collect::<String>();
+    let dense = format!("G21 G90\nG0 X10 Y0 Z5\nG1 Z-3 F300\nF600\n{words}G0 Z5\n");
+    let (exact, close) = (walk(arcs, &plate(), flat()), walk(&dense, &plate(), flat()));
+    assert!(
+        (close.removed() / exact.removed() - 1.0).abs() < 1e-3,
+        "{} {}",
+        close.removed(),
+        exact.removed()
+    );
+    let at = |run: &Run, s: f64| {
+        let index = (0..run.path.moves().len()).rfind(|&index| run.path.start(index) <= s).unwrap();
+        let within = s - run.path.start(index);
+        let (from, to, share) = run.contacts.around(index, within).unwrap();
+        let [from, to] = [from, to].map(|station| run.contacts.at(station).radial_depth(|_| R));
+        from + (to - from) * share
+    };
+    let start = 0.0081;
+    let mut apart: Vec<f64> = (0..4000)
+        .map(|k| start + (exact.path.length() - 2.0 * start) * k as f64 / 4000.0)
+        .map(|s| (at(&exact, s) - at(&close, s * close.path.length() / exact.path.length())).abs())
+        .collect();
+    apart.sort_by(f64::total_cmp);
+    // Between its stations the exact way is linear, to a hundredth of the tool's diameter.
+    assert!(apart[2000] < 1e-6 && apart[3990] < 1e-4, "{:?}", [2000, 3800, 3990].map(|k| apart[k]));
+}

@@ -9,6 +9,7 @@ use crate::stock::grid::Grid;
 use crate::stock::mapped;
 use crate::stock::place::{ArcEnd, Around, Cleared, Cutter, EngagementMeasure, Surroundings, ToolPlace};
 use crate::stock::solid::Solid;
+use crate::stock::strokes::{Stroke, strokes};
 use crate::stock::swept::Swept;
 use nalgebra::{Vector2, Vector3};
 use std::ops::Range;
@@ -82,10 +83,14 @@ fn level(
     progress: &mut Progress,
 ) -> Contacts {
     let legs: Vec<Vec<Leg>> = path.moves().iter().map(|step| legs(&step.segment)).collect();
-    let own = legs.iter().flatten().map(|leg| Cleared { swept: leg.swept, cutter: *cutter });
+    let cuts =
+        path.moves().iter().zip(&legs).flat_map(|(step, legs)| {
+            legs.iter().map(|leg| (step.pace != MovePace::Rapid).then_some(leg.swept))
+        });
+    let strokes = strokes(cuts, cutter.radius);
+    let own = strokes.iter().map(|stroke| Cleared { swept: stroke.swept, cutter: *cutter });
     let sweeps: Vec<Cleared> = earlier.iter().flat_map(cleared).chain(own).collect();
-    let before = sweeps.len() - legs.iter().map(Vec::len).sum::<usize>();
-    let mut walk = Walk::new(path, (&sweeps, before), solid, cutter);
+    let mut walk = Walk::new(path, (&sweeps, &strokes), solid, cutter);
     for (index, legs) in legs.iter().enumerate() {
         progress.sample(index, path.moves().len());
         walk.step(index, legs);
@@ -95,9 +100,12 @@ fn level(
 
 /// What an earlier path has cleared.
 pub(super) fn cleared(earlier: &Earlier) -> Vec<Cleared> {
-    let cuts = earlier.path.moves().iter().filter(|step| step.pace != MovePace::Rapid);
-    let legs = cuts.flat_map(|step| legs(&step.segment));
-    legs.map(|leg| Cleared { swept: leg.swept, cutter: earlier.cutter }).collect()
+    let legs = earlier.path.moves().iter().flat_map(|step| {
+        let cuts = step.pace != MovePace::Rapid;
+        legs(&step.segment).into_iter().map(move |leg| cuts.then_some(leg.swept))
+    });
+    let strokes = strokes(legs, earlier.cutter.radius).into_iter();
+    strokes.map(|stroke| Cleared { swept: stroke.swept, cutter: earlier.cutter }).collect()
 }
 
 /// A part of a move that sweeps one capsule.
@@ -130,14 +138,16 @@ pub(super) fn legs(segment: &Segment) -> Vec<Leg> {
 /// The walk along a path.
 struct Walk<'a> {
     path: &'a Path,
-    /// What earlier paths and all legs of this one sweep.
+    /// What earlier paths and the strokes of this one sweep.
     sweeps: &'a [Cleared],
-    /// Number of sweeps before the move.
-    before: usize,
+    /// The strokes.
+    strokes: &'a [Stroke],
     /// Number of sweeps by earlier paths.
     earlier: usize,
-    /// Number of the leg that is walked.
+    /// Number of sweeps before the stroke that is walked.
     number: usize,
+    /// The legs of that stroke so far.
+    begun: Vec<Swept>,
     flat: bool,
     /// Distance of stations where the contact does not change [m].
     far: f64,
@@ -160,27 +170,29 @@ struct FoundContact {
 }
 
 impl<'a> Walk<'a> {
-    /// A walk after the first `before` of the sweeps.
+    /// A walk of the strokes that come last among the sweeps.
     fn new(
         path: &'a Path,
-        (sweeps, before): (&'a [Cleared], usize),
+        (sweeps, strokes): (&'a [Cleared], &'a [Stroke]),
         solid: &'a Solid,
         cutter: &'a Cutter,
     ) -> Self {
-        let bounds = sweeps[before..].iter().map(|cleared| cleared.swept.spine.bounds());
+        let earlier = sweeps.len() - strokes.len();
+        let bounds = strokes.iter().map(|stroke| stroke.swept.spine.bounds());
         let all = bounds.reduce(|a, b| [a[0].inf(&b[0]), a[1].sup(&b[1])]);
         let ahead = path.moves().iter().find_map(|step| heading(step, 0.0));
         let largest = sweeps.iter().map(|cleared| cleared.cutter.radius).fold(cutter.radius, f64::max);
         let mut grid = Grid::new(all.unwrap_or_default(), cutter.radius + largest);
-        for (number, cleared) in sweeps[..before].iter().enumerate() {
+        for (number, cleared) in sweeps[..earlier].iter().enumerate() {
             grid.add(number as u32, &cleared.swept);
         }
         Self {
             path,
             sweeps,
-            before,
-            earlier: before,
-            number: before,
+            strokes,
+            earlier,
+            number: earlier,
+            begun: Vec::new(),
             flat: sweeps.iter().all(|cleared| cleared.cutter.corner == 0.0),
             far: (FAR * cutter.radius).max(path.length() / MOST_STATIONS),
             solid,
@@ -195,19 +207,22 @@ impl<'a> Walk<'a> {
     /// The stations of a move, which then counts as cut.
     fn step(&mut self, index: usize, legs: &[Leg]) {
         let step = &self.path.moves()[index];
-        let first = self.before;
-        self.before += legs.len();
         self.contacts.begin();
         if step.pace == MovePace::Rapid {
             legs.iter().for_each(|leg| self.rapid(step, leg));
             self.ahead = heading(step, step.segment.length()).unwrap_or(self.ahead);
             return;
         }
-        for (number, leg) in (first..).zip(legs) {
-            self.number = number;
+        for leg in legs {
             self.leg(step, leg);
             self.ahead = heading(step, leg.within.end).unwrap_or(self.ahead);
-            self.grid.add(number as u32, &leg.swept);
+            self.begun.push(leg.swept);
+            let stroke = &self.strokes[self.number - self.earlier];
+            if self.begun.len() == stroke.legs {
+                self.grid.add(self.number as u32, &stroke.swept);
+                self.begun.clear();
+                self.number += 1;
+            }
         }
     }
 
@@ -322,6 +337,7 @@ impl<'a> Walk<'a> {
     /// What was swept within a short way before the place `behind` [m] after the start of a leg.
     fn trail(&self, mut behind: f64) -> Range<usize> {
         let mut first = self.number;
+        behind += self.begun.iter().map(Swept::length).sum::<f64>();
         while behind < TRAIL * self.cutter.radius && first > self.earlier {
             first -= 1;
             behind += self.sweeps[first].swept.length();
@@ -352,6 +368,7 @@ impl<'a> Walk<'a> {
             sweeps: self.sweeps,
             flat: self.flat,
             grid: &self.grid,
+            begun: &self.begun,
             place,
         }
     }

@@ -89,7 +89,8 @@ fn level(
                     own,
                     trail: Default::default(),
                 };
-                let surroundings = Surroundings { solid, cutter, sweeps: &sweeps, flat, grid: &grid, place };
+                let surroundings =
+                    Surroundings { solid, cutter, sweeps: &sweeps, flat, grid: &grid, begun: &[], place };
                 surroundings.is_holder_in(holder, &mut around)
             };
             let length = leg.within.end - leg.within.start;

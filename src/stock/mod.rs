@@ -11,6 +11,7 @@
 pub mod solid;
 mod circle;
 mod swept;
+mod strokes;
 mod grid;
 pub mod contact;
 mod pieces;

@@ -102,6 +102,8 @@ pub(super) struct Surroundings<'a> {
     /// Whether all tools that cut are flat: what one clears at a height it clears above.
     pub(super) flat: bool,
     pub(super) grid: &'a Grid,
+    /// Level legs right before, which are not in the grid yet.
+    pub(super) begun: &'a [Swept],
     pub(super) place: ToolPlace<'a>,
 }
 
@@ -288,6 +290,11 @@ impl Surroundings<'_> {
         };
         let own = self.place.own.and_then(|own| own.below(height, self.place.share));
         if own.is_some_and(|own| subtract(&own, self.cutter, self.place.height)) {
+            return;
+        }
+        let begun = self.begun.iter().rev().map(|leg| leg.moved(&self.place.trail.1));
+        let mut begun = begun.filter(|leg| leg.heights[0] > above && leg.heights[0] <= height);
+        if begun.any(|leg| subtract(&leg.spine, self.cutter, leg.heights[0])) {
             return;
         }
         for level in cell.levels.iter().filter(|level| level.height > above) {
