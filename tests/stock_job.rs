@@ -105,6 +105,36 @@ fn a_plunge_pushes_the_tool_up() {
     assert!((force / expected - 1.0).abs() < 1e-9, "{force} {expected}");
 }
 
+/// A round tool that plunges cuts with its corner: as much as it sweeps, and as on the map of heights, which finds
+/// the corner in its own way. The map is taken by a program that also ramps, in the air.
+#[test]
+fn a_round_tool_plunges_with_its_corner() {
+    let plunge = "G0 X0 Y0 Z5\nG1 Z-9 F600\nG0 Z5\n";
+    let texts = ["", "G0 X-40 Y-40 Z5\nG1 Z2 F600\nX40 Z1\nX-40 Z2\nG0 Z5\n"];
+    for corner in [json!("ball"), json!(1.5)] {
+        let tool = json!({"diameter_mm":10,"flutes":3,"helix_deg":30,"corner_radius_mm":corner});
+        let [exact, mapped] = texts.map(|before| {
+            let text = format!("G21 G90\n{before}{plunge}");
+            let report = run(&job(&text, plate(), &[("tool", tool.clone())]));
+            let (z, speed) = (column(&report, "desired_z_mm"), column(&report, "feed_mm_s"));
+            let cuts = column(&report, "removal_cm3_min");
+            let k = (0..z.len()).rfind(|&k| cuts[k] > 0.0 && z[k] > 692.0 && speed[k] == 10.0).unwrap();
+            (report.setup().contacts.as_ref().unwrap().cell, report.force[k], cuts[k])
+        });
+        assert!(exact.0.is_none() && mapped.0.is_some());
+        // pi 5^2 mm^2 at 10 mm/s; the corner is seen in slices.
+        let swept = std::f64::consts::PI * 25.0 * 10.0 * 60e-3;
+        assert!((exact.2 / swept - 1.0).abs() < 1e-3, "{corner}: {} {swept}", exact.2);
+        assert!(
+            (exact.1 - mapped.1).norm() < 0.01 * mapped.1.norm(),
+            "{corner}: {:?} {:?}",
+            exact.1,
+            mapped.1
+        );
+        assert!(exact.1.z > 100.0 && exact.1.xy().norm() < 1e-6 * exact.1.z);
+    }
+}
+
 #[test]
 fn kinds_of_stock_that_are_the_same_give_the_same() {
     let outline = json!({"kind":"outline","points_mm":[[-50,-50],[50,-50],[50,50],[-50,50]],"bottom_mm":-20,"top_mm":0});

@@ -5,6 +5,9 @@ use crate::path::Path;
 use crate::stock::{Contact, Contacts};
 use std::sync::Arc;
 
+/// A feed whose share across the tool axis is less only plunges.
+const ALONG: f64 = 1e-6;
+
 /// Mean force in {T} by the place on a path.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MeanForces {
@@ -58,7 +61,8 @@ impl MeanForces {
         }
     }
 
-    /// The heaviest place in a stock, one where the side cuts if it does anywhere; `None` if all is air, or the engagement is stated.
+    /// The heaviest place in a stock, one where the tool goes along and its side cuts if it does anywhere; `None`
+    /// if all is air, or the engagement is stated.
     pub fn heaviest(&self, loading: &Loading, path: &Path) -> Option<HeaviestPlace> {
         let Self::InStock { contacts, forces } = self else { return None };
         let mut most = ((false, 0.0), None);
@@ -66,7 +70,8 @@ impl MeanForces {
             let step = &path.moves()[index];
             let Some(feed) = loading.programmed(step) else { continue };
             let chip = loading.chip.at(feed, step.spindle);
-            let size = (!contact.sides.is_empty(), forces[station].at(chip).norm());
+            let goes_along = contact.across > ALONG && !contact.sides.is_empty();
+            let size = (goes_along, forces[station].at(chip).norm());
             if size.1 > 0.0 && size > most.0 {
                 most = (size, Some(HeaviestPlace { index, station, chip }));
             }

@@ -309,7 +309,7 @@ impl<'a> Walk<'a> {
 
     /// Finds how fast the ends of the arcs move as the tool shifts to its left.
     fn shift(&mut self, step: &Move, leg: &Leg, found: &mut FoundContact) {
-        if found.sides.is_empty() {
+        if found.sides.is_empty() || heading(step, found.within).is_none() {
             return;
         }
         let by = SHIFT * self.cutter.radius;

@@ -139,8 +139,11 @@ impl Surroundings<'_> {
         }
         let half =
             HalfCircle { center: self.place.center, radius: self.cutter.radius, ahead: self.place.ahead };
-        if self.place.own.is_some_and(|own| !matches!(own.spine, Spine::Point(_))) {
+        let runs = self.place.own.is_some_and(|own| !matches!(own.spine, Spine::Point(_)));
+        if runs {
             self.sides(half, (low, high), around);
+        } else if self.place.dives {
+            self.corner(half, (low, high.min(self.place.height + self.cutter.corner)), around);
         }
         if self.place.dives && self.place.height > self.solid.bottom {
             let flat = self.cutter.radius - self.cutter.corner;
@@ -244,6 +247,33 @@ impl Surroundings<'_> {
                 exit: immersion(b),
                 shift: [0.0; 2],
             }));
+        }
+    }
+
+    /// The arcs all around the corner of a tool that only dives between two heights [m].
+    fn corner(&self, half: HalfCircle, (low, high): (f64, f64), around: &mut Around) {
+        if high - low < SAME_HEIGHT {
+            return;
+        }
+        self.borders((low, high), &mut around.heights);
+        for layer in 0..around.heights.len() - 1 {
+            let (from, to) = (around.heights[layer], around.heights[layer + 1]);
+            let middle = (from + to) / 2.0;
+            let half = HalfCircle { radius: self.cutter.radius_at(middle - self.place.height), ..half };
+            let (from, to) = (from - self.place.height, to - self.place.height);
+            for (half, turn) in [(half, 0.0), (half.behind(), math::PI)] {
+                let parts = &mut around.parts;
+                parts.fill(&half);
+                parts.keep(&half, &self.solid.outline, true);
+                self.clear(&half, (f64::NEG_INFINITY, middle), parts);
+                around.sides.extend(parts.ranges().iter().map(|&(a, b)| SideArc {
+                    from,
+                    to,
+                    entry: turn + immersion(a),
+                    exit: turn + immersion(b),
+                    shift: [0.0; 2],
+                }));
+            }
         }
     }
 

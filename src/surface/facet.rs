@@ -121,8 +121,7 @@ impl Across {
         match facet.kind {
             // Around the hole of a plunge, at the lower end of the cylinder.
             SurfaceKind::Wall if self.vertical => {
-                let low = facet.share == LOW && !contact.floors.is_empty();
-                low.then(|| normal * cutter.radius + self.axis * cutter.corner)
+                (facet.share == LOW).then(|| normal * cutter.radius + self.axis * cutter.corner)
             }
             _ if self.vertical || (facet.kind == SurfaceKind::Wall && side == 0.0) => None,
             SurfaceKind::Wall => {
