@@ -357,3 +357,16 @@ fn mistakes_are_named() {
         "motion.force_n"
     );
 }
+
+/// In the air there is no force, and none is not less than none.
+#[test]
+fn in_the_air_the_mean_force_is_zero() {
+    let report = run(&job(
+        "G21 G90\nG0 X-40 Y0 Z5\nG1 X40 F900\n",
+        json!({"feed_rule":"constant-force","force_n":50}),
+    ));
+    for run in ["programmed", "constant_force"] {
+        let force = summary(&report)["feed_rule"][run]["mean_force_n"].as_f64().unwrap();
+        assert!(force == 0.0 && force.is_sign_positive(), "{run}: {force}");
+    }
+}

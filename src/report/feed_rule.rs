@@ -14,7 +14,7 @@ pub struct FeedOutcome {
     pub largest_force_n: f64,
     /// Its mean over the time in material [N].
     pub mean_force_n: f64,
-    /// Largest force within a revolution where the mean is largest at the feed [N].
+    /// Largest force within a revolution where the mean is largest as the tool goes along, plunges aside [N].
     pub peak_force_n: f64,
     /// Largest contour error before compensation, every source acting [mm].
     pub largest_error_mm: f64,
@@ -35,7 +35,8 @@ impl FeedOutcome {
             .map_or(0.0, |(place, contacts)| setup.cut.peak_force_in(&place.contact(contacts), place.chip));
         Self {
             largest_force_n: sizes().fold(0.0, f64::max),
-            mean_force_n: sizes().sum::<f64>() / sizes().count().max(1) as f64,
+            // An empty sum would be -0.
+            mean_force_n: sizes().fold(0.0, |sum, force| sum + force) / sizes().count().max(1) as f64,
             peak_force_n: peak,
             largest_error_mm: before.statistics.max / MM,
             mean_error_mm: before.statistics.mean / MM,
