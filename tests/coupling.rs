@@ -83,6 +83,38 @@ fn a_cut_that_pulls_in_too_hard_finds_no_balance() {
     assert!(inverse_if_stable(&Matrix2::new(1.5, -2.0, 2.0, 1.5)).is_some());
 }
 
+/// Just before there is no balance, a cut that grows linearly would be pulled in without bounds. Such a balance is
+/// none: what remains is at most a few times the shift under the planned force.
+#[test]
+fn a_balance_next_to_none_is_none() {
+    let planned = Vector3::y() * 100.0;
+    let deflect = |force: &Vector3<f64>| (force / 1e6, Vector3::zeros());
+    for part in 0..1000 {
+        let growth = [Vector3::y() * (1e3 * f64::from(part)), Vector3::zeros()];
+        let stiffness = CutStiffness { ways: [Vector3::y(), Vector3::z()], growth };
+        let balance = settled(&planned, &stiffness, &Vector3::zeros(), deflect);
+        let expected = 1.0 / (1.0 - 1e-3 * f64::from(part));
+        let expected = if balance.converged { expected } else { 1.0 };
+        assert!((balance.force.y / 100.0 - expected).abs() < 1e-9 && expected < 5.0, "{part}: {balance:?}");
+        assert!(balance.converged || part > 700, "{part}");
+    }
+}
+
+/// Where the border of the material just touches the tool, its angle changes like a square root, and so does the
+/// force: its slope at that very place is without bounds. A tool that leaves a slot through a slanted side
+/// keeps a force of the size of the planned one.
+#[test]
+fn a_border_that_grazes_the_tool_is_no_spring() {
+    let stock = json!({"kind":"outline","points_mm":[[-40,-40],[40,-40],[0,50]],"bottom_mm":-20,"top_mm":0});
+    let text = "G21 G90\nG0 X0 Y0 Z5\nG1 Z-12 F300\nX-60\nG0 Z5\n";
+    let tool = json!({"diameter_mm":10,"flutes":4,"corner_radius_mm":0.9});
+    let report = run(&job(text, "deflection", &[("stock", stock), ("tool", tool)]));
+    assert!(report.unsettled.is_empty());
+    for (k, (force, planned)) in report.force.iter().zip(&*report.planned_force).enumerate() {
+        assert!(force.norm() <= 2.0 * planned.norm(), "{k}: {force:?} {planned:?}");
+    }
+}
+
 /// Out of the material there is no force, and the arm stands where it was commanded.
 #[test]
 fn no_force_is_left_where_the_tool_leaves_the_material() {

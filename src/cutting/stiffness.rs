@@ -16,6 +16,9 @@ use std::sync::Arc;
 
 /// Shift of the tool in the difference quotients [m].
 const SHIFT: f64 = 1e-6;
+/// Where a border just touches the tool, its angle changes like the square root of the shift: there its mean
+/// growth over this shift is taken [m], about as far as an arm yields, but no more than this share of the arc.
+const YIELD: (f64, f64) = (3e-4, 0.1);
 
 /// The stiffness at the stations of contacts with a stock, between which it is linear.
 #[derive(Debug, Clone, PartialEq)]
@@ -112,8 +115,8 @@ impl Cut {
                 let part = if middle(next) > middle(arc) { by / (middle(next) - middle(arc)) } else { 0.0 };
                 let border = |angle: f64, next: f64, shift: f64| {
                     let beside = own * math::cos(angle);
-                    let moved = beside + (other * math::cos(next) - beside) * part;
-                    if shift == 0.0 { angle } else { math::acos((moved / own).clamp(-1.0, 1.0)) }
+                    let rate = (beside - other * math::cos(next)) * part / (own * by);
+                    if shift == 0.0 { angle } else { shifted(arc, angle, rate, by) }
                 };
                 let entry = border(arc.entry, next.entry, arc.shift[0]);
                 let exit = border(arc.exit, next.exit, arc.shift[1]);
@@ -127,9 +130,14 @@ impl Cut {
 
 /// An arc as the tool meets it `by` [m] further to its left.
 fn to_the_left(arc: &SideArc, by: f64) -> Option<SideArc> {
-    let border = |angle: f64, shift: f64| {
-        if shift == 0.0 { angle } else { math::acos((math::cos(angle) - shift * by).clamp(-1.0, 1.0)) }
-    };
-    let (entry, exit) = (border(arc.entry, arc.shift[0]), border(arc.exit, arc.shift[1]));
+    let (entry, exit) = (shifted(arc, arc.entry, arc.shift[0], by), shifted(arc, arc.exit, arc.shift[1], by));
     (exit > entry).then_some(SideArc { entry, exit, ..*arc })
+}
+
+/// The border of an arc at an angle whose -cos grows at a rate [1/m], after a shift `by` [m].
+fn shifted(arc: &SideArc, angle: f64, rate: f64, by: f64) -> f64 {
+    let (far, part) = YIELD;
+    let width = (math::cos(arc.entry) - math::cos(arc.exit)).abs();
+    let grazing = (2.0 * (rate.abs() * far).min(part * width)).sqrt();
+    if rate == 0.0 { angle } else { angle + rate * by / math::sin(angle).abs().max(grazing) }
 }

@@ -21,8 +21,8 @@ pub struct SettledCut {
     pub deflected: TipAndAxis,
     /// Displacement of the tip that the planned force would add [m].
     pub spared: Vector3<f64>,
-    /// Whether there is such a balance. If not, the cut pulls the tool in by more than the arm holds it
-    /// back, and force and deflection are those of the cut as planned.
+    /// Whether there is such a balance. If not, the cut pulls the tool in about as hard as the arm holds it
+    /// back, or harder, and force and deflection are those of the cut as planned.
     pub converged: bool,
 }
 
@@ -37,6 +37,9 @@ impl SettledCut {
 const SETTLED: f64 = 1e-10;
 /// Largest number of steps.
 const STEPS: usize = 30;
+/// Largest size of (1 - A)^-1, by which a shift grows as force and deflection settle: nearer to the limit the balance
+/// lies many times as far off as the linear growth of the cut holds.
+const MOST: f64 = 5.0;
 /// Shift from which the arm's response to the growth of the force is taken [m].
 const SMALL: f64 = 1e-5;
 
@@ -66,7 +69,8 @@ pub fn settled(
         Vector2::from(stiffness.felt(&shift)) / SMALL
     };
     let response = Matrix2::from_columns(&[response(0), response(1)]);
-    let Some(inverse) = inverse_if_stable(&response) else { return as_planned(false) };
+    let inverse = inverse_if_stable(&response).filter(|inverse| inverse.norm() <= MOST);
+    let Some(inverse) = inverse else { return as_planned(false) };
     let mut shift = inverse * (felt(&under_planned.0));
     for _ in 0..STEPS {
         let force = planned + stiffness.grown(shift.into());

@@ -21,7 +21,7 @@ pub(super) fn collisions(report: &Report) -> Vec<Warning> {
     collisions.chain(coarse(report, contacts)).chain(pulls_in(report)).collect()
 }
 
-/// A cut that pulls the tool in by more than the arm holds it back.
+/// A cut that pulls the tool in about as hard as the arm holds it back, or harder.
 fn pulls_in(report: &Report) -> Option<Warning> {
     let first = *report.unsettled.first()?;
     let timing = &report.plan.trajectory.timing;
@@ -31,8 +31,9 @@ fn pulls_in(report: &Report) -> Option<Warning> {
     };
     let spans = spans(report.samples(), |k| report.unsettled.binary_search(&k).is_ok());
     let message = format!(
-        "{line}the cut pulls the tool into the material by more than the arm holds it back, so force and deflection find \
-         no balance; they are stated as for the planned cut: take less depth, or mill in the other direction"
+        "{line}the cut pulls the tool into the material about as hard as the arm holds it back, or harder, so force and \
+         deflection find no firm balance; they are stated as for the planned cut: take less depth, or mill in the other \
+         direction"
     );
     Warning::new("cut-pulls-in", message).within(&spans, report.plan.trajectory.sample_time)
 }

@@ -26,9 +26,10 @@ pub(super) const LOOK: f64 = 0.5;
 const NEAR: f64 = 0.002;
 /// Shift that tells how a contact changes, as a part of the radius.
 const SHIFT: f64 = 1e-4;
-/// How many times as fast as that of a wall along the feed an end of an arc is taken to move at most: where
-/// two circles just touch, it jumps.
-const STEEPEST: f64 = 10.0;
+/// How many times as fast as that of a wall along the feed an end of an arc is taken to move at most. Where two
+/// circles just touch or the tool breaks through a side, it jumps: a gap opens like the square root of the shift, at
+/// this mean rate over a few tenths of a millimetre.
+const STEEPEST: f64 = 2.0;
 /// Length of what is shifted along, as a part of the radius: the tool has not stepped aside from it.
 const TRAIL: f64 = 1e-2;
 /// Part of the largest engagement by which a station may differ from the middle of its neighbours.
