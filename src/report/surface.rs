@@ -1,10 +1,13 @@
 //! The surface that is left: figures, places in words, columns, and the part itself.
 
+use crate::deviation::Sources;
 use crate::error::Error;
 use crate::motion::TimingLaw;
 use crate::report::columns::Series;
 use crate::report::{Report, millimetres};
+use crate::surface::deviation_map::DeviationMap;
 use crate::surface::part::{PartCut, PartMap, cell};
+use crate::surface::section::PartSection;
 use crate::surface::{Excesses, SurfaceKind, SurfacePlace};
 use crate::units::MM;
 use serde::Serialize;
@@ -137,6 +140,35 @@ impl Report {
     /// As for [`Report::part`].
     pub fn simulated_part(&self, kind: PartKind, cell: Option<f64>) -> Result<Vec<u8>, Error> {
         Ok(self.part(kind, cell)?.stl())
+    }
+
+    /// The deviation all over the part, on a map of at most about `most` heights.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] if the engagement does not follow a stock, or for less than four heights.
+    pub fn deviation_map(&self, most: usize) -> Result<DeviationMap, Error> {
+        let (Some(surface), Some(contacts), Some(blank)) =
+            (&self.surface, &self.setup().contacts, &self.setup().blank)
+        else {
+            return Err(Error::invalid("part", "asked for", "a job whose engagement follows a stock"));
+        };
+        if most < 4 {
+            return Err(Error::invalid("most", most, "at least 4"));
+        }
+        let timing = self.plan.timing(Sources::ALL);
+        let excesses = Excesses::new(&self.plan, &surface.left, contacts);
+        let [from, to] = blank.solid.outline.bounds();
+        let distance = ((to.x - from.x) * (to.y - from.y) / most as f64).sqrt();
+        let cell = cell(blank, Some(distance));
+        let runs = [self.before.as_ref(), self.after.as_ref()];
+        Ok(DeviationMap::of(&self.plan, blank, (&excesses, &timing), runs, cell))
+    }
+
+    /// A section through the part of [`Report::deviation_map`] across the feed at a sample; one past the end stands for
+    /// the last.
+    pub fn part_section(&self, map: &DeviationMap, sample: usize) -> PartSection {
+        let timing = self.plan.timing(Sources::ALL);
+        PartSection::of(&self.plan, map, &timing, sample.min(self.samples() - 1))
     }
 }
 

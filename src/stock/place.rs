@@ -109,7 +109,7 @@ pub(super) struct Surroundings<'a> {
 
 impl Cutter {
     /// Height of the tool's profile above its tip at a distance from its axis [m].
-    pub(super) fn profile(&self, distance: f64) -> f64 {
+    pub fn profile(&self, distance: f64) -> f64 {
         let beyond = distance - (self.radius - self.corner);
         if beyond <= 0.0 {
             return 0.0;

@@ -89,23 +89,46 @@ impl<'a> Excesses<'a> {
         (before, after): (&Deviation, &Deviation),
     ) -> SurfacePlace {
         let (path, index) = (&self.plan.path, timing.index[k] as usize);
-        let place = path.within(index, timing.arc_length[k]);
-        let across = Across::of(&path.moves()[index].segment.tangent(place.1), &self.axes[1], &self.axes[0]);
-        let contact = self.contact(index, timing.arc_length[k]);
-        let from_tip = contact
-            .and_then(|contact| across.place(&FACETS[facet], &self.cutter, &contact))
-            .unwrap_or_default();
+        let from_tip = self.from_tip(timing, k, facet).unwrap_or_default();
         let excess = |run| self.at(timing, k, run).of(facet);
         SurfacePlace {
             kind: FACETS[facet].kind,
             sample: k,
             line: path.moves()[index].line,
             arc_length: timing.arc_length[k],
-            point: self.plan.setup.workpiece.inverse().point(&(path.point_at(place) + from_tip)),
+            point: self.plan.setup.workpiece.inverse().point(&(self.tip(timing, k) + from_tip)),
             height: self.axes[1].dot(&from_tip),
             before: excess(before),
             after: excess(after),
         }
+    }
+
+    /// The nominal place of a facet at a sample [m]; `None` if the tool does not cut it there.
+    pub(super) fn place(&self, timing: &TimingLaw, k: usize, facet: usize) -> Option<Vector3<f64>> {
+        Some(self.tip(timing, k) + self.from_tip(timing, k, facet)?)
+    }
+
+    /// A facet's normal into the material at a sample.
+    pub(super) fn normal(&self, timing: &TimingLaw, k: usize, facet: usize) -> Vector3<f64> {
+        self.across(timing, k).normal(&FACETS[facet])
+    }
+
+    /// The tip on the path at a sample [m].
+    fn tip(&self, timing: &TimingLaw, k: usize) -> Vector3<f64> {
+        let path = &self.plan.path;
+        path.point_at(path.within(timing.index[k] as usize, timing.arc_length[k]))
+    }
+
+    fn across(&self, timing: &TimingLaw, k: usize) -> Across {
+        let (path, index) = (&self.plan.path, timing.index[k] as usize);
+        let (_, within) = path.within(index, timing.arc_length[k]);
+        Across::of(&path.moves()[index].segment.tangent(within), &self.axes[1], &self.axes[0])
+    }
+
+    /// From the tip on the path to a facet [m].
+    fn from_tip(&self, timing: &TimingLaw, k: usize, facet: usize) -> Option<Vector3<f64>> {
+        let contact = self.contact(timing.index[k] as usize, timing.arc_length[k])?;
+        self.across(timing, k).place(&FACETS[facet], &self.cutter, &contact)
     }
 
     /// The contact at the arc length `s` [m] of the path, on the move `index`.

@@ -15,6 +15,9 @@ mod facet;
 mod left;
 mod excess;
 pub mod part;
+pub mod deviation_map;
+pub mod section;
+pub mod mesh;
 
 pub use excess::Excesses;
 pub use facet::SurfaceKind;

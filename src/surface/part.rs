@@ -25,6 +25,8 @@ const THIN: f64 = 1e-6;
 /// The tool cuts as far as its tip goes: where the path wants it, or where it really is.
 #[derive(Debug, Clone, Copy)]
 pub enum PartCut<'a> {
+    /// Nowhere: what the program starts from.
+    None,
     /// The path itself.
     Nominal,
     /// The actual tips of a run; the tilt of the tool by deflection is left out.
@@ -61,6 +63,7 @@ impl PartMap {
         blank.earlier.iter().for_each(|earlier| map.cut(&earlier.path, &earlier.cutter));
         let to_workpiece = plan.setup.workpiece.inverse();
         match cut {
+            PartCut::None => {}
             PartCut::Nominal => map.cut(&plan.path.placed(&to_workpiece), &cutter(plan)),
             PartCut::Actual(run) => cut_along(&mut map, plan, &to_workpiece, run),
         }

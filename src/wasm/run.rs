@@ -3,11 +3,13 @@
 use crate::error::Error;
 use crate::report::Report;
 use crate::simulation::{Progress, Stage};
+use crate::surface::deviation_map::DeviationMap;
 use crate::verification::Programs;
 use crate::wasm::error::thrown;
 use crate::wasm::object;
 use js_sys::{Float64Array, Function};
 use serde::Serialize;
+use std::cell::OnceCell;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -107,7 +109,8 @@ pub fn run(
         }
     };
     let report = crate::run_json(json, &mut Progress::new(&mut listener));
-    report.map(|report| Run { report, programs: Programs::default() }).map_err(|error| thrown(&error))
+    let run = |report| Run { report, programs: Programs::default(), deviations: OnceCell::new() };
+    report.map(run).map_err(|error| thrown(&error))
 }
 
 /// A computed job.
@@ -117,6 +120,8 @@ pub struct Run {
     pub(super) report: Report,
     /// Its path as programs, each rehearsed once.
     pub(super) programs: Programs,
+    /// What meshes and sections of the part are made from.
+    pub(super) deviations: OnceCell<DeviationMap>,
 }
 
 /// Key, label and unit of a column.

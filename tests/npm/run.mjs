@@ -35,6 +35,8 @@ const methods = {
   replay: [other.replay("gcode")],
   simulated_part: [stocked.simulated_part("after"), stocked.simulated_part("nominal", 2)],
   part_map: [stocked.part_map(5)],
+  part_mesh: [stocked.part_mesh()],
+  part_section: [stocked.part_section(0)],
   fingerprint: [result.fingerprint()],
 };
 
@@ -47,6 +49,7 @@ const identified = [armill.identify_stiffness(armill.default_job(), poses, "tabl
 const literal = (value) => {
   if (value instanceof Float64Array) return `new Float64Array([${value.slice(0, 3)}])`;
   if (value instanceof Float32Array) return `new Float32Array([${value.slice(0, 3)}])`;
+  if (value instanceof Uint32Array) return `new Uint32Array([${value.slice(0, 3)}])`;
   if (value instanceof Uint8Array) return `new Uint8Array([${value.slice(0, 3)}])`;
   if (Array.isArray(value)) return `[${value.map(literal)}]`;
   if (value === null || typeof value !== "object") return JSON.stringify(value);
