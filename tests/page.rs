@@ -26,6 +26,8 @@ mod hostile;
 mod identify;
 #[path = "page/loading.rs"]
 mod loading;
+#[path = "page/part.rs"]
+mod part;
 #[path = "page/pinned.rs"]
 mod pinned;
 #[path = "page/placement.rs"]

@@ -40,6 +40,9 @@ const answers = {
   track: (most) => run.track(most),
   chart: (name, options) => run.chart(name, options),
   data: (name, units) => run.chart_data(name, units),
+  part_mesh: () => run.part_mesh(),
+  part_section: (sample) => run.part_section(sample),
+  simulated_part: (kind) => run.simulated_part(kind),
   export: (format) => (format === "columns-csv" ? columnsFile() : run.export(format)),
   replay: (format) => run.replay(format),
   packaged: (controller) => outlineOf(run.package(controller)),
@@ -101,9 +104,17 @@ function surveyOf(json) {
   return surveyed.survey;
 }
 
-/** What is handed over instead of copied: a column, or those of a chart. */
+/** What is handed over instead of copied: an array of numbers, or those of a chart, a mesh or a section. */
 const buffers = (value) =>
-  [value].flat().flatMap((each) => (each instanceof Float64Array ? each : each?.values)?.buffer ?? []);
+  [value]
+    .flat()
+    .flatMap(arraysIn)
+    .map(({ buffer }) => buffer);
+
+function arraysIn(value) {
+  if (ArrayBuffer.isView(value)) return [value];
+  return value && typeof value === "object" ? Object.values(value).filter(ArrayBuffer.isView) : [];
+}
 
 /** An error as data: Errors lose their extra properties on the way through postMessage. */
 function plain(error) {

@@ -118,6 +118,15 @@ export const frames = (sample) => askShown("frames", sample);
 /** The paths of the shown result in at most about `most` rows, as a Float64Array. */
 export const track = (most) => askShown("track", most);
 
+/** A mesh of the shown result's part, with its deviation to be magnified. */
+export const partMesh = () => askShown("part_mesh");
+
+/** A section through that part across the feed at a sample. */
+export const partSection = (sample) => askShown("part_section", sample);
+
+/** The part as a binary STL file: "before", "after" or "nominal". */
+export const simulatedPart = (kind) => askShown("simulated_part", kind);
+
 /** The shown result as text; "columns-csv" as a Blob of it. */
 export const exported = (format) => askShown("export", format);
 

@@ -5,6 +5,7 @@ import * as core from "./core.js";
 import { showBudget } from "./budget.js";
 import { setCharts, showPanel } from "./charts.js";
 import { byId, debounced, make, sentence } from "./dom.js";
+import { showFeedRule } from "./feed-rule.js";
 import { Form } from "./form.js";
 import { chartsIn, fieldsIn, isLinked, jobOf, optionsIn } from "./guest.js";
 import { Job } from "./job.js";
@@ -12,6 +13,7 @@ import { fragmentOf } from "./link.js";
 import { formatNumber } from "./number.js";
 import { makeScene } from "./scene/view.js";
 import { lend } from "./settings.js";
+import { showSurface } from "./surface.js";
 import { errorText, forceUnit, lengthUnit } from "./units.js";
 
 const TYPING_MS = 150; // results follow this long after the last key
@@ -55,6 +57,8 @@ const events = {
   onresult({ summary, charts }, took) {
     show(summary);
     scene?.show(summary);
+    showSurface(summary);
+    showFeedRule(summary.feed_rule);
     if (options.show.includes("budget")) showBudget(summary.budget);
     try {
       setCharts(chartsIn(charts, options.charts).map((chart) => ({ ...chart, view: "embed" })));

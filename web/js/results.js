@@ -3,7 +3,9 @@
 import { showBudget } from "./budget.js";
 import { showCut } from "./cut.js";
 import { byId, make } from "./dom.js";
+import { showFeedRule } from "./feed-rule.js";
 import { formatNumber, plainNumber } from "./number.js";
+import { showSurface } from "./surface.js";
 import { errorText, forceText, forceUnit, largeText, lengthText, lengthUnit } from "./units.js";
 
 /** Puts a number on the page: rounded to read, in full in `data-value`. */
@@ -44,8 +46,8 @@ export function showSummary(summary, apply) {
   byId("branch").textContent = summary.branch;
   byId("spin-gain").hidden = !summary.spin;
   byId("spin-gain").lastElementChild.textContent = summary.spin?.sentence ?? "";
-  byId("feed-gain").hidden = !summary.feed_rule;
-  byId("feed-gain").textContent = summary.feed_rule?.sentence ?? "";
+  showFeedRule(summary.feed_rule);
+  showSurface(summary);
   byId("fingerprint").textContent = summary.fingerprint;
   showWarnings(summary.warnings, apply);
 }
@@ -65,7 +67,12 @@ function showHowSure({ sentence, measure_first, break_even, left_out }) {
   byId("left-out").textContent = left_out;
 }
 
-const TOLERANCE = { "cannot-run": "✗ cannot run", met: "✓ within", "met-if-nominal": "✗ if exact", "not-met": "✗ over" };
+const TOLERANCE = {
+  "cannot-run": "✗ cannot run",
+  met: "✓ within",
+  "met-if-nominal": "✗ if exact",
+  "not-met": "✗ over",
+};
 
 function showTolerance(summary) {
   const { converged, verdict_state: state } = summary;

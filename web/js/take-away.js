@@ -6,7 +6,29 @@ import { download } from "./download.js";
 
 const QUIET_MS = 400; // inputs that still move are not judged
 const LONG_MS = 3000; // a run that takes longer is judged when it is exported: several runs are made for it
-const JOINTS = "joints-csv"; // a table beside the controllers
+
+// What is taken away beside programs: a name for the menu and for the button, the file, and how it is made.
+const joints = {
+  option: "joint commands as CSV",
+  button: "Export joint commands",
+  name: "armill-joints.csv",
+  type: "text/csv",
+  made: () => core.exported("joints-csv"),
+};
+const part = (kind, option) => ({
+  option,
+  button: "Export part",
+  name: `armill-part-${kind}.stl`,
+  type: "model/stl",
+  made: () => core.simulatedPart(kind),
+  stock: true, // of jobs with a stock
+});
+const OTHERS = {
+  "joints-csv": joints,
+  "part-before": part("before", "part before, as STL"),
+  "part-after": part("after", "part after compensation, as STL"),
+  "part-nominal": part("nominal", "nominal part, as STL"),
+};
 
 let names; // controller -> name
 let wanted; // the controller that was chosen here, if it is not the job's
@@ -16,11 +38,15 @@ let shown; // the result to judge: { summary, preview } and how long its run too
 /** Fills the menu of controllers; `say` and `warn` show a text. */
 export function makeTakeAway(fields, say, warn) {
   const { choices } = fields.find(({ path }) => path === "program.controller");
-  names = Object.fromEntries(choices.filter(({ value }) => value !== "brand").map(({ value, label }) => [value, label]));
+  names = Object.fromEntries(
+    choices.filter(({ value }) => value !== "brand").map(({ value, label }) => [value, label]),
+  );
   const menu = byId("export-format");
   menu.append(
     ...Object.entries(names).map(([value, name]) => make("option", { value }, name)),
-    make("option", { value: JOINTS }, "joint commands as CSV"),
+    ...Object.entries(OTHERS).map(([value, { option, stock }]) =>
+      make("option", { value, hidden: Boolean(stock), disabled: Boolean(stock) }, option),
+    ),
   );
   menu.addEventListener("change", () => {
     wanted = menu.value === shown?.summary.controller ? undefined : menu.value;
@@ -33,6 +59,10 @@ export function makeTakeAway(fields, say, warn) {
 /** Judges a new result once it has stood for a while; `took` is how long its run took [ms]. */
 export function judgeTakeAway({ summary, preview }, took) {
   shown = { summary, preview, took };
+  const stock = Boolean(summary.surface);
+  for (const option of byId("export-format").options)
+    if (OTHERS[option.value]?.stock) option.hidden = option.disabled = !stock;
+  if (OTHERS[wanted]?.stock && !stock) wanted = undefined;
   byId("export-format").value = wanted ?? summary.controller;
   label();
   judgeSoon(QUIET_MS);
@@ -40,7 +70,7 @@ export function judgeTakeAway({ summary, preview }, took) {
 
 const label = () => {
   const { value } = byId("export-format");
-  byId("download-program").textContent = value === JOINTS ? "Export joint commands" : `Export ${names[value]}`;
+  byId("download-program").textContent = OTHERS[value]?.button ?? `Export ${names[value]}`;
 };
 
 function judgeSoon(quiet) {
@@ -50,7 +80,7 @@ function judgeSoon(quiet) {
   showRemarks([]);
   clearTimeout(waiting);
   const { value } = byId("export-format");
-  if (!shown || shown.preview || value === JOINTS) return; // nothing is promised
+  if (!shown || shown.preview || OTHERS[value]) return; // nothing is promised
   if (shown.took > LONG_MS)
     line.textContent = "Timed by its own moves and feeds, a program may differ: it is run when it is exported.";
   else waiting = setTimeout(judge, quiet, line, value, core.shownJob());
@@ -88,7 +118,8 @@ async function save(say, warn) {
   const { value } = byId("export-format");
   const json = core.shownJob();
   try {
-    if (value === JOINTS) return download("armill-joints.csv", "text/csv", await core.exported(JOINTS));
+    const other = OTHERS[value];
+    if (other) return download(other.name, other.type, await other.made());
     const { file, outline } = await core.packageOf(value);
     download(file.name, file.type, file.content);
     if (core.shownJob() === json) showOutline(byId("as-program"), outline);
@@ -96,6 +127,6 @@ async function save(say, warn) {
     byId("remarks").hidden = outline.remarks.length === 0;
     say(`Saved ${file.name}${outline.files.length > 1 ? `: ${outline.files.join(", ")}` : ""}`);
   } catch (error) {
-    if (!error.fatal && error.code !== "cancelled") warn(`The program could not be made: ${error.message}`);
+    if (!error.fatal && error.code !== "cancelled") warn(`The file could not be made: ${error.message}`);
   }
 }

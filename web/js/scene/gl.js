@@ -113,6 +113,11 @@ class Painter {
     gl.activeTexture(gl.TEXTURE1);
   }
 
+  /** What it draws with. */
+  get gl() {
+    return this.#gl;
+  }
+
   /** The colours that values are drawn in, as a row of RGBA pixels. */
   ramp(texels) {
     const gl = this.#gl;
@@ -248,7 +253,7 @@ class Painter {
   }
 }
 
-function parameters(gl, filter) {
+export function parameters(gl, filter) {
   for (const [key, value] of [
     ["MIN_FILTER", filter],
     ["MAG_FILTER", filter],
@@ -259,7 +264,8 @@ function parameters(gl, filter) {
   }
 }
 
-function program(gl, ...sources) {
+/** A program of a vertex and a fragment shader, whose `set(values)` takes uniforms by name. */
+export function program(gl, ...sources) {
   const made = gl.createProgram();
   for (const [i, source] of sources.entries()) {
     const shader = gl.createShader(i ? gl.FRAGMENT_SHADER : gl.VERTEX_SHADER);

@@ -18,6 +18,7 @@ const SWITCHES = [
   ["after", "Actual after compensation"],
   ["compensated", "To command"],
   ["arm", "Arm"],
+  ["solid", "Part"],
 ];
 const HELP =
   "Drag to turn, Shift-drag or right-drag to move; the wheel zooms once the picture is clicked. On a touch screen " +
@@ -93,6 +94,8 @@ export function furnish(node, on) {
     make("p", {}, HELP),
     make("p", { id: "scene-keys" }, KEYS),
   );
+  const partSwitch = shows.querySelector(".switch.solid");
+  partSwitch.hidden = true;
   node.replaceChildren(head, shows, stage);
 
   return {
@@ -103,8 +106,11 @@ export function furnish(node, on) {
     readout,
     text,
     help,
-    /** Puts the rest below the picture. */
+    /** Puts the rest above and below the picture. */
+    above: (...children) => stage.before(...children),
     below: (...children) => node.append(...children, readout, text, help),
+    /** Whether there is a part to show. */
+    offerPart: (on) => (partSwitch.hidden = !on),
     /** Says something instead of the picture, or (empty) shows it again. */
     say(words) {
       message.textContent = words;

@@ -15,7 +15,8 @@ const VIRIDIS = [
   "fde725",
 ].map(rgb);
 
-function rgb(hex) {
+/** Red, green and blue [0..255] of six hexadecimal digits. */
+export function rgb(hex) {
   return [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16));
 }
 

@@ -10,14 +10,19 @@ import { armParts, framesOf, shadow } from "./arm.js";
 import { Camera, VIEWS, length, plus, project } from "./camera.js";
 import { axesOf, grid } from "./floor.js";
 import { painterOn, vertex } from "./gl.js";
+import { placeLabels } from "./labels.js";
 import { furnish } from "./panel.js";
+import { Part, matrixOf } from "./part.js";
 import { Paths } from "./paths.js";
 import { Player } from "./play.js";
 import { texels } from "./ramp.js";
+import { Section } from "./section.js";
 import { steer } from "./steer.js";
+import { tonesOf } from "./tones.js";
 
 const MOST = 50_000; // points of a path that are drawn
 const REACH = 14; // how near a path a pointer must be [px]
+const QUIET_MS = 300; // a result that has stood this long has its part simulated
 const CROWDED = 1.5; // points nearer than this need not all be joined [px]
 const VIEW_KEYS = { 1: "top", 2: "front", 3: "side", 4: "iso", 5: "tool", f: "fit", a: "all", 0: "fit" };
 
@@ -31,6 +36,10 @@ class Scene {
   #node;
   #panel;
   #player = new Player();
+  #part = new Part((anew) => (anew && !this.#steered ? this.#look(this.#fitted) : this.#redraw()));
+  #steered = false; // whether the camera was moved by hand since it showed all
+  #section = new Section();
+  #waiting; // timer for the part
   #camera = new Camera();
   #painter;
   #summary; // of the shown result
@@ -40,7 +49,7 @@ class Scene {
   #frames;
   #asked = -1; // sample whose frames were asked for last
   #asking = false;
-  #shown = { desired: true, actual: true, after: false, compensated: true, arm: true };
+  #shown = { desired: true, actual: true, after: false, compensated: true, arm: true, solid: true };
   #chosen = null; // magnification chosen by hand
   #fitted = "fit";
   #tones;
@@ -52,13 +61,14 @@ class Scene {
     this.#node = node;
     this.#panel = furnish(node, {
       view: (name) => this.#look(name),
-      shown: (name, on) => ((this.#shown[name] = on), this.#redraw()),
+      shown: (name, on) => this.#switch(name, on),
       factor: (value) => ((this.#chosen = value), this.#redraw()),
     });
-    this.#panel.below(this.#player.node);
+    this.#panel.above(this.#part.node);
+    this.#panel.below(this.#player.node, this.#section.node);
     const { canvas, stage } = this.#panel;
     steer(canvas, this.#camera, {
-      move: () => this.#redraw(),
+      move: () => ((this.#steered = true), this.#redraw()),
       point: (x, y, pressed) => this.#pointSoon(x, y, pressed),
       key: (key) => this.#key(key),
     });
@@ -70,6 +80,7 @@ class Scene {
     canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();
       this.#painter = null;
+      this.#part.drawWith(null);
       this.#panel.say(
         "The graphics were lost; waiting for the browser to give them back. The charts below show the same paths.",
       );
@@ -83,6 +94,10 @@ class Scene {
   show(summary) {
     this.#summary = summary;
     this.#player.duration = summary.duration_s;
+    clearTimeout(this.#waiting);
+    this.#part.offer(summary);
+    this.#section.offer(summary);
+    this.#panel.offerPart(this.#part.offered);
     this.#appear();
   }
 
@@ -109,8 +124,31 @@ class Scene {
         ? ""
         : "This browser does not offer WebGL 2, so the paths are not drawn in space here. The charts below show them.",
     );
+    this.#part.drawWith(this.#painter?.gl);
     if (this.#painter) this.#recolour();
     if (this.#painter && this.#paths) this.#upload();
+  }
+
+  #switch(name, on) {
+    this.#shown[name] = on;
+    if (name === "solid") this.#simulate(0);
+    this.#redraw();
+  }
+
+  /** Has the part simulated once the result has stood for a while. */
+  #simulate(quiet) {
+    clearTimeout(this.#waiting);
+    if (!this.#part.offered) return;
+    const summary = this.#summary;
+    const isCurrent = () => summary === this.#summary;
+    this.#waiting = setTimeout(async () => {
+      try {
+        if (this.#shown.solid && this.#painter) await this.#part.load(isCurrent);
+        if (isCurrent()) await this.#section.begin();
+      } catch {
+        // Taken away by a newer result, or a recovery, which brings its own.
+      }
+    }, quiet);
   }
 
   async #load() {
@@ -125,6 +163,7 @@ class Scene {
       if (this.#painter) this.#upload();
       if (!before || isElsewhere(before, this.#paths.box(0))) this.#look(before ? this.#fitted : "iso");
       this.#describe();
+      this.#simulate(QUIET_MS);
     } catch {
       if (this.#loaded === summary) this.#loaded = null; // taken away by a newer result, or a recovery: the next one loads again
     }
@@ -175,6 +214,7 @@ class Scene {
   async #follow() {
     if (!this.#paths || !this.#painter || !this.#room[0]) return;
     this.#redraw();
+    this.#section.follow();
     if (this.#asking) return;
     this.#asking = true;
     try {
@@ -218,8 +258,10 @@ class Scene {
     if (name === "fit" || name === "all") this.#fitted = name;
     else if (name === "tool") this.#camera.lookFrom(this.#frames.tcp.z.map((v) => -v));
     else this.#camera.look(VIEWS[name]);
-    const box = this.#paths.box(this.#factor());
-    const { base, joints } = this.#frames;
+    this.#steered = false;
+    const { base, joints, workpiece } = this.#frames;
+    const part = this.#shown.solid ? this.#part.corners(workpiece) : [];
+    const box = around(this.#paths.box(this.#factor()), part);
     this.#camera.fit(this.#fitted === "all" ? around(box, [base.origin, ...joints.map((joint) => joint.origin)]) : box);
     this.#redraw();
   }
@@ -231,6 +273,7 @@ class Scene {
   #recolour() {
     this.#tones = tonesOf(this.#node);
     if (this.#painter) this.#painter.ramp(texels(this.#tones.dark));
+    this.#part.recolour(this.#tones.dark);
     if (this.#painter && this.#paths) this.#upload();
     if (this.#paths) this.#describe();
   }
@@ -251,13 +294,14 @@ class Scene {
     const matrix = camera.matrix();
     const factor = this.#factor();
     const { right, up, out } = camera.axes();
-    const light = plus(plus(out, up, 0.7), right, -0.4);
+    const above = plus(plus(out, up, 0.7), right, -0.4);
+    const light = above.map((v) => v / length(above));
     painter.begin({
       camera: matrix,
       width: canvas.width,
       height: canvas.height,
       paper: tones.paper,
-      light: light.map((v) => v / length(light)),
+      light,
       pixelsPerMm: (canvas.height / 2) * Math.hypot(matrix[1], matrix[5], matrix[9]),
     });
     const parts = shown.arm ? armParts(this.#frames) : [];
@@ -265,6 +309,8 @@ class Scene {
     painter.draw(lines.grid, { width: sharp, colour: tones.grid });
     for (const { lines: axes } of lines.axes)
       axes.forEach((axis, i) => painter.draw(axis, { width: 2.5 * sharp, colour: tones.axes[i], bias: 1e-6 }));
+    const frame = matrixOf(this.#frames.workpiece);
+    if (shown.solid) this.#part.draw({ camera: matrix, frame, factor, light, eye: out });
 
     const dash = 10 * camera.pixel();
     const largest = this.#paths.largest || 1e-9;
@@ -282,6 +328,7 @@ class Scene {
     for (const [line, style] of drawn) painter.draw(line, { ...style, every });
     painter.solids(parts.map((part) => ({ ...part, colour: tones[part.tone] })));
     this.#mark(factor, sharp);
+    this.#section.magnify(factor);
     this.#tell(matrix, factor);
   }
 
@@ -330,6 +377,8 @@ class Scene {
       sample: String(sample),
       factor: String(factor),
       points: String(this.#paths.count),
+      part: this.#part.drawn && this.#shown.solid ? this.#part.side : "none",
+      triangles: String(this.#part.triangles),
       tip: this.#frames.tcp.origin.map((v) => v.toFixed(6)).join(" "),
     });
   }
@@ -361,58 +410,4 @@ function around([low, high], points) {
 function isElsewhere([low, high], [newLow, newHigh]) {
   const size = Math.max(...high.map((v, i) => v - low[i]), ...newHigh.map((v, i) => v - newLow[i]));
   return [...low, ...high].some((v, i) => Math.abs(v - [...newLow, ...newHigh][i]) > 0.1 * size);
-}
-
-/** Writes the axes' names at their tips; frames that coincide share one. */
-function placeLabels(box, axes, place) {
-  const [base, workpiece] = axes;
-  const same = Math.hypot(...base.frame.origin.map((v, i) => v - workpiece.frame.origin[i])) < 1e-6;
-  const wanted = [];
-  for (const { name, frame, long } of same ? [base] : axes) {
-    ["x", "y", "z"].forEach((axis) => wanted.push([axis, plus(frame.origin, frame[axis], long * 1.1)]));
-    wanted.push([same ? "base and workpiece" : name, frame.origin, "name"]);
-  }
-  while (box.children.length < wanted.length) box.append(document.createElement("span"));
-  [...box.children].forEach((span, i) => {
-    span.hidden = i >= wanted.length;
-    if (span.hidden) return;
-    const [words, point, className = ""] = wanted[i];
-    const [x, y] = place(point);
-    if (span.textContent !== words) span.textContent = words;
-    span.className = className;
-    span.style.setProperty("transform", `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`);
-  });
-}
-
-/** The page's colours as shares of red, green and blue, and whether the page is dark. */
-function tonesOf(node) {
-  const probe = document.createElement("span");
-  node.append(probe);
-  const read = (token) => {
-    probe.style.setProperty("color", `var(--${token})`);
-    return getComputedStyle(probe)
-      .color.match(/[\d.]+/g)
-      .slice(0, 3)
-      .map((v) => Number(v) / 255);
-  };
-  const mixed = (a, b, share) => a.map((v, i) => v + (b[i] - v) * share);
-  const [paper, ink, line, faint, accent, band] = ["surface", "ink", "line", "line-2", "accent", "band"].map(read);
-  const axes = ["vermillion", "green", "blue"].map(read);
-  const dark = paper[0] + paper[1] + paper[2] < 1.5;
-  const tones = {
-    paper,
-    ink,
-    axes,
-    dark,
-    band,
-    grid: line,
-    desired: dark ? ink : read("ink-2"),
-    command: read("after"),
-    shadow: mixed(paper, dark ? [0, 0, 0] : ink, dark ? 0.35 : 0.07),
-    link: dark ? mixed(paper, ink, 0.55) : mixed(paper, faint, 0.38),
-    joint: mixed(mixed(paper, ink, dark ? 0.55 : 0.45), accent, 0.22),
-    tool: mixed(ink, faint, 0.35),
-  };
-  probe.remove();
-  return tones;
 }

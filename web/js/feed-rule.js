@@ -1,0 +1,33 @@
+// What the feed rule gains over the programmed feed: a sentence, and its figures side by side.
+
+import { byId, make } from "./dom.js";
+import { formatNumber } from "./number.js";
+import { errorText, forceText, forceUnit, lengthUnit } from "./units.js";
+
+const ROWS = [
+  ["Largest mean force", forceUnit, "largest_force_n", forceText],
+  ["Force, mean", forceUnit, "mean_force_n", forceText],
+  ["Largest contour error before", lengthUnit, "largest_error_mm", errorText],
+  ["Time", () => "s", "time_s", (value) => formatNumber(value)],
+];
+
+/** Writes a summary's `feed_rule`, or hides where it would stand. */
+export function showFeedRule(gain) {
+  byId("feed-gain").hidden = byId("feed-figures").hidden = !gain;
+  byId("feed-gain").textContent = gain?.sentence ?? "";
+  const cell = (value, text) => {
+    const td = make("td", {}, text(value));
+    td.dataset.value = String(value);
+    return td;
+  };
+  const rows = ROWS.map(([name, unit, key, text]) =>
+    make(
+      "tr",
+      {},
+      make("th", { scope: "row" }, `${name} `, make("span", { className: "unit" }, unit())),
+      cell(gain?.programmed[key], text),
+      cell(gain?.constant_force[key], text),
+    ),
+  );
+  byId("feed-figures").tBodies[0].replaceChildren(...(gain ? rows : []));
+}

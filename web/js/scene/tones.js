@@ -1,0 +1,34 @@
+// The page's colours, for the picture.
+
+/** The page's colours as shares of red, green and blue, and whether the page is dark. */
+export function tonesOf(node) {
+  const probe = document.createElement("span");
+  node.append(probe);
+  const read = (token) => {
+    probe.style.setProperty("color", `var(--${token})`);
+    return getComputedStyle(probe)
+      .color.match(/[\d.]+/g)
+      .slice(0, 3)
+      .map((v) => Number(v) / 255);
+  };
+  const mixed = (a, b, share) => a.map((v, i) => v + (b[i] - v) * share);
+  const [paper, ink, line, faint, accent, band] = ["surface", "ink", "line", "line-2", "accent", "band"].map(read);
+  const axes = ["vermillion", "green", "blue"].map(read);
+  const dark = paper[0] + paper[1] + paper[2] < 1.5;
+  const tones = {
+    paper,
+    ink,
+    axes,
+    dark,
+    band,
+    grid: line,
+    desired: dark ? ink : read("ink-2"),
+    command: read("after"),
+    shadow: mixed(paper, dark ? [0, 0, 0] : ink, dark ? 0.35 : 0.07),
+    link: dark ? mixed(paper, ink, 0.55) : mixed(paper, faint, 0.38),
+    joint: mixed(mixed(paper, ink, dark ? 0.55 : 0.45), accent, 0.22),
+    tool: mixed(ink, faint, 0.35),
+  };
+  probe.remove();
+  return tones;
+}
