@@ -69,7 +69,7 @@ impl DeviationMap {
             shifts(&nominal, &actual, largest, walls.iter().map(|wall| wall.side(side)))
         });
         let beside = |k: &usize| is_beside_step(&nominal, *k, 1, STEEP * cell);
-        let to_wall = (0..walls.len()).map(|k| walls[k].to_wall().filter(|_| beside(&k)).unwrap_or_default());
+        let to_wall = (0..walls.len()).map(|k| walls[k].way().filter(|_| beside(&k)).unwrap_or_default());
         let to_wall = to_wall.collect();
         let blank = PartMap::of(plan, blank, PartCut::None, cell).heights;
         Self { nominal, before, after, to_wall, largest, blank }
@@ -109,14 +109,14 @@ impl DeviationMap {
 #[derive(Debug, Clone, Copy, Default)]
 struct NearWalls {
     weight: f64,
-    to_wall: [f64; 2],
+    way: [f64; 2],
     sums: [[f64; 3]; 2],
 }
 
 impl NearWalls {
     /// Mean way to the wall; `None` if there is none.
-    fn to_wall(&self) -> Option<[f32; 2]> {
-        (self.weight > 0.0).then(|| self.to_wall.map(|sum| (sum / self.weight) as f32))
+    fn way(&self) -> Option<[f32; 2]> {
+        (self.weight > 0.0).then(|| self.way.map(|sum| (sum / self.weight) as f32))
     }
 
     /// Mean x, y and excess of a run; `None` if there is no wall.
@@ -160,8 +160,8 @@ fn walls(
                 let near = &mut walls[height];
                 let way = normal.xy() * to_place.dot(&normal.xy());
                 near.weight += weight;
-                near.to_wall[0] += weight * way.x;
-                near.to_wall[1] += weight * way.y;
+                near.way[0] += weight * way.x;
+                near.way[1] += weight * way.y;
                 for (sums, parts) in near.sums.iter_mut().zip(parts) {
                     sums.iter_mut().zip(parts).for_each(|(sum, part)| *sum += weight * part);
                 }
@@ -196,8 +196,8 @@ fn shifts(
     largest: f64,
     walls: impl Iterator<Item = Option<[f32; 3]>>,
 ) -> Vec<Shift> {
-    let (columns, count) = (nominal.columns, nominal.heights.len());
-    let mut shifts = vec![[0.0; 4]; count];
+    let columns = nominal.columns;
+    let mut shifts = vec![[0.0; 4]; nominal.heights.len()];
     let mut free = Vec::new();
     for (k, wall) in walls.enumerate() {
         let (column, row) = (k % columns, k / columns);
@@ -214,8 +214,8 @@ fn shifts(
     let limit = OWN * largest + ROUNDING;
     let reach = (1 + (limit / nominal.cell).ceil() as usize).min(FARTHEST);
     let mut flipped = Vec::new();
-    for k in 0..count {
-        let difference = f64::from(actual.heights[k] - nominal.heights[k]);
+    for (k, (actual, due)) in actual.heights.iter().zip(&nominal.heights).enumerate() {
+        let difference = f64::from(actual - due);
         if difference.abs() > limit && is_beside_step(nominal, k, reach, EXPLAINS * difference.abs()) {
             flipped.push(k);
         } else {

@@ -89,15 +89,15 @@ impl<'a> Excesses<'a> {
         (before, after): (&Deviation, &Deviation),
     ) -> SurfacePlace {
         let (path, index) = (&self.plan.path, timing.index[k] as usize);
-        let from_tip = self.from_tip(timing, k, facet).unwrap_or_default();
+        let offset = self.offset(timing, k, facet).unwrap_or_default();
         let excess = |run| self.at(timing, k, run).of(facet);
         SurfacePlace {
             kind: FACETS[facet].kind,
             sample: k,
             line: path.moves()[index].line,
             arc_length: timing.arc_length[k],
-            point: self.plan.setup.workpiece.inverse().point(&(self.tip(timing, k) + from_tip)),
-            height: self.axes[1].dot(&from_tip),
+            point: self.plan.setup.workpiece.inverse().point(&(self.tip(timing, k) + offset)),
+            height: self.axes[1].dot(&offset),
             before: excess(before),
             after: excess(after),
         }
@@ -105,7 +105,7 @@ impl<'a> Excesses<'a> {
 
     /// The nominal place of a facet at a sample [m]; `None` if the tool does not cut it there.
     pub(super) fn place(&self, timing: &TimingLaw, k: usize, facet: usize) -> Option<Vector3<f64>> {
-        Some(self.tip(timing, k) + self.from_tip(timing, k, facet)?)
+        Some(self.tip(timing, k) + self.offset(timing, k, facet)?)
     }
 
     /// A facet's normal into the material at a sample.
@@ -126,7 +126,7 @@ impl<'a> Excesses<'a> {
     }
 
     /// From the tip on the path to a facet [m].
-    fn from_tip(&self, timing: &TimingLaw, k: usize, facet: usize) -> Option<Vector3<f64>> {
+    fn offset(&self, timing: &TimingLaw, k: usize, facet: usize) -> Option<Vector3<f64>> {
         let contact = self.contact(timing.index[k] as usize, timing.arc_length[k])?;
         self.across(timing, k).place(&FACETS[facet], &self.cutter, &contact)
     }

@@ -41,10 +41,10 @@ impl PartSection {
     /// The section of a part at the sample `k` of the timing.
     pub(crate) fn of(plan: &Plan, map: &DeviationMap, timing: &TimingLaw, k: usize) -> Self {
         let to_workpiece = plan.setup.workpiece.inverse();
-        let (path, index) = (plan.path.placed(&to_workpiece), timing.index[k] as usize);
+        let (path, index) = (&plan.path, timing.index[k] as usize);
         let place = path.within(index, timing.arc_length[k]);
-        let tip = path.point_at(place);
-        let tangent = path.moves()[index].segment.tangent(place.1);
+        let tip = to_workpiece.point(&path.point_at(place));
+        let tangent = to_workpiece.direction(&path.moves()[index].segment.tangent(place.1));
         let left = Vector3::z().cross(&tangent).try_normalize(UPRIGHT).unwrap_or_else(Vector3::y).xy();
         let cutter = cutter(plan);
         let at = |j: i32| -cutter.radius * HALF * f64::from(j) / f64::from(POINTS);
@@ -61,7 +61,8 @@ impl PartSection {
             let length = each.segment.length();
             let count = (length / (STEP * cutter.radius)).ceil().max(1.0) as usize;
             for j in 0..=count {
-                let (there, z) = local(each.segment.point(length * (j as f64 / count as f64)));
+                let there = each.segment.point(length * (j as f64 / count as f64));
+                let (there, z) = local(to_workpiece.point(&there));
                 let half = (cutter.radius * cutter.radius - there.y * there.y).max(0.0).sqrt();
                 let from = ((across[0] - there.x - half) / width).ceil().max(0.0);
                 let to = ((across[0] - there.x + half) / width).floor().min(across.len() as f64 - 1.0);

@@ -12,7 +12,9 @@ use serde_json::{Value, json};
 /// Opens an example that brings its stock.
 async fn open(page: &Page, example: &str) -> Result<Report> {
     current(page).await?;
-    page.js("document.getElementById('group-path').open = true").await?;
+    // On a phone the inputs are folded.
+    page.js("document.getElementById('inputs').classList.add('open'); document.getElementById('group-path').open = true")
+        .await?;
     page.choose("#examples", example).await?;
     page.wait_for("document.querySelector('#stock-kind').value !== 'none'", 20.0).await?;
     let report = run(&opened_example(example));

@@ -389,14 +389,20 @@ class Scene {
     const unit = lengthUnit();
     this.#panel.factors(this.#paths.factor(), this.#chosen);
     this.#panel.scale(inLength(largest), inLength(this.#summary.tolerance_mm), unit, this.#tones.dark);
-    const { path_length_mm, after_mm } = this.#summary;
+    const { path_length_mm, after_mm, surface } = this.#summary;
+    const left = surface?.worst_after_mm === undefined ? "" : ` ${leftText(surface)}`;
     this.#panel.text.textContent =
       `The desired path is ${lengthText(path_length_mm, 4)} ${unit} long. The actual one leaves it by at most ` +
       `${lengthText(largest)} ${unit} before compensation ` +
       `and ${lengthText(after_mm.max)} ${unit} after; the deviation is drawn ${this.#factor()} times as large as it ` +
-      `is. The charts below show the same paths.`;
+      `is.${left} The charts below show the same paths.`;
   }
 }
+
+/** What the surface of the part says to those who do not see it. */
+const leftText = ({ worst_before_mm, worst_after_mm }) =>
+  `The part is coloured by the deviation of its surface, at most ${lengthText(worst_before_mm)} ${lengthUnit()} before ` +
+  `and ${lengthText(worst_after_mm)} ${lengthUnit()} after compensation.`;
 
 /** A box that also holds `points`. */
 function around([low, high], points) {
