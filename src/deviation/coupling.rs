@@ -44,8 +44,9 @@ const MOST: f64 = 5.0;
 const SMALL: f64 = 1e-5;
 
 /// The balance of a cut that exerts `planned` [N] on a tool in its place, with its stiffness and the
-/// shift `commanded` [m] of the undeflected tip; `deflect` gives the arm's deflection under a force. No
-/// force remains where the tool would come out of the material.
+/// shift `commanded` [m] of the undeflected tip; `deflect` gives the arm's deflection under a force. The
+/// growth is linear, so it is trusted to the size of the planned force: at most all of it is taken away, where the
+/// tool leaves the material, and at most as much is added, which counts as no balance.
 pub fn settled(
     planned: &Vector3<f64>,
     stiffness: &CutStiffness,
@@ -73,16 +74,18 @@ pub fn settled(
     let Some(inverse) = inverse else { return as_planned(false) };
     let mut shift = inverse * (felt(&under_planned.0));
     for _ in 0..STEPS {
-        let force = planned + stiffness.grown(shift.into());
-        if force.dot(planned) <= 0.0 {
-            let free = Vector3::zeros();
-            return balance(free, deflect(&free));
-        }
-        let deflected = deflect(&force);
+        let grown = stiffness.grown(shift.into());
+        let deflected = deflect(&(planned + grown));
         let change = inverse * (felt(&deflected.0) - shift);
         shift += change;
         if change.norm() <= SETTLED {
-            return balance(force, deflected);
+            return if grown.norm() <= planned.norm() {
+                balance(planned + grown, deflected)
+            } else {
+                let force = planned + grown * (planned.norm() / grown.norm());
+                // What takes the whole force away has left the material, which is a balance.
+                SettledCut { converged: grown.dot(planned) <= 0.0, ..balance(force, deflect(&force)) }
+            };
         }
     }
     as_planned(false)
