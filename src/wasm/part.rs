@@ -21,14 +21,14 @@ export interface PartMap {
   width: number; height: number; cell_mm: number; origin_mm: [number, number, number];
   nominal_mm: Float32Array; before_mm: Float32Array; after_mm: Float32Array;
 }
-/** A mesh of the nominal part without its bottom: x, y, z of its places, `triangles` of three places each. `before_mm` and
- * `after_mm` have four numbers for each place: how far it is moved along x, y and z, and the excess of the wall there, or
- * of the nearest one. `largest_mm` is the largest excess of the surface left. */
+/** A mesh of the nominal part without its bottom: x, y, z of its places, `triangles` of three places each.
+ * `before_mm` and `after_mm` have four numbers for each place: how far it is moved along x, y and z, and the excess
+ * of the wall there, or of the nearest one. `largest_mm` is the largest excess of the surface left. */
 export interface PartMesh {
   places_mm: Float32Array; before_mm: Float32Array; after_mm: Float32Array; triangles: Uint32Array; largest_mm: number;
 }
-/** Pairs of numbers: distance to the left of the tip across the feed, and height in the workpiece frame. `before_mm` and
- * `after_mm` say how far each pair of `nominal_mm` is moved. */
+/** Pairs of numbers: distance to the left of the tip across the feed, and height in the workpiece frame.
+ * `before_mm` and `after_mm` say how far each pair of `nominal_mm` is moved. */
 export interface PartSection {
   nominal_mm: Float32Array; before_mm: Float32Array; after_mm: Float32Array; tool_mm: Float32Array; bottom_mm: number;
 }

@@ -13,7 +13,8 @@ use serde_json::{Value, json};
 async fn open(page: &Page, example: &str) -> Result<Report> {
     current(page).await?;
     // On a phone the inputs are folded.
-    page.js("document.getElementById('inputs').classList.add('open'); document.getElementById('group-path').open = true")
+    page.js("document.getElementById('inputs').classList.add('open'); \
+             document.getElementById('group-path').open = true")
         .await?;
     page.choose("#examples", example).await?;
     page.wait_for("document.querySelector('#stock-kind').value !== 'none'", 20.0).await?;
