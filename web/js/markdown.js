@@ -51,7 +51,8 @@ const inStock = ({ stock, removed_cm3, air_share, largest_engaged_deg }) =>
 
 /** The surface that is left. */
 const surfaceLeft = ({ worst_before_mm, worst_after_mm, after_p95_mm, worst }) =>
-  `Surface left on the part: up to ${formatError(worst_before_mm)} mm off before compensation, ${formatError(worst_after_mm)} mm after ` +
-  `(95 %: ${formatError(after_p95_mm)} mm). ${worst.map(({ sentence }) => `${sentence}.`).join(" ")}`;
+  `Surface left on the part: up to ${formatError(worst_before_mm)} mm off before compensation, in 95 of 100 at most ` +
+  `${formatError(after_p95_mm)} mm after it (${formatError(worst_after_mm)} mm if every number is exact). ` +
+  worst.map(({ sentence }) => `${sentence}.`).join(" ");
 
 const escaped = (text) => text.replace(/[\\`*_[\]|<>]/g, "\\$&");

@@ -23,9 +23,9 @@ pub(crate) const BENCH: &str = "armill-bench";
 pub(crate) const MODULE: &str = "armill_bg.wasm";
 
 /// Size limits of the core in bytes, as it is and compressed by gzip: every visit fetches it. With the
-/// coupling, the feed rule, and the surface left it has 1,981,743 and 809,503; these are 2 % more. Raise
+/// coupling, the feed rule, and the surface left it has 2,003,017 and 819,753; these are 2 % more. Raise
 /// them only with a reason in CHANGELOG.md.
-pub(super) const LIMITS: [usize; 2] = [2_022_000, 826_000];
+pub(super) const LIMITS: [usize; 2] = [2_043_000, 836_000];
 
 /// Makes the core in `package` from the sources in `root`: `folder` gets the module, its JavaScript
 /// side and their types.
