@@ -7,8 +7,11 @@
 //! is thus (-y, -x, z).
 
 use crate::DEG;
+use armill::Progress;
 use armill::cutting::{Coefficients, Cut, Engagement, Hand};
-use nalgebra::Vector3;
+use armill::path::{Path, gcode};
+use armill::stock::{Cutter, Outline, Solid, contacts};
+use nalgebra::{Vector2, Vector3};
 
 /// Axial depth [mm], means of the dynamometer's x, y and z [N], 99th percentile of the resultant [N].
 type Row = [f64; 5];
@@ -58,6 +61,30 @@ fn measured_slots_of_bull_and_ball_nose() {
             // The other sign misses by 26 to 50 %.
             let turned = Cut { hand: Hand::Left, ..cut }.mean_force().at(1e-4);
             assert!((turned - measured).norm() > 0.25 * measured.norm(), "the sign shows");
+        }
+    }
+}
+
+/// The same slots, cut into a block: what the tool meets there gives the measured forces as well.
+#[test]
+fn measured_forces_come_out_of_a_slot_in_a_stock() {
+    let corner_of = |x: f64, y: f64| Vector2::new(x, y) / 1e3;
+    let outline = Outline::rectangle(corner_of(-50.0, -50.0), corner_of(50.0, 50.0));
+    let block = Solid::prism(outline, -0.02, 0.0);
+    for (corner, rows) in [(3.0, BULL_NOSE), (8.0, BALL)] {
+        for [depth, x, y, z, _] in rows {
+            let text = format!("G21 G90\nG0 X-70 Y0 Z5\nG1 Z-{depth} F60\nG1 X40 F160\nG0 Z5\n");
+            let options = gcode::Options { field: "text".into(), ..Default::default() };
+            let path = Path::of_program(&gcode::program(&text, &options, |_| ()).unwrap()).unwrap();
+            let cutter = Cutter { radius: 8e-3, corner: corner * 1e-3, flutes: f64::INFINITY };
+            let met = contacts(&path, (&block, &[]), &cutter, &mut Progress::none());
+            let index = path.moves().iter().position(|step| step.segment.length() > 0.1).unwrap();
+            let (station, ..) = met.around(index, 0.07).unwrap();
+            let ours = cut(corner, depth).mean_force_in(&met.at(station)).at(1e-4);
+            let measured = Vector3::new(-y, -x, z);
+            let miss = (ours - measured).norm() / measured.norm();
+            let allowed = if depth < 2.0 { 0.35 } else { 0.20 };
+            assert!(miss < allowed, "corner {corner}, {depth} mm: {ours} against {measured}, {miss}");
         }
     }
 }
