@@ -233,6 +233,12 @@ fn mistakes_are_named() {
         ),
         "stock.earlier[0].text"
     );
+    // What earlier programs have cut is read even where the engagement is stated, and needs a stock.
+    assert_eq!(field(json!({"kind":"none","earlier":[{"text":SLOT,"diameter_mm":3}]})), "stock.kind");
+    let mut unused = plate();
+    unused["earlier"] = json!([{"text":SLOT,"diameter_mm":0}]);
+    let slot = ("cutting", json!({"engagement":"slot","axial_depth_mm":3}));
+    assert_eq!(refused(&job(SLOT, unused, &[slot])).field(), Some("stock.earlier[0].diameter_mm"));
     let asked = ("cutting", json!({"engagement":"from-stock"}));
     assert_eq!(refused(&job(SLOT, json!({"kind":"none"}), &[asked])).field(), Some("stock.kind"));
     // A program above zero: where is the top?

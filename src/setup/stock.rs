@@ -52,11 +52,15 @@ pub(super) fn engagement(
     // Invalid numbers are refused even if they are not used.
     let holder = cutting::holder(&job.tool)?;
     let solid = solid(job, path)?;
+    let earlier = earlier(job)?;
+    if job.stock.is_none() && !earlier.is_empty() {
+        let expected = "what the earlier programs have cut: box, cylinder, extents, outline or stl";
+        return Err(Error::missing("stock.kind", expected));
+    }
     Ok(match solid.filter(|_| from_stock) {
         None => StockEngagement::Stated,
         Some(_) if !is_upright(path) => StockEngagement::Tilted,
         Some(solid) => {
-            let earlier = earlier(job)?;
             let words = in_words(&job.stock, &solid);
             let contacts = contacts(path, (&solid, &earlier), cutter, progress);
             let contacts = match holder {
