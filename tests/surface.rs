@@ -246,6 +246,12 @@ fn the_band_is_that_of_the_tip_across_the_walls() {
     let surface = job(SLOT, half, &[("uncertainty", sure), passes]).summary().surface.unwrap();
     let (p95, worst) = (surface.after_p95_mm.unwrap(), surface.worst_after_mm.unwrap());
     assert!((p95 / worst - 1.0).abs() < 1e-3, "{p95} {worst}");
+    // Not compensated, before and after are the same; a softer plant errs on the surface as the tip does.
+    assert_eq!(surface.before_p95_mm, surface.after_p95_mm);
+    let wide = report.summary().surface.unwrap();
+    let ours = wide.before_p95_mm.unwrap() / wide.worst_before_mm.unwrap();
+    let tip = report.band.before.p95 / report.before.statistics.max;
+    assert!((ours / tip - 1.0).abs() < 0.15, "{ours} {tip}");
 }
 
 /// A point of a mesh by its bits.

@@ -23,7 +23,10 @@ pub struct SurfaceFigures {
     /// The same with the compensated path commanded.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub worst_after_mm: Option<f64>,
-    /// 95 % of the drawn plants leave less than this with the compensated path commanded.
+    /// 95 % of the drawn plants leave less than this with the desired path commanded.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub before_p95_mm: Option<f64>,
+    /// The same with the compensated path commanded.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub after_p95_mm: Option<f64>,
     /// The worst places, one for each line of the program.
@@ -88,6 +91,7 @@ impl Report {
         Some(SurfaceFigures {
             worst_before_mm: surface.before.map(|place| place.before.abs() / MM),
             worst_after_mm: surface.after.map(|place| place.after.abs() / MM),
+            before_p95_mm: any.then_some(surface.band_before.p95 / MM),
             after_p95_mm: any.then_some(surface.band.p95 / MM),
             worst: surface.worst.iter().map(spot).collect(),
         })

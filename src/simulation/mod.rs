@@ -55,7 +55,7 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     };
     let missed = errors.missed;
     let band = band(&plan, (&q, &compensation.q), &errors);
-    let surface = surface(&plan, (&before, &after), &compensation);
+    let surface = surface(&plan, (&before, &after), (&q, &compensation.q));
     let mut report = Report {
         plan,
         q,

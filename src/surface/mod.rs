@@ -23,10 +23,10 @@ pub use excess::Excesses;
 pub use facet::SurfaceKind;
 pub(crate) use left::LeftFacets;
 
-use crate::compensation::Compensation;
 use crate::deviation::{Deviation, Sources};
 use crate::motion::TimingLaw;
 use crate::plan::Plan;
+use crate::robot::Joints;
 use crate::stock::{Cutter, Remaining};
 use crate::uncertainty::{self, Quantiles};
 use facet::members;
@@ -49,7 +49,9 @@ pub struct Surface {
     pub after: Option<SurfacePlace>,
     /// The worst places, one for each line of the program, the largest excess before first.
     pub worst: Vec<SurfacePlace>,
-    /// The largest excess with the compensated path commanded, over the drawn plants [m].
+    /// The largest excess with the desired path commanded, over the drawn plants [m].
+    pub band_before: Quantiles,
+    /// The same with the compensated path commanded.
     pub band: Quantiles,
     pub(crate) left: LeftFacets,
 }
@@ -81,12 +83,12 @@ pub(crate) fn cutter(plan: &Plan) -> Cutter {
     Cutter { radius: cut.radius(), corner: cut.corner_radius, flutes: f64::INFINITY }
 }
 
-/// The surface left by the desired path commanded, with the deviation `before`, and by the compensated one,
-/// with `after`; `None` where the engagement does not follow a stock.
+/// The surface left by the joint commands `desired` [rad] of the desired path, with the deviation `before`, and by
+/// those `kept` after compensation, with `after`; `None` where the engagement does not follow a stock.
 pub fn surface(
     plan: &Plan,
     (before, after): (&Deviation, &Deviation),
-    compensation: &Compensation,
+    (desired, kept): (&[Joints], &[Joints]),
 ) -> Option<Surface> {
     let (contacts, blank) = (plan.setup.contacts.as_ref()?, plan.setup.blank.as_ref()?);
     let cutter = cutter(plan);
@@ -113,8 +115,8 @@ pub fn surface(
     at.sort_unstable();
     at.dedup();
     let size = |place: usize, tip: &Vector3<f64>| excesses.largest(&timing, at[place], tip);
-    let band = uncertainty::largest(plan, (&compensation.q, &at), size);
-    Some(Surface { before: places(worst_before), after, worst, band, left })
+    let [band_before, band] = [desired, kept].map(|q| uncertainty::largest(plan, (q, &at), size));
+    Some(Surface { before: places(worst_before), after, worst, band_before, band, left })
 }
 
 impl SurfacePlace {

@@ -65,7 +65,7 @@ export interface SurfaceSpot {
   place_mm: [number, number, number]; height_mm: number; before_mm: number; after_mm: number; sentence: string;
 }
 export interface SurfaceFigures {
-  worst_before_mm?: number; worst_after_mm?: number; after_p95_mm?: number; worst: SurfaceSpot[];
+  worst_before_mm?: number; worst_after_mm?: number; before_p95_mm?: number; after_p95_mm?: number; worst: SurfaceSpot[];
 }
 export interface WorstPlace { max: number; at_arc_length_mm: number }
 export interface Summary {
