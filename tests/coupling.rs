@@ -8,7 +8,7 @@ mod common;
 use armill::Report;
 use armill::cutting::CutStiffness;
 use armill::deviation::coupling::{inverse_if_stable, settled};
-use common::{column, refused, run};
+use common::{column, in_stock, refused, run};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 use serde_json::{Value, json};
 
@@ -17,22 +17,10 @@ const SLOT: &str = "G21 G90\nG0 X-20 Y0 Z5\nG1 Z-3 F300\nG1 X20 F600\nG0 Z5\n";
 const CLIMB: &str = "G21 G90\nG0 X-60 Y53 Z5\nG1 Z-3 F3000\nG1 X60 F600\nG0 Z5\n";
 const CONVENTIONAL: &str = "G21 G90\nG0 X60 Y53 Z5\nG1 Z-3 F3000\nG1 X-60 F600\nG0 Z5\n";
 
-/// A program in front of a KUKA, cut in aluminium by a flat tool of 10 mm.
+/// A program in a plate, with or without coupling.
 fn job(text: &str, coupling: &str, more: &[(&'static str, Value)]) -> Vec<(&'static str, Value)> {
-    let mut all = vec![
-        ("robot", json!({"preset":"kuka-kr-300-r2700-2"})),
-        ("tool_frame", json!({"xyz_mm":[0,0,300]})),
-        ("workpiece_frame", json!({"xyz_mm":[1800,0,700]})),
-        ("path", json!({"kind":"gcode","text":text})),
-        ("stock", json!({"kind":"box","from_mm":[-50,-50,-20],"to_mm":[50,50,0]})),
-        ("motion", json!({"sample_time_s":0.01})),
-        ("tool", json!({"diameter_mm":10,"flutes":3,"helix_deg":30})),
-        ("material", json!({"preset":"al-7075-t6"})),
-        ("cutting", json!({"spindle_rpm":8000,"feed_per_tooth_mm":"from_feed","coupling":coupling})),
-        ("shaper", json!("none")),
-    ];
-    all.extend_from_slice(more);
-    all
+    let coupling = ("cutting.coupling", json!(coupling));
+    in_stock::job(text, in_stock::plate(), &[&[coupling], more].concat())
 }
 
 /// Samples where the tool is in the middle of its cut at full speed.

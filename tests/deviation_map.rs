@@ -7,33 +7,19 @@ mod common;
 use armill::Report;
 use armill::surface::deviation_map::{DeviationMap, Shift};
 use armill::surface::mesh::PartMesh;
-use common::{column, run};
+use common::in_stock::AT;
+use common::{column, in_stock, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 const SLOT: &str = "G21 G90\nG0 X-20 Y0 Z5\nG1 Z-3 F300\nG1 X20 F600\nG0 Z5\n";
-/// Where the workpiece stands, upright [mm].
-const AT: [f64; 3] = [1800.0, 0.0, 700.0];
 const HEIGHTS: usize = 30_000;
 
 /// A slot of 10 mm, cut 3 mm deep into a plate of 100 mm by a soft arm.
 fn slot(more: &[(&'static str, Value)]) -> Report {
-    let mut all = vec![
-        ("robot", json!({"preset":"kuka-kr-300-r2700-2"})),
-        ("tool_frame", json!({"xyz_mm":[0,0,300]})),
-        ("workpiece_frame", json!({"xyz_mm":AT})),
-        ("path", json!({"kind":"gcode","text":SLOT})),
-        ("stock", json!({"kind":"box","from_mm":[-50,-50,-20],"to_mm":[50,50,0]})),
-        ("motion", json!({"sample_time_s":0.01})),
-        ("tool", json!({"diameter_mm":10,"flutes":3,"helix_deg":30})),
-        ("material", json!({"preset":"al-7075-t6"})),
-        ("cutting", json!({"spindle_rpm":8000,"feed_per_tooth_mm":"from_feed"})),
-        ("shaper", json!("none")),
-    ];
-    all.extend_from_slice(more);
-    run(&all)
+    run(&in_stock::job(SLOT, in_stock::plate(), more))
 }
 
 /// What moves the tip at each sample of the slot's own line before compensation [mm], with the tip's x.

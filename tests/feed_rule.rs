@@ -10,7 +10,7 @@ use armill::path::{Move, MovePace};
 use armill::setup::FeedByForce;
 use armill::verification::Programs;
 use armill::{Error, Report};
-use common::{any_vector, between, column, refused, run};
+use common::{any_vector, between, column, in_stock, refused, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 
@@ -25,18 +25,8 @@ fn job(text: &str, motion: Value) -> Vec<(&'static str, Value)> {
     for (key, value) in motion.as_object().unwrap() {
         all[key] = value.clone();
     }
-    vec![
-        ("robot", json!({"preset":"kuka-kr-300-r2700-2"})),
-        ("tool_frame", json!({"xyz_mm":[0,0,300]})),
-        ("workpiece_frame", json!({"xyz_mm":[1800,0,700]})),
-        ("path", json!({"kind":"gcode","text":text})),
-        ("stock", json!({"kind":"box","from_mm":[-30,-30,-20],"to_mm":[30,30,0]})),
-        ("motion", all),
-        ("tool", json!({"diameter_mm":10,"flutes":3,"helix_deg":30})),
-        ("material", json!({"preset":"al-7075-t6"})),
-        ("cutting", json!({"spindle_rpm":8000,"feed_per_tooth_mm":"from_feed"})),
-        ("shaper", json!("none")),
-    ]
+    let block = json!({"kind":"box","from_mm":[-30,-30,-20],"to_mm":[30,30,0]});
+    in_stock::job(text, block, &[("motion", all)])
 }
 
 fn held() -> Report {

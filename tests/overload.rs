@@ -6,28 +6,15 @@ mod common;
 
 use armill::report::Warning;
 use armill::{Error, Report};
-use common::{column, refused, run};
+use common::{column, in_stock, refused, run};
 use serde_json::{Value, json};
 
 /// A groove, then a wall beside it with a radial depth of 1 mm.
 const GROOVE: &str = "G21 G90\nG0 X-70 Y0 Z5\nZ-3\nG1 X70 F600\nG0 Z5\nX-70 Y1\nZ-3\nG1 X70 F600\nG0 Z5\n";
 
-/// In aluminium by a flat tool of 10 mm with three flutes, at 8000 1/min: 0.025 mm a tooth.
+/// In a plate, at 8000 1/min: 0.025 mm a tooth.
 fn job(text: &str, more: &[(&'static str, Value)]) -> Vec<(&'static str, Value)> {
-    let mut all = vec![
-        ("robot", json!({"preset":"kuka-kr-300-r2700-2"})),
-        ("tool_frame", json!({"xyz_mm":[0,0,300]})),
-        ("workpiece_frame", json!({"xyz_mm":[1800,0,700]})),
-        ("path", json!({"kind":"gcode","text":text})),
-        ("stock", json!({"kind":"box","from_mm":[-50,-50,-20],"to_mm":[50,50,0]})),
-        ("motion", json!({"sample_time_s":0.01})),
-        ("tool", json!({"diameter_mm":10,"flutes":3,"helix_deg":30})),
-        ("material", json!({"preset":"al-7075-t6"})),
-        ("cutting", json!({"spindle_rpm":8000,"feed_per_tooth_mm":"from_feed"})),
-        ("shaper", json!("none")),
-    ];
-    all.extend_from_slice(more);
-    all
+    in_stock::job(text, in_stock::plate(), more)
 }
 
 fn warning<'r>(report: &'r Report, code: &str) -> Option<&'r Warning> {

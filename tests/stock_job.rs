@@ -7,32 +7,11 @@ mod common;
 use armill::Report;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use common::in_stock::{job, plate};
 use common::{column, refused, run};
 use serde_json::{Value, json};
 
 const SLOT: &str = "G21 G90\nG0 X-20 Y0 Z5\nG1 Z-3 F300\nG1 X20 F600\nG0 Z5\n";
-
-/// A program in front of a KUKA, cut in aluminium by a flat tool of 10 mm.
-fn job(text: &str, stock: Value, more: &[(&'static str, Value)]) -> Vec<(&'static str, Value)> {
-    let mut all = vec![
-        ("robot", json!({"preset":"kuka-kr-300-r2700-2"})),
-        ("tool_frame", json!({"xyz_mm":[0,0,300]})),
-        ("workpiece_frame", json!({"xyz_mm":[1800,0,700]})),
-        ("path", json!({"kind":"gcode","text":text})),
-        ("stock", stock),
-        ("motion", json!({"sample_time_s":0.01})),
-        ("tool", json!({"diameter_mm":10,"flutes":3,"helix_deg":30})),
-        ("material", json!({"preset":"al-7075-t6"})),
-        ("cutting", json!({"spindle_rpm":8000,"feed_per_tooth_mm":"from_feed"})),
-        ("shaper", json!("none")),
-    ];
-    all.extend_from_slice(more);
-    all
-}
-
-fn plate() -> Value {
-    json!({"kind":"box","from_mm":[-50,-50,-20],"to_mm":[50,50,0]})
-}
 
 fn summary(report: &Report) -> Value {
     serde_json::to_value(report.summary()).unwrap()

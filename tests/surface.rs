@@ -11,40 +11,21 @@ use armill::report::PartKind;
 use armill::stock::{Blank, Cutter, Earlier, Outline, Remaining, Solid};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use common::{between, column, run};
+use common::in_stock::{AT, plate};
+use common::{between, column, in_stock, run};
 use nalgebra::{Vector2, Vector3};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 const SLOT: &str = "G21 G90\nG0 X-20 Y0 Z5\nG1 Z-3 F300\nG1 X20 F600\nG0 Z5\n";
-/// Where the workpiece stands, upright [mm].
-const AT: [f64; 3] = [1800.0, 0.0, 700.0];
-
-/// A program in front of a KUKA, cut in aluminium by a flat tool of 10 mm.
+/// The report of a program in a stock.
 fn job(text: &str, stock: Value, more: &[(&'static str, Value)]) -> Report {
-    let mut all = vec![
-        ("robot", json!({"preset":"kuka-kr-300-r2700-2"})),
-        ("tool_frame", json!({"xyz_mm":[0,0,300]})),
-        ("workpiece_frame", json!({"xyz_mm":AT})),
-        ("path", json!({"kind":"gcode","text":text})),
-        ("stock", stock),
-        ("motion", json!({"sample_time_s":0.01})),
-        ("tool", json!({"diameter_mm":10,"flutes":3,"helix_deg":30})),
-        ("material", json!({"preset":"al-7075-t6"})),
-        ("cutting", json!({"spindle_rpm":8000,"feed_per_tooth_mm":"from_feed"})),
-        ("shaper", json!("none")),
-    ];
-    all.extend_from_slice(more);
-    run(&all)
+    run(&in_stock::job(text, stock, more))
 }
 
 fn block(from: [f64; 3], to: [f64; 3]) -> Value {
     json!({"kind":"box","from_mm":from,"to_mm":to})
-}
-
-fn plate() -> Value {
-    block([-50.0, -50.0, -20.0], [50.0, 50.0, 0.0])
 }
 
 /// The actual tip before compensation in the workpiece frame [mm], sample by sample.

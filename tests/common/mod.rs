@@ -1,6 +1,7 @@
 //! Shared by several test files: jobs made from a patch, random arms, random joint values.
 #![allow(dead_code, reason = "each test file uses a part of this")]
 
+pub(crate) mod in_stock;
 pub(crate) mod moves;
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) mod peer;
