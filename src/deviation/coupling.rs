@@ -45,8 +45,8 @@ const SMALL: f64 = 1e-5;
 
 /// The balance of a cut that exerts `planned` [N] on a tool in its place, with its stiffness and the
 /// shift `commanded` [m] of the undeflected tip; `deflect` gives the arm's deflection under a force. The
-/// growth is linear, so it is trusted to the size of the planned force: at most all of it is taken away, where the
-/// tool leaves the material, and at most as much is added, which counts as no balance.
+/// growth is linear, so it is trusted to the size of the planned force: the force falls to zero at most, where the
+/// tool leaves the material, and doubles at most, which counts as no balance.
 pub fn settled(
     planned: &Vector3<f64>,
     stiffness: &CutStiffness,
@@ -83,7 +83,7 @@ pub fn settled(
                 balance(planned + grown, deflected)
             } else {
                 let force = planned + grown * (planned.norm() / grown.norm());
-                // What takes the whole force away has left the material, which is a balance.
+                // A tool without force has left the material, which is a balance.
                 SettledCut { converged: grown.dot(planned) <= 0.0, ..balance(force, deflect(&force)) }
             };
         }

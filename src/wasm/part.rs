@@ -1,4 +1,4 @@
-//! The simulated part: a mesh to take away, and maps of heights for a picture.
+//! The simulated part: an STL mesh, and maps of heights for a picture.
 
 use crate::error::Error;
 use crate::report::PartKind;

@@ -7,7 +7,7 @@ import { download } from "./download.js";
 const QUIET_MS = 400; // inputs that still move are not judged
 const LONG_MS = 3000; // a run that takes longer is judged when it is exported: several runs are made for it
 
-// What is taken away beside programs: a name for the menu and for the button, the file, and how it is made.
+// Downloads other than programs: a name for the menu and for the button, the file, and how it is made.
 const joints = {
   option: "joint commands as CSV",
   button: "Export joint commands",

@@ -25,7 +25,7 @@ export class Part {
   #ends = [make("span"), make("span", { className: "middle" }, "0"), make("span")];
   #unit = make("span");
 
-  /** `changed(anew)` is called when another picture is due; `anew` if there was no part before. */
+  /** `changed(first)` is called when another picture is due; `first` if there was no part before. */
   constructor(changed) {
     this.#changed = changed;
     this.#buttons = SIDES.map(([side, label]) => {

@@ -36,7 +36,7 @@ class Scene {
   #node;
   #panel;
   #player = new Player();
-  #part = new Part((anew) => (anew && !this.#steered ? this.#look(this.#fitted) : this.#redraw()));
+  #part = new Part((first) => (first && !this.#steered ? this.#look(this.#fitted) : this.#redraw()));
   #steered = false; // whether the camera was moved by hand since it showed all
   #section = new Section();
   #waiting; // timer for the part
@@ -146,7 +146,7 @@ class Scene {
         if (this.#shown.solid && this.#painter) await this.#part.load(isCurrent);
         if (isCurrent()) await this.#section.begin();
       } catch {
-        // Taken away by a newer result, or a recovery, which brings its own.
+        // Replaced by a newer result or a recovery, which loads its own.
       }
     }, quiet);
   }
@@ -165,7 +165,7 @@ class Scene {
       this.#describe();
       this.#simulate(QUIET_MS);
     } catch {
-      if (this.#loaded === summary) this.#loaded = null; // taken away by a newer result, or a recovery: the next one loads again
+      if (this.#loaded === summary) this.#loaded = null; // replaced by a newer result or a recovery: the next one loads again
     }
   }
 
