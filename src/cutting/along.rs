@@ -74,7 +74,7 @@ fn place(path: &Path, timing: &TimingLaw, k: usize) -> (usize, f64) {
 }
 
 /// A force in {T}, whose x and z point along `x` and `axis`, in the base frame (eq. 4.11).
-fn in_base(force: &Vector3<f64>, x: &Vector3<f64>, axis: &Vector3<f64>) -> Vector3<f64> {
+pub(super) fn in_base(force: &Vector3<f64>, x: &Vector3<f64>, axis: &Vector3<f64>) -> Vector3<f64> {
     x * force.x + axis.cross(x) * force.y + axis * force.z
 }
 

@@ -8,6 +8,7 @@
 //! exact; where a round one crosses the fillets of an earlier pass, its growth up the axis may be a
 //! third off.
 
+use crate::cutting::along::in_base;
 use crate::cutting::{Cut, CutLoad, LinearForce};
 use crate::math;
 use crate::stock::{Contact, Contacts, SideArc};
@@ -61,9 +62,8 @@ impl CutStiffness {
         by: &[LinearForce; 2],
         (x, axis): (&Vector3<f64>, &Vector3<f64>),
     ) -> Self {
-        let left = axis.cross(x);
-        let in_base = |force: Vector3<f64>| x * force.x + left * force.y + axis * force.z;
-        Self { ways: [left, *axis], growth: [0, 1].map(|way| in_base(by[way].under(load))) }
+        let growth = by.map(|by| in_base(&by.under(load), x, axis));
+        Self { ways: [axis.cross(x), *axis], growth }
     }
 
     /// The parts of a shift [m] that change the force.

@@ -115,7 +115,10 @@ pub fn surface(
     at.sort_unstable();
     at.dedup();
     let size = |place: usize, tip: &Vector3<f64>| excesses.largest(&timing, at[place], tip);
-    let [band_before, band] = [desired, kept].map(|q| uncertainty::largest(plan, (q, &at), size));
+    let drawn = |q: &[Joints]| uncertainty::largest(plan, (q, &at), size);
+    let band = drawn(kept);
+    // The same commands leave the same.
+    let band_before = if std::ptr::eq(desired, kept) { band } else { drawn(desired) };
     Some(Surface { before: places(worst_before), after, worst, band_before, band, left })
 }
 
