@@ -9,7 +9,7 @@ import { constants, deflateSync } from "node:zlib";
 const [seconds, seed] = process.argv.slice(2).map(Number);
 const here = (path) => new URL(path, import.meta.url);
 // As a module, whatever this folder's package says.
-const source = readFileSync(here("../../web/js/link.js"));
+const source = readFileSync(here("../../web/js/job/link.js"));
 const { fragmentOf, holdsJob, jobIn } = await import(`data:text/javascript;base64,${source.toString("base64")}`);
 
 const LARGEST = 4_000_000; // bytes, as link.js says

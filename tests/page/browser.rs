@@ -230,7 +230,10 @@ impl Page {
     /// If it throws, or the page has no such module.
     pub async fn with_module(&self, name: &str, function: &str) -> Result<Value> {
         let scripts = "Promise.all(['./js/start.js', './js/main.js'].map((path) => import(path)))";
-        let module = format!("Object.assign({{}}, ...scripts).module_js_{name}");
+        let module = format!(
+            "Object.assign({{}}, ...scripts).module_js_{}",
+            name.replace(|c: char| !c.is_ascii_alphanumeric(), "_")
+        );
         self.js(&format!("return {scripts}.then((scripts) => ({function})({module}))")).await
     }
 

@@ -112,8 +112,11 @@ fn units_are_chosen_for_axes_values_and_files() -> Result {
             "force",
             armill::chart::Units { force: armill::chart::ForceUnit::PoundForce, ..Default::default() },
         )?;
-        page.with_module("settings", "({ choose }) => { choose('force', 'lbf'); choose('length', 'inch'); }")
-            .await?;
+        page.with_module(
+            "page/settings",
+            "({ choose }) => { choose('force', 'lbf'); choose('length', 'inch'); }",
+        )
+        .await?;
         chart.wait_for("chart.querySelector('svg.plot').textContent.includes('Force, lbf')").await?;
         let ticks = chart
             .js("return [...chart.querySelectorAll('.axis text[text-anchor=end]')].map(t => t.textContent)")
@@ -144,7 +147,7 @@ fn units_are_chosen_for_axes_values_and_files() -> Result {
                 .unwrap()
                 .contains("Contour error, inch")
         );
-        page.with_module("settings", "({ choose }) => choose('length', 'mm')").await?;
+        page.with_module("page/settings", "({ choose }) => choose('length', 'mm')").await?;
         error.wait_for("chart.querySelector('svg.plot').textContent.includes('Contour error, mm')").await
     })
 }

@@ -46,7 +46,7 @@ fn the_cursor_reads_samples_and_is_one_for_all_charts() -> Result {
         chart.mouse("mouseMoved", (5.0, 5.0), json!({})).await?;
         chart.wait_for("chart.querySelector('.readout b')").await?;
         // It stays in another view, and in space it is a place on each path.
-        let pinned = page.with_module("cursor", "({ cursor }) => cursor()").await?;
+        let pinned = page.with_module("page/cursor", "({ cursor }) => cursor()").await?;
         let space = Chart::open(page, "path", "path").await?;
         space.wait_for("chart.querySelectorAll('.marks circle').length === 1").await?;
         let values = space.values().await?;

@@ -178,7 +178,7 @@ fn in_a_stock_the_cut_follows_the_program() -> Result {
         ] {
             let data = page
                 .with_module(
-                    "core",
+                    "core/client",
                     &format!(
                         "async ({{ chartData }}) => [...(await chartData('{chart}', {{}}))[{at}].values].map(String)"
                     ),

@@ -180,7 +180,7 @@ fn markup_in_names_and_comments_is_text() -> Result {
         current(page).await?;
         harmless().await?;
         let first = "({ load }) => load().then(({ presets }) => presets.robots[0])";
-        let joints = page.with_module("core", first).await?;
+        let joints = page.with_module("core/client", first).await?;
         let job = json!({ "robot": {
             "name": MARKUP,
             "modified_dh": joints["modified_dh"],
@@ -213,7 +213,7 @@ fn markup_in_names_and_comments_is_text() -> Result {
         // A link with the same markup.
         let link = page
             .with_module(
-                "link",
+                "job/link",
                 &format!(
                     "({{ fragmentOf }}) => fragmentOf({})",
                     json!(json!({ "robot": { "preset": MARKUP } }).to_string())

@@ -94,7 +94,8 @@ fn a_visit_fetches_the_core_once_and_computes_one_run() -> Result {
 #[test]
 fn the_form_is_built_from_what_the_core_says_of_itself() -> Result {
     visit("/", DESKTOP, async |page| {
-        let version = page.with_module("core", "({ load }) => load().then(({ version }) => version)").await?;
+        let version =
+            page.with_module("core/client", "({ load }) => load().then(({ version }) => version)").await?;
         assert_eq!(version, env!("CARGO_PKG_VERSION"));
         // Compared in the browser, to which 1 and 1.0 are one number.
         for (part, native) in [
@@ -105,10 +106,13 @@ fn the_form_is_built_from_what_the_core_says_of_itself() -> Result {
             let same = format!(
                 "({{ load }}) => load().then(({{ {part} }}) => JSON.stringify({part}) === JSON.stringify({native}))"
             );
-            assert_eq!(page.with_module("core", &same).await?, true, "{part}");
+            assert_eq!(page.with_module("core/client", &same).await?, true, "{part}");
         }
         let ids = page
-            .with_module("core", "({ load }) => load().then(({ formats }) => formats.map(({ id }) => id))")
+            .with_module(
+                "core/client",
+                "({ load }) => load().then(({ formats }) => formats.map(({ id }) => id))",
+            )
             .await?;
         assert!(ids.as_array().is_some_and(|ids| ids.contains(&json!("gcode"))), "{ids}");
         Ok(())
@@ -158,7 +162,7 @@ fn a_worker_that_does_not_start_is_reported_and_the_last_result_stays() -> Resul
         page.expect_error("asked for");
         // The spare Worker computes the lost result again; its replacement does not start.
         page.js("astray = true").await?;
-        page.with_module("core", "({ trap }) => trap()").await?;
+        page.with_module("core/client", "({ trap }) => trap()").await?;
         page.wait_for("document.querySelector('#alert').textContent.includes('started again')", 20.0).await?;
         shows(page, &run(&[])).await?;
         page.type_into("#motion-feed_mm_s", "80").await?;

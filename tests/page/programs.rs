@@ -81,7 +81,7 @@ fn a_chart_leads_to_its_line_and_back() -> Result {
         page.js("const t = document.getElementById('path-text'); const at = t.value.indexOf('G1 Y-40'); \
              t.focus(); t.setSelectionRange(at, at); t.click()")
             .await?;
-        let cursor = page.with_module("cursor", "({ cursor }) => cursor()").await?;
+        let cursor = page.with_module("page/cursor", "({ cursor }) => cursor()").await?;
         assert!((cursor.as_f64().unwrap_or(-1.0) - seventh as f64 * 1e-3).abs() < 1e-9, "{cursor}");
         page.wait_for("document.querySelector('#chart-before-after .readout').textContent.includes('line 7 of the program')", 10.0).await?;
         // From the chart to the line: the readout of the clicked place leads there.
@@ -155,7 +155,7 @@ fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
         page.js("const rows = [...document.querySelectorAll('#path-text-window [data-line]')]; \
              rows.find(row => row.dataset.line === '25000').click()")
             .await?;
-        let cursor = page.with_module("cursor", "({ cursor }) => cursor()").await?;
+        let cursor = page.with_module("page/cursor", "({ cursor }) => cursor()").await?;
         assert!(cursor.as_f64().is_some_and(|time| time > 0.1), "{cursor}");
         page.click("#tab-overview").await?;
         page.wait_for("document.querySelector('#chart-before-after svg')", 20.0).await?;

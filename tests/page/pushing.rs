@@ -67,7 +67,10 @@ fn a_pushed_number_is_followed_by_previews_and_then_by_all_samples() -> Result {
         assert!(seen.iter().any(|(samples, _)| (2000..all / 2).contains(samples)), "{seen:?}");
         assert!(seen.iter().all(|(samples, taken)| (*samples == all) == *taken), "{seen:?}");
         assert_eq!(seen.last(), Some(&(all, true)));
-        assert_eq!(page.js("return document.querySelectorAll('.preview').length").await?, json!(0));
+        assert_eq!(
+            page.js("return document.querySelectorAll('[data-state=preview]').length").await?,
+            json!(0)
+        );
         Ok(())
     })
 }

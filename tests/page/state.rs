@@ -9,7 +9,8 @@ use serde_json::json;
 
 /// The fragment that encodes the JSON text of a job, as the page makes it.
 async fn fragment(page: &Page, job: &str) -> Result<String> {
-    let made = page.with_module("link", &format!("({{ fragmentOf }}) => fragmentOf({})", json!(job))).await?;
+    let made =
+        page.with_module("job/link", &format!("({{ fragmentOf }}) => fragmentOf({})", json!(job))).await?;
     Ok(made.as_str().unwrap_or_default().to_owned())
 }
 
@@ -145,7 +146,7 @@ fn what_an_earlier_model_computed_says_so_on_opening() -> Result {
         }
         let link = shared(page, "link").await?;
         let (_, link) = link.split_once('#').ok_or("no fragment")?;
-        let job = page.with_module("link", &format!("({{ jobIn }}) => jobIn('{link}')")).await?;
+        let job = page.with_module("job/link", &format!("({{ jobIn }}) => jobIn('{link}')")).await?;
         assert!(job.as_str().is_some_and(|job| job.contains("\"model\":2")), "{job}");
 
         // Files.

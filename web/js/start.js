@@ -1,11 +1,11 @@
 // What does not wait for the rest of the page: its colours, and the core with the job that the page
 // opens with.
 
-import { kept } from "./autosave.js";
-import * as core from "./core.js";
-import { textOf } from "./job.js";
-import { holdsJob } from "./link.js";
-import { applyTheme } from "./theme.js";
+import { kept } from "./job/autosave.js";
+import * as core from "./core/client.js";
+import { textOf } from "./job/job.js";
+import { holdsJob } from "./job/link.js";
+import { applyTheme } from "./page/theme.js";
 
 applyTheme();
 

@@ -1,7 +1,7 @@
 // The core's drawing on the page. What is data can be moved within the plot, until the exact
 // drawing arrives.
 
-import { makeSvg } from "../dom.js";
+import { makeSvg } from "../page/dom.js";
 import { fractionOf } from "./view.js";
 
 const SPILL = 4; // what a line at the edge needs beside the plot [px]

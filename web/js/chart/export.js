@@ -1,6 +1,6 @@
 // A chart as a file: a drawing or picture that needs no style sheet, or its values.
 
-import { make, makeSvg } from "../dom.js";
+import { make, makeSvg } from "../page/dom.js";
 
 const LOOK = [
   "fill",

@@ -1,11 +1,12 @@
 // One chart of the page: the core's drawing, and all that a person can do with it.
 
-import * as core from "../core.js";
-import { cursor, setCursor } from "../cursor.js";
-import { make } from "../dom.js";
-import { download } from "../download.js";
-import { lineAt, showLine } from "../program.js";
-import { setting } from "../settings.js";
+import * as core from "../core/client.js";
+import { cursor, setCursor } from "../page/cursor.js";
+import { make } from "../page/dom.js";
+import { download } from "../page/download.js";
+import { showLine } from "../form/program-tools.js";
+import { lineAt } from "../page/program-lines.js";
+import { setting } from "../page/settings.js";
 import { drawingOf, layBelow, moveDrawing } from "./drawing.js";
 import { csvText, pngOf, svgText } from "./export.js";
 import { listen } from "./gestures.js";

@@ -1,6 +1,6 @@
 // A chart's legend: each entry is a button that hides its series, or shows it alone.
 
-import { make, makeSvg, rove } from "../dom.js";
+import { make, makeSvg, rove } from "../page/dom.js";
 
 export class Legend {
   node = make("ul", { className: "legend" });

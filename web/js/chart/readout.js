@@ -1,7 +1,7 @@
 // What stands at a chart's cursor: the sample's own values as text, and marks over the drawing.
 
-import { make, makeSvg } from "../dom.js";
-import { formatNumber } from "../number.js";
+import { make, makeSvg } from "../page/dom.js";
+import { formatNumber } from "../page/number.js";
 import { fractionOf } from "./view.js";
 
 const PLACES = { mm: 4, inch: 6, N: 2, lbf: 3, deg: 4, "%": 2 }; // as fine as is known of it

@@ -1,6 +1,6 @@
 // A chart as a table: some of its samples, the extremes among them.
 
-import { make } from "../dom.js";
+import { make } from "../page/dom.js";
 import { columnsOf, read, readAlong } from "./readout.js";
 import { nearest } from "./view.js";
 

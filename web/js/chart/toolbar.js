@@ -1,6 +1,6 @@
 // A chart's few buttons.
 
-import { make, makeSvg, rove } from "../dom.js";
+import { make, makeSvg, rove } from "../page/dom.js";
 
 const ICONS = {
   in: "M4 10H16M10 4V16",

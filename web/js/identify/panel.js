@@ -1,7 +1,7 @@
 // The view Identify: joint compliances from measured loads, frequency and damping from a measured
 // response.
 
-import * as core from "../core.js";
+import * as core from "../core/client.js";
 import { makeResponse } from "./response.js";
 import { makeStiffness } from "./stiffness.js";
 

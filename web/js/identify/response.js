@@ -1,10 +1,10 @@
 // Frequency and damping from a step or impact response.
 
-import { make, sentence } from "../dom.js";
-import { notify } from "../notice.js";
-import { formatNumber, parseNumber } from "../number.js";
-import { Outcome, remarks } from "./outcome.js";
-import { Source } from "./source.js";
+import { make, sentence } from "../page/dom.js";
+import { notify } from "../page/toast.js";
+import { formatNumber, parseNumber } from "../page/number.js";
+import { Outcome, remarks } from "./result.js";
+import { Source } from "./input.js";
 
 export function makeResponse({ ask, job, use }) {
   const from = make("input", {
@@ -51,8 +51,7 @@ export function makeResponse({ ask, job, use }) {
       before.frequency_hz === undefined
         ? { frequency_rad_s: digits(frequency_rad_s) }
         : { frequency_hz: digits(frequency_hz) };
-    next.shaper = { kind: before.kind, ...frequency, damping: digits(damping) };
-    use(next);
+    use({ ...next, shaper: { kind: before.kind, ...frequency, damping: digits(damping) } });
     notify("The job’s shaper has this frequency and damping. Undo takes them back.");
   }
 

@@ -1,12 +1,12 @@
 // Joint compliances from loaded poses.
 
-import { make, sentence } from "../dom.js";
-import { readText } from "../files.js";
-import { notify } from "../notice.js";
-import { formatNumber } from "../number.js";
-import { lengthText, lengthUnit } from "../units.js";
-import { Outcome, remarks } from "./outcome.js";
-import { Source } from "./source.js";
+import { make, sentence } from "../page/dom.js";
+import { readText } from "../core/assets.js";
+import { notify } from "../page/toast.js";
+import { formatNumber } from "../page/number.js";
+import { lengthText, lengthUnit } from "../page/units.js";
+import { Outcome, remarks } from "./result.js";
+import { Source } from "./input.js";
 
 const EXAMPLE = "identify-fanuc-r2000ic";
 const MICRO = 1e6;
@@ -61,20 +61,15 @@ export function makeStiffness({ ask, job, use }) {
   }
 
   function take(found) {
-    const next = job();
-    if (example)
-      Object.assign(
-        next,
-        structuredClone({
-          robot: example.robot,
-          tool_frame: example.tool_frame,
-          workpiece_frame: example.workpiece_frame,
-        }),
-      );
-    const name = found.robot.replace(/, compliance identified.*$/, "");
-    next.robot.name = `${name}, compliance ${found.source}`;
-    next.robot.joint_compliance_rad_per_nm = found.joint_compliance_rad_per_nm.map((c) => Number(c.toPrecision(6)));
+    const { robot, tool_frame, workpiece_frame } = example ?? job();
     const { compliance_covariance: covariance } = found;
+    const name = found.robot.replace(/, compliance identified.*$/, "");
+    const identified = {
+      ...robot,
+      name: `${name}, compliance ${found.source}`,
+      joint_compliance_rad_per_nm: found.joint_compliance_rad_per_nm.map((c) => Number(c.toPrecision(6))),
+    };
+    const next = { ...job(), robot: identified, tool_frame, workpiece_frame };
     const { stiffness_percent, stiffness_factor, compliance_covariance, ...rest } = next.uncertainty ?? {};
     next.uncertainty = covariance
       ? { ...rest, compliance_covariance: covariance }

@@ -1,11 +1,11 @@
 // The view "Placement": where on the table, the wall or the track the part would come out best.
 
-import { extent } from "../core.js";
-import { byId, debounced, make, makeSvg } from "../dom.js";
-import { formatNumber, parseNumber, plainNumber } from "../number.js";
-import { onSetting } from "../settings.js";
-import { lengthText, lengthUnit } from "../units.js";
-import { MARKS, draw, scaleGradient } from "./picture.js";
+import { extent } from "../core/client.js";
+import { byId, debounced, make, makeSvg } from "../page/dom.js";
+import { formatNumber, parseNumber, plainNumber } from "../page/number.js";
+import { onSetting } from "../page/settings.js";
+import { lengthText, lengthUnit } from "../page/units.js";
+import { MARKS, draw, scaleGradient } from "./map.js";
 import { survey } from "./pool.js";
 
 const AXES = ["x", "y", "z"];
@@ -130,10 +130,10 @@ export function makePlacement(node, { job, use }) {
     );
     if (wrong >= 0) return say(`${labels[wrong].textContent}: a number is needed.`);
     if (turned >= 0) return say(`${labels[turned].textContent}: more than the start is needed.`);
-    const own = job();
-    const xyz = own.workpiece_frame.xyz_mm;
-    own.workpiece_frame.xyz_mm = [0, 0, 0]; // the map does not depend on where the part is now
-    const json = JSON.stringify(own);
+    const { workpiece_frame: frame, ...others } = job();
+    const xyz = frame.xyz_mm;
+    // The map does not depend on where the part is now.
+    const json = JSON.stringify({ ...others, workpiece_frame: { ...frame, xyz_mm: [0, 0, 0] } });
     const key = JSON.stringify([json, plane.value, steps.value, values]);
     if (map?.key === key && !always) return show();
     running?.abort();
@@ -241,8 +241,7 @@ export function makePlacement(node, { job, use }) {
     const xyz = [...next.workpiece_frame.xyz_mm];
     const round = (v) => Math.round(v * 1000) / 1000;
     [xyz[map.axes[0]], xyz[map.axes[1]], xyz[map.axes[2]]] = [round(map.columns[i]), round(map.rows[k]), map.fixed];
-    next.workpiece_frame = { ...next.workpiece_frame, xyz_mm: xyz };
-    use(next);
+    use({ ...next, workpiece_frame: { ...next.workpiece_frame, xyz_mm: xyz } });
     say(`The part is at ${spot(i, k)}; undo takes it back.`);
     show();
   }

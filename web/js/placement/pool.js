@@ -1,6 +1,6 @@
 // Places of a map, computed by several Workers at once, a band of rows each time.
 
-import { helper } from "../core.js";
+import { helper } from "../core/client.js";
 
 const MOST = 8;
 

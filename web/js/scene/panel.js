@@ -1,6 +1,6 @@
 // The furniture around the picture: views, switches, magnification, scale of colours, labels.
 
-import { make } from "../dom.js";
+import { make } from "../page/dom.js";
 import { gradient } from "./ramp.js";
 
 const VIEW_BUTTONS = [

@@ -1,9 +1,9 @@
 // The part as it is cut in the picture: its mesh, which the core makes when it is first looked at, before or after
 // compensation, and the scale of its colours.
 
-import * as core from "../core.js";
-import { make } from "../dom.js";
-import { inLength, lengthText, lengthUnit } from "../units.js";
+import * as core from "../core/client.js";
+import { make } from "../page/dom.js";
+import { inLength, lengthText, lengthUnit } from "../page/units.js";
 import { plus } from "./camera.js";
 import { gradient, texels } from "./diverging.js";
 import { PartPainter } from "./part-gl.js";

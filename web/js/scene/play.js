@@ -1,8 +1,8 @@
 // Runs the page's cursor along the path, at the speed of the run or a multiple of it. It starts
 // only when somebody asks.
 
-import { cursor, onCursor, setCursor } from "../cursor.js";
-import { make } from "../dom.js";
+import { cursor, onCursor, setCursor } from "../page/cursor.js";
+import { make } from "../page/dom.js";
 
 const SPEEDS = [0.1, 0.25, 1, 2, 5, 10, 50];
 

@@ -1,10 +1,10 @@
 // A section through the part across the feed, where the tool is at the cursor.
 
-import * as core from "../core.js";
-import { cursor } from "../cursor.js";
-import { make, makeSvg } from "../dom.js";
-import { lineAt } from "../program.js";
-import { lengthText, lengthUnit } from "../units.js";
+import * as core from "../core/client.js";
+import { cursor } from "../page/cursor.js";
+import { make, makeSvg } from "../page/dom.js";
+import { lineAt } from "../page/program-lines.js";
+import { lengthText, lengthUnit } from "../page/units.js";
 
 const LEGEND = [
   ["nominal", "Nominal"],

@@ -1,11 +1,11 @@
 // The run in space: paths with their deviation magnified, the arm at the cursor, a floor to stand
 // on.
 
-import * as core from "../core.js";
-import { cursor, onCursor, setCursor } from "../cursor.js";
-import { lineAt } from "../program.js";
-import { onSetting } from "../settings.js";
-import { inLength, lengthText, lengthUnit } from "../units.js";
+import * as core from "../core/client.js";
+import { cursor, onCursor, setCursor } from "../page/cursor.js";
+import { lineAt } from "../page/program-lines.js";
+import { onSetting } from "../page/settings.js";
+import { inLength, lengthText, lengthUnit } from "../page/units.js";
 import { armParts, framesOf, shadow } from "./arm.js";
 import { Camera, VIEWS, length, plus, project } from "./camera.js";
 import { axesOf, grid } from "./floor.js";
@@ -17,7 +17,7 @@ import { Paths } from "./paths.js";
 import { Player } from "./play.js";
 import { texels } from "./ramp.js";
 import { Section } from "./section.js";
-import { steer } from "./steer.js";
+import { steer } from "./controls.js";
 import { tonesOf } from "./tones.js";
 
 const MOST = 50_000; // points of a path that are drawn

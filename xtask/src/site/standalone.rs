@@ -14,8 +14,8 @@ use super::modules::Script;
 use super::page::text_of;
 use super::policy::{Hashes, META};
 
-/// Replaces `web/js/files.js` in the one-file page.
-const FILES: &str = include_str!("files.js");
+/// Replaces `web/js/core/assets.js` in the one-file page.
+const FILES: &str = include_str!("assets.js");
 
 /// Lines of the page about other files: preloads, and the first script, whose modules are in the
 /// other.
@@ -31,7 +31,7 @@ const EXAMPLES: &str = "examples";
 pub(super) fn page(web: &Path, pkg: &Path) -> Result<String> {
     let read = |path: &Path| text_of(web, pkg, path);
     let module =
-        |path: &Path| if path == Path::new("js/files.js") { Ok(FILES.to_owned()) } else { read(path) };
+        |path: &Path| if path == Path::new("js/core/assets.js") { Ok(FILES.to_owned()) } else { read(path) };
     let icon = format!("data:image/svg+xml;base64,{}", BASE64_STANDARD.encode(read(Path::new("icon.svg"))?));
     let mut hashes = Hashes::default();
 

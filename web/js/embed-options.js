@@ -1,8 +1,8 @@
 // What a host page asks the embedded calculator for: read from the fragment, and refused where it
 // makes no sense.
 
-import { readText } from "./files.js";
-import { jobIn } from "./link.js";
+import { readText } from "./core/assets.js";
+import { jobIn } from "./job/link.js";
 
 const THEMES = ["auto", "light", "dark"];
 const PARTS = ["none", "scene", "budget"];

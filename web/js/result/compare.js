@@ -1,12 +1,12 @@
 // A pinned result, A, beside the shown one, B: every figure with its difference, the inputs that
 // differ, the curves in the charts. It stays pinned in this tab when the page is loaded again.
 
-import { setBeside } from "./charts.js";
-import { byId, make } from "./dom.js";
-import { formatNumber } from "./number.js";
+import { setBeside } from "../chart/panel.js";
+import { byId, make } from "../page/dom.js";
+import { formatNumber } from "../page/number.js";
 import { Pinned } from "./pinned.js";
-import { forceText, lengthText } from "./units.js";
-import { inWords } from "./words.js";
+import { forceText, lengthText } from "../page/units.js";
+import { inWords } from "../form/field-text.js";
 
 const signed = (value, text) => `${value < 0 ? "\u2212" : "+"}${text(Math.abs(value))}`;
 const FIGURES = {
@@ -24,11 +24,11 @@ let pinned = null; // { json, summary, values }: values draws its charts
 /** The pinned result, or null. */
 export const pinnedResult = () => pinned;
 
-/** Pins the shown result, `{ json, job, summary }`. */
+/** Pins the shown result, `{ text, job, summary }`. */
 export function pin(shown) {
   pinned?.values.stop();
-  pinned = { json: shown.json, summary: shown.summary, values: new Pinned(shown.json) };
-  keep(shown.json);
+  pinned = { text: shown.text, summary: shown.summary, values: new Pinned(shown.text) };
+  keep(shown.text);
   showCompared(shown);
 }
 
@@ -41,13 +41,13 @@ export function unpin(shown) {
 
 /** Pins again what was pinned before a reload. `current()` is the shown result. */
 export async function restorePin(current) {
-  const json = kept();
-  if (!json) return;
-  const values = new Pinned(json);
+  const text = kept();
+  if (!text) return;
+  const values = new Pinned(text);
   try {
     const summary = await values.summary();
     if (pinned) return values.stop();
-    pinned = { json, summary, values };
+    pinned = { text, summary, values };
     showCompared(current());
   } catch {
     values.stop(); // an older Armill's job, perhaps
@@ -78,7 +78,7 @@ export function showCompared(shown) {
   box.hidden = !pinned;
   for (const [id, figure] of Object.entries(FIGURES)) showFigure(byId(id), figure, shown);
   if (pinned) showInputs(box, shown);
-  setBeside(pinned && pinned.json !== shown.json ? pinned.values : null);
+  setBeside(pinned && pinned.text !== shown.text ? pinned.values : null);
 }
 
 function showFigure(output, { of, text }, shown) {
@@ -102,7 +102,7 @@ function showFigure(output, { of, text }, shown) {
 }
 
 function showInputs(box, shown) {
-  const differences = shown.job.differences(JSON.parse(pinned.json));
+  const differences = shown.job.differences(JSON.parse(pinned.text));
   const count = differences.length;
   byId("compare-title").textContent =
     count === 0

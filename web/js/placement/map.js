@@ -1,7 +1,7 @@
 // The map as a drawing: a cell a place, coloured by its error; hatched, dotted or empty where
 // something is the matter.
 
-import { makeSvg } from "../dom.js";
+import { makeSvg } from "../page/dom.js";
 import { colour, gradient } from "../scene/ramp.js";
 
 const SIZE = 600; // of the plot's longer side, in units of the drawing

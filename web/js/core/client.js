@@ -4,8 +4,8 @@
 // computes the next one. A run that is invalid, cancelled or trapped therefore never takes the
 // shown result away.
 
-import { compileCore, startWorker } from "./files.js";
-import { textOf } from "./job.js";
+import { compileCore, startWorker } from "./assets.js";
+import { textOf } from "../job/job.js";
 
 const SUPERSEDE_MS = [400, 1500]; // a run older than this is cut off when a newer job arrives; a younger one may finish
 const LARGE = 100_000; // samples: a Worker that has held more is not used again, for its memory never shrinks
@@ -163,7 +163,7 @@ async function compute() {
       [shown, spare] = [worker, shown ?? spawn()];
       good = json;
       lasted = performance.now() - since;
-      events.onresult(result, lasted);
+      events.onresult({ text: json, ...result }, lasted);
       spare.ask("release").catch(() => {}); // it may be stopped before
     } catch (error) {
       if (error.fatal) retire(worker);

@@ -2,7 +2,7 @@
 // textarea for half a minute and again with every change, so a long one is kept aside, and only as
 // many of its lines as fit are shown.
 
-import { make } from "./dom.js";
+import { make } from "../page/dom.js";
 
 const LONG = 200_000; // characters
 const TALLEST = 8e6; // px: browsers draw nothing beyond some 16 million

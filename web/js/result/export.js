@@ -1,8 +1,8 @@
 // The program to take away: which controller it is for, what it is worth, and its files.
 
-import * as core from "./core.js";
-import { byId, make } from "./dom.js";
-import { download } from "./download.js";
+import * as core from "../core/client.js";
+import { byId, make } from "../page/dom.js";
+import { download } from "../page/download.js";
 
 const QUIET_MS = 400; // inputs that still move are not judged
 const LONG_MS = 3000; // a run that takes longer is judged when it is exported: several runs are made for it
@@ -33,7 +33,7 @@ const OTHERS = {
 let names; // controller -> name
 let wanted; // the controller that was chosen here, if it is not the job's
 let waiting; // timer
-let shown; // the result to judge: { summary, preview } and how long its run took [ms]
+let shown; // the result to judge: { summary, preview, took } with how long its run took [ms]
 
 /** Fills the menu of controllers; `say` and `warn` show a text. */
 export function makeTakeAway(fields, say, warn) {
@@ -56,9 +56,10 @@ export function makeTakeAway(fields, say, warn) {
   byId("download-program").addEventListener("click", () => save(say, warn));
 }
 
-/** Judges a new result once it has stood for a while; `took` is how long its run took [ms]. */
-export function judgeTakeAway({ summary, preview }, took) {
-  shown = { summary, preview, took };
+/** Judges a new result once it has stood for a while. */
+export function judgeTakeAway(result) {
+  shown = result;
+  const { summary } = result;
   const stock = Boolean(summary.surface);
   for (const option of byId("export-format").options)
     if (OTHERS[option.value]?.stock) option.hidden = option.disabled = !stock;

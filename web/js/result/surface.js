@@ -1,8 +1,8 @@
 // The surface that is left, in words: the figures, and the worst places, each leading there.
 
-import { setCursor } from "./cursor.js";
-import { byId, make } from "./dom.js";
-import { lengthText, lengthUnit } from "./units.js";
+import { setCursor } from "../page/cursor.js";
+import { byId, make } from "../page/dom.js";
+import { lengthText, lengthUnit } from "../page/units.js";
 
 /** Writes the surface of a summary, if it has one; its places move the cursor. */
 export function showSurface({ surface, samples, duration_s }) {

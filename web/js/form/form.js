@@ -1,10 +1,10 @@
 // Builds the inputs from the core's list of fields and keeps them and the job in step.
 
-import { byId, make, sentence } from "./dom.js";
+import { byId, make, sentence } from "../page/dom.js";
 import { editorFor, idOf, Mistake } from "./editors.js";
-import { FROM_STOCK } from "./job.js";
-import { scrub } from "./scrub.js";
-import { asText, brief, helpText, withOwn } from "./words.js";
+import { FROM_STOCK } from "../job/job.js";
+import { scrub } from "./drag-number.js";
+import { asText, brief, helpText, withOwn } from "./field-text.js";
 
 const GROUPS = {
   robot: "Robot",

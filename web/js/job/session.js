@@ -1,10 +1,10 @@
 // The inputs over time: what the page opens with, undo and redo, and what is kept of them.
 
 import * as autosave from "./autosave.js";
-import { byId } from "./dom.js";
-import { History } from "./history.js";
+import { byId } from "../page/dom.js";
+import { History } from "./undo.js";
 import { holdsJob, jobIn } from "./link.js";
-import { notify } from "./notice.js";
+import { notify } from "../page/toast.js";
 
 const TYPED = "input:not([type=checkbox], [type=range]), textarea"; // what the browser undoes by itself while it is typed into
 const EARLIER = "Computed with an earlier model; figures differ.";

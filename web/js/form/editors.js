@@ -2,9 +2,9 @@
 // mark(line), show(line), step(count) } of which mark and show are for texts and step for numbers alone. read() gives the
 // value or throws a Mistake; at(rest) gives the input that an error path such as "[1].a_mm" means.
 
-import { make } from "./dom.js";
-import { listing } from "./listing.js";
-import { parseNumber, plainNumber, stepped } from "./number.js";
+import { make } from "../page/dom.js";
+import { listing } from "./program-text.js";
+import { parseNumber, plainNumber, stepped } from "../page/number.js";
 
 /** What is wrong with what was typed, and in which input. */
 export class Mistake extends Error {

@@ -1,7 +1,7 @@
 // The pinned result's own Worker: it computes the job again when a chart first asks for its curves,
 // or after a reload.
 
-import { helper } from "./core.js";
+import { helper } from "../core/client.js";
 
 export class Pinned {
   #json;

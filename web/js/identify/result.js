@@ -2,8 +2,8 @@
 // and its chart, or what is wrong.
 
 import { Figure } from "../chart/figure.js";
-import { debounced, make } from "../dom.js";
-import { onSetting } from "../settings.js";
+import { debounced, make } from "../page/dom.js";
+import { onSetting } from "../page/settings.js";
 
 export class Outcome {
   #ask;

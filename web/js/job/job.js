@@ -43,6 +43,8 @@ export class Job {
   #model;
   #drafts = new Map(); // values of fields whose shape is not chosen now, kept for the way back
   #data;
+  #frozen; // #data as it is handed out, until the next edit
+  #text; // the same as text
 
   /**
    * A job from its plain object, and the core's fields, presets `{ robots, materials }` and number of
@@ -55,8 +57,14 @@ export class Job {
     this.load(data);
   }
 
-  get json() {
-    return textOf(this.#data);
+  /** The job as plain data, which nobody can change. */
+  get data() {
+    return (this.#frozen ??= frozen(copy(this.#data)));
+  }
+
+  /** The job as the text that is computed and saved. */
+  get text() {
+    return (this.#text ??= textOf(this.#data));
   }
 
   /** Time between samples [s]. */
@@ -76,6 +84,7 @@ export class Job {
 
   /** Replaces the whole job; one of an earlier model is of this one from now on. */
   load(data, drafts = {}) {
+    this.#edit();
     const own = copy(listed(data));
     this.#data = this.isAfter(own) ? { ...own, model: this.#model } : own;
     this.#drafts = new Map(Object.entries(copy(drafts)));
@@ -106,6 +115,7 @@ export class Job {
   }
 
   set(field, value) {
+    this.#edit();
     if (field.path.startsWith("robot.") && field.path !== "robot.name") this.#forgetCovariance();
     if (decides(field)) return this.#reshape(field, value);
     if (field.path === ENGAGEMENT && value === FROM_STOCK) return this.#forget(ENGAGEMENT);
@@ -119,6 +129,7 @@ export class Job {
 
   /** Takes the field back to its default. */
   reset(field) {
+    this.#edit();
     const optional = this.#overrules(field) || field.when?.path === "uncertainty" || this.#isOptional(field);
     if (optional) this.#forget(field.path);
     else this.set(field, structuredClone(field.default));
@@ -161,6 +172,7 @@ export class Job {
 
   /** Gives the frequency in the other unit: same value, other key. Returns the other field. */
   swapUnit(field) {
+    this.#edit();
     const other = this.otherUnit(field);
     const value = this.get(field);
     const part = this.#read(parentOf(field.path));
@@ -168,6 +180,11 @@ export class Job {
     const factor = field.path.endsWith("_hz") ? TURN : 1 / TURN;
     part[keyOf(other.path)] = Number((value * factor).toPrecision(12));
     return other;
+  }
+
+  /** What was handed out before is not the job any more. */
+  #edit() {
+    this.#frozen = this.#text = undefined;
   }
 
   /** A covariance belongs to the compliances that it was identified with. */
@@ -313,6 +330,12 @@ function copy(value) {
   if (Array.isArray(value)) return value.map(copy);
   if (typeof value !== "object" || value === null) return value;
   return Object.fromEntries(Object.entries(value).map(([key, part]) => [key, copy(part)]));
+}
+
+/** Plain data that cannot be changed at any depth. */
+function frozen(value) {
+  if (typeof value === "object" && value !== null) Object.values(value).forEach(frozen);
+  return Object.freeze(value);
 }
 
 /** What a field's value is kept under: a program in one language is none in another. */

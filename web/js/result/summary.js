@@ -2,11 +2,11 @@
 
 import { showBudget } from "./budget.js";
 import { showCut } from "./cut.js";
-import { byId, make } from "./dom.js";
+import { byId, make } from "../page/dom.js";
 import { showFeedRule } from "./feed-rule.js";
-import { formatNumber, plainNumber } from "./number.js";
+import { formatNumber, plainNumber } from "../page/number.js";
 import { showSurface } from "./surface.js";
-import { errorText, forceText, forceUnit, largeText, lengthText, lengthUnit } from "./units.js";
+import { errorText, forceText, forceUnit, largeText, lengthText, lengthUnit } from "../page/units.js";
 
 /** Puts a number on the page: rounded to read, in full in `data-value`. */
 function put(id, value, format = formatNumber) {

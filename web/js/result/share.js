@@ -1,12 +1,12 @@
 // The dialog that hands out the shown result: as a link, as Markdown, as a frame to embed. Nothing
 // is sent anywhere.
 
-import { byId, make } from "./dom.js";
-import { download } from "./download.js";
-import { EMBEDDABLE } from "./files.js";
-import { fragmentOf, LONGEST_LINK } from "./link.js";
+import { byId, make } from "../page/dom.js";
+import { download } from "../page/download.js";
+import { EMBEDDABLE } from "../core/assets.js";
+import { fragmentOf, LONGEST_LINK } from "../job/link.js";
 import { markdown } from "./markdown.js";
-import { formatNumber } from "./number.js";
+import { formatNumber } from "../page/number.js";
 
 const FORMS = {
   link: {
@@ -20,7 +20,7 @@ const FORMS = {
   ...(EMBEDDABLE && { embed: { title: "Embed", note: "For a page of your own: a frame that shows this job." } }),
 };
 
-/** Makes the dialog; the function it returns opens it for `{ json, job, standard, summary }`. */
+/** Makes the dialog; the function it returns opens it for `{ text, job, standard, summary }`. */
 export function shareDialog() {
   const text = make("textarea", {
     id: "share-text",
@@ -91,13 +91,13 @@ export function shareDialog() {
       said.textContent = "This browser does not let the page copy. The text is selected: copy it with Ctrl+C or ⌘C.";
     }
   });
-  file.addEventListener("click", () => download("armill-job.json", "application/json", `${given.json}\n`));
+  file.addEventListener("click", () => download("armill-job.json", "application/json", `${given.text}\n`));
   close.addEventListener("click", () => dialog.close());
 
   return async (shown) => {
     given = shown;
     const address = new URL(
-      `#${await fragmentOf(JSON.stringify(JSON.parse(shown.json)))}`,
+      `#${await fragmentOf(JSON.stringify(JSON.parse(shown.text)))}`,
       location.href.replace(/#.*/, ""),
     ).href;
     length = address.length;

@@ -1,7 +1,7 @@
 // A result as a few lines of Markdown, for a report or a message.
 
-import { formatError, formatNumber } from "./number.js";
-import { inWords } from "./words.js";
+import { formatError, formatNumber } from "../page/number.js";
+import { inWords } from "../form/field-text.js";
 
 /**
  * `job` is the Job of the result, `standard` the default job's plain object, `link` its address or

@@ -1,10 +1,10 @@
 // Draws the charts of one panel, and keeps them together: one cursor, one range of time, one set of
 // units.
 
-import { Figure } from "./chart/figure.js";
-import { onCursor } from "./cursor.js";
-import { debounced, make } from "./dom.js";
-import { onSetting } from "./settings.js";
+import { Figure } from "./figure.js";
+import { onCursor } from "../page/cursor.js";
+import { debounced, make } from "../page/dom.js";
+import { onSetting } from "../page/settings.js";
 
 let available = []; // { name, title, view, figure, kind } of the shown result
 let panel = null;

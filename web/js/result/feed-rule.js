@@ -1,8 +1,8 @@
 // What the feed rule gains over the programmed feed: a sentence, and its figures side by side.
 
-import { byId, make } from "./dom.js";
-import { formatNumber } from "./number.js";
-import { errorText, forceText, forceUnit, lengthUnit } from "./units.js";
+import { byId, make } from "../page/dom.js";
+import { formatNumber } from "../page/number.js";
+import { errorText, forceText, forceUnit, lengthUnit } from "../page/units.js";
 
 const ROWS = [
   ["Largest mean force", forceUnit, "largest_force_n", forceText],

@@ -1,7 +1,7 @@
 // The files that this page has beside it. The one-file page has its own version of this module and
 // finds them inside itself.
 
-const urlOf = (path) => new URL(`../${path}`, import.meta.url);
+const urlOf = (path) => new URL(path, document.baseURI);
 
 /** The text of a file of the site. */
 export async function readText(path) {

@@ -1,8 +1,8 @@
 // The error budget: which joint and which source gives how much of the contour error, as bars,
 // table and sentence.
 
-import { byId, make } from "./dom.js";
-import { inLength, lengthUnit } from "./units.js";
+import { byId, make } from "../page/dom.js";
+import { inLength, lengthUnit } from "../page/units.js";
 
 const NAMES = ["Joint 1", "Joint 2", "Joint 3", "Joint 4", "Joint 5", "Joint 6", "Tool", "Shaping"];
 const KEYS = ["s1", "s2", "s3", "s4", "s5", "s6", "tool", "shaping"];

@@ -1,9 +1,9 @@
 // The robot's table as a picture: the arm from its side with all joints at zero, so that a wrong
 // number is seen at once.
 
-import { makeSvg, make } from "./dom.js";
-import { formatLength } from "./number.js";
-import { framesOf } from "./scene/arm.js";
+import { makeSvg, make } from "../page/dom.js";
+import { formatLength } from "../page/number.js";
+import { framesOf } from "./arm.js";
 
 const [WIDTH, HEIGHT, MARGIN] = [320, 160, 16];
 
@@ -14,12 +14,12 @@ export function makeArmView(ask) {
   const node = make("figure", { className: "arm-view" }, svg, caption);
   let drawn = "";
   const show = async (job) => {
-    const { robot, tool_frame } = JSON.parse(job.json);
+    const { robot, tool_frame } = job.data;
     const wanted = JSON.stringify([robot, tool_frame]);
     if (wanted === drawn) return;
     drawn = wanted;
     try {
-      const frames = framesOf(await ask(job.json));
+      const frames = framesOf(await ask(job.text));
       if (wanted === drawn) draw(svg, caption, frames);
     } catch {
       drawn = ""; // the form says what is wrong; the next edit asks again

@@ -1,8 +1,8 @@
 // A text of measurements: pasted, opened, dropped or an example; and where in it something is
 // wrong.
 
-import { debounced, make, sentence } from "../dom.js";
-import { readText } from "../files.js";
+import { debounced, make, sentence } from "../page/dom.js";
+import { readText } from "../core/assets.js";
 
 const LONG = 200_000; // characters: browsers lay out more than that for seconds
 const TYPING_MS = 300;

@@ -1,27 +1,16 @@
-// Programs: opened, dropped or taken from the examples; what was understood of them; the way from a
-// line to the charts and back.
+// Programs opened, dropped, pasted or taken from the examples, and the way from one of their lines to
+// the charts and back.
 
-import { byId, make } from "./dom.js";
-import { readText } from "./files.js";
-import { listing } from "./listing.js";
-import { formatNumber } from "./number.js";
-import { inLength, lengthUnit } from "./units.js";
+import { readText } from "../core/assets.js";
+import { make } from "../page/dom.js";
+import { timeOf } from "../page/program-lines.js";
+import { listing } from "./program-text.js";
 
-const LANGUAGES = { gcode: "G-code", apt: "APT / CLDATA", csv: "Points" };
-const DIALECTS = {
-  fanuc: " for Fanuc or Haas",
-  linuxcnc: " for LinuxCNC",
-  grbl: " for grbl",
-  siemens: " for Siemens",
-  mach: " for Mach",
-};
 const ENDINGS = {
   apt: ["apt", "aptsource", "cls", "cl", "ncl"],
   csv: ["csv", "txt", "tsv", "xyz"],
   gcode: ["nc", "ngc", "gcode", "g", "tap", "cnc", "mpf", "spf", "eia", "iso"],
 };
-
-const MOST_IGNORED = 40; // words listed
 
 /**
  * The language of a program by what stands in it; where that does not tell, by the ending of its
@@ -106,78 +95,6 @@ export async function openProgram(file, use, fail) {
 /** A program pasted in place of the whole text is opened as one from a file is. */
 export function followPaste(use) {
   listing.onreplaced = (text) => use(languageOf("", text), text);
-}
-
-/** What the core understood, above the path's charts; nothing for a path that was drawn. */
-export function showProgram(program, duration) {
-  const box = byId("program");
-  box.hidden = !program;
-  if (!program) return;
-  const read = (value) => String(Number(inLength(value).toFixed(lengthUnit() === "mm" ? 3 : 4))).replace("-", "\u2212");
-  const span = (low, high) => (read(low) === read(high) ? read(low) : `${read(low)} to ${read(high)}`);
-  const extents = ["X", "Y", "Z"].map((axis, i) => `${axis} ${span(program.lowest_mm[i], program.highest_mm[i])}`);
-  const facts = [
-    [
-      "Language",
-      `${LANGUAGES[program.language]}${DIALECTS[program.dialect] ?? ""}, ${program.lines} lines in ${program.unit}`,
-    ],
-    [
-      "Moves",
-      `${program.cutting_moves} that cut, ${program.rapid_moves} rapid${program.multi_axis ? "; the tool axis turns" : ""}`,
-    ],
-    [`Extents, ${lengthUnit()}`, extents.join(", ")],
-    [
-      `Feeds, ${lengthUnit()}/s`,
-      program.feeds_mm_s ? span(...program.feeds_mm_s) : "none in the program: the job's feed holds",
-    ],
-    ["Time, s", formatNumber(duration, 4)],
-    ["Without effect", program.ignored.length ? "" : "nothing"],
-  ];
-  byId("understood").replaceChildren(
-    ...facts.map(([name, text]) => make("div", {}, make("dt", {}, name), make("dd", {}, text))),
-  );
-  if (program.ignored.length) byId("understood").lastChild.lastChild.append(ignoredList(program.ignored));
-}
-
-function ignoredList(ignored) {
-  const rest = ignored.length - MOST_IGNORED;
-  const more = rest > 0 ? [make("li", {}, `and ${rest} more`)] : [];
-  return make("ul", {}, ...ignored.slice(0, MOST_IGNORED).map(ignoredItem), ...more);
-}
-
-function ignoredItem({ word, lines }) {
-  const shown = lines.slice(0, 5).map((line) => {
-    const button = make("button", { type: "button", className: "quiet" }, String(line));
-    button.setAttribute("aria-label", `Show line ${line}`);
-    button.addEventListener("click", () => showLine(line));
-    return button;
-  });
-  return make(
-    "li",
-    {},
-    make("code", {}, word),
-    lines.length === 1 ? " in line " : " in lines ",
-    ...shown,
-    lines.length > 5 ? ` and ${lines.length - 5} more` : "",
-  );
-}
-
-let lines = null; // program line of each sample of the shown result
-let sampleTime = 1;
-
-/** Takes over the lines of a new result; `null` for a path that was drawn. */
-export function setLines(column, time) {
-  [lines, sampleTime] = [column, time];
-}
-
-/** The line that runs at a time [s], or undefined. */
-export const lineAt = (time) =>
-  lines?.[Math.min(lines.length - 1, Math.max(0, Math.round(time / sampleTime)))] || undefined;
-
-/** The time [s] at which a line starts to run, or undefined. */
-function timeOf(line) {
-  const sample = lines?.indexOf(line) ?? -1;
-  return sample < 0 ? undefined : sample * sampleTime;
 }
 
 /** Points at a line of the program where it was typed. */

@@ -1,9 +1,9 @@
 // The cut of the shown result: a drawing of the engagement, the figures of tool, material and
 // spindle, and what the wall keeps of the deflection.
 
-import { byId, make, makeSvg } from "./dom.js";
-import { formatNumber } from "./number.js";
-import { errorText, forceText, forceUnit, lengthText, lengthUnit } from "./units.js";
+import { byId, make, makeSvg } from "../page/dom.js";
+import { formatNumber } from "../page/number.js";
+import { errorText, forceText, forceUnit, lengthText, lengthUnit } from "../page/units.js";
 
 const RADIUS = 34; // of the tool in the drawing
 const EDGE = 50; // half the drawing

@@ -1,7 +1,7 @@
 // Fields and their values in words.
 
-import { KIENZLE, OWN } from "./job.js";
-import { plainNumber } from "./number.js";
+import { KIENZLE, OWN } from "../job/job.js";
+import { plainNumber } from "../page/number.js";
 
 /** A preset choice that also offers one's own numbers. */
 export function withOwn(field) {

@@ -4,8 +4,8 @@
 // changed last anywhere (local storage). So two tabs never change each other's inputs, and
 // `onshared` tells when they compete.
 
-import { debounced } from "./dom.js";
-import { isDown, named, pickUp, putDown } from "./shelf.js";
+import { debounced } from "../page/dom.js";
+import { isDown, named, pickUp, putDown } from "./long-texts.js";
 
 const KEY = "armill-inputs";
 const FORMAT = 1;

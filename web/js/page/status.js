@@ -1,0 +1,25 @@
+// How the calculator's state is shown: an attribute for the styles, one line of status, one alert.
+
+import { byId, make, sentence } from "./dom.js";
+
+/** The calculator's state, of which the styles depend. */
+export const become = (state) => (byId("results").dataset.state = state);
+
+/** The line of status. */
+export const say = (text) => (byId("status").textContent = text);
+
+/** Shows what is wrong, with a button for its `remedy` { label, go }, if there is one. */
+export function warn(message, remedy) {
+  const box = byId("alert");
+  box.replaceChildren(make("p", {}, sentence(message)));
+  if (!remedy) return;
+  const button = make("button", { type: "button" }, remedy.label);
+  button.addEventListener("click", remedy.go);
+  box.append(button);
+}
+
+/** Nothing is wrong any more. */
+export const calm = () => byId("alert").replaceChildren();
+
+/** Whether a run takes long enough to show its progress. */
+export const slow = (on) => byId("results").classList.toggle("slow", on);
