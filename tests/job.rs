@@ -5,7 +5,7 @@
 mod common;
 
 use armill::job::fields::{FieldKind, fields};
-use armill::report::Severity;
+use armill::report::{Severity, VerdictState};
 use armill::{Error, Job};
 use common::{job_text, refused, run};
 use serde_json::{Value, json};
@@ -586,4 +586,35 @@ fn fingerprints_are_pinned() {
     for (name, changes, fingerprint) in common::pinned() {
         assert_eq!(run(&changes).fingerprint(), fingerprint, "{name}: numbers have changed");
     }
+}
+
+#[test]
+fn the_opening_job_can_run_and_is_whole() {
+    let job = Job::opening().unwrap();
+    // What a person meets first names every input, so that a later default changes nothing of it.
+    assert_eq!(Job::from_json(&job.to_json()).unwrap(), job);
+    let report = armill::run(&job, &mut armill::Progress::none()).unwrap();
+    let summary = report.summary();
+    let severe: Vec<_> = summary.warnings.iter().filter(|each| each.severity != Severity::Note).collect();
+    assert!(severe.is_empty(), "{severe:?}");
+    assert_ne!(summary.verdict_state, VerdictState::CannotRun);
+    // The part: 120 x 80 x 12 mm, its pocket 60 x 40 x 6 mm with corners of 8 mm, all of it cut.
+    let pocket = (60.0 * 40.0 - (4.0 - std::f64::consts::PI) * 64.0) * 6.0;
+    let rim = (122.0 * 82.0 - (120.0 * 80.0 - (4.0 - std::f64::consts::PI) * 100.0)) * 12.0;
+    let removed = summary.cut.removed_cm3.unwrap() * 1e3;
+    assert!((removed - pocket - rim).abs() < 0.005 * (pocket + rim), "{removed} {pocket} {rim}");
+    let program = summary.program.unwrap();
+    assert_eq!(program.spindle_rpm, Some([12000.0, 12000.0]));
+}
+
+#[test]
+fn a_program_proposes_its_own_spindle_speed() {
+    let proposed = |text: &str| {
+        let path = json!({"kind": "gcode", "text": text});
+        armill::setup::proposed_cutting(&Job::from_json(&json!({"path": path}).to_string()).unwrap()).unwrap()
+    };
+    let text = "G21 G90\nS6000 M3\nG0 X600 Y-60 Z120\nG1 Z100 F1200\nS8000\nY20\nM30";
+    assert_eq!(proposed(text).map(|cut| cut.spindle_rpm), Some(6000.0));
+    assert_eq!(proposed("G21 G90\nG0 X600 Z120\nG1 Z100 F1200"), None);
+    assert_eq!(armill::setup::proposed_cutting(&Job::default()).unwrap(), None);
 }

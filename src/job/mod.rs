@@ -16,6 +16,7 @@ mod program;
 mod stock;
 mod uncertainty;
 mod read;
+mod opening;
 pub mod presets;
 pub mod fields;
 

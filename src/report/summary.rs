@@ -12,6 +12,7 @@ use crate::report::{
     Budget, CutFigures, FeedRuleGain, Report, RollGain, Stops, SurfaceFigures, VerdictState, WallFigures,
     Warning,
 };
+use crate::setup::spindle_speeds;
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -184,6 +185,9 @@ pub struct ProgramSummary {
     /// Smallest and largest feed that the program states [mm/s].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub feeds_mm_s: Option<[f64; 2]>,
+    /// Smallest and largest spindle speed that the program states [1/min].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spindle_rpm: Option<[f64; 2]>,
     /// Words without effect, each with its lines.
     pub ignored: Vec<IgnoredWord>,
 }
@@ -231,6 +235,10 @@ impl ProgramSummary {
             lowest_mm: lowest,
             highest_mm: highest,
             feeds_mm_s: feeds,
+            spindle_rpm: spindle_speeds(path).fold(None, |range: Option<[f64; 2]>, speed| {
+                let [least, most] = range.unwrap_or([speed; 2]);
+                Some([least.min(speed), most.max(speed)])
+            }),
             ignored: words
                 .into_iter()
                 .map(|(word, lines)| IgnoredWord { word: word.to_owned(), lines })

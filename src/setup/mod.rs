@@ -9,6 +9,7 @@ mod feed_rule;
 mod motion;
 mod uncertainty;
 mod reserved;
+mod proposal;
 pub mod program;
 
 use stock::StockEngagement;
@@ -16,6 +17,8 @@ use stock::StockEngagement;
 pub use cutting::ResolvedMaterial;
 pub use feed_rule::{FeedByForce, PathInStock};
 pub use program::{Controller, ProgramOptions};
+pub(crate) use proposal::spindle_speeds;
+pub use proposal::{ProposedCutting, proposed_cutting};
 pub use robot::robot;
 pub use stock::proposed as proposed_stock;
 

@@ -1,5 +1,6 @@
 //! Files of a run, and how accurate its programs are.
 
+use crate::export::post::robot::PackageFile;
 use crate::export::{self, ExportOptions, archive};
 use crate::setup::Controller;
 use crate::units::MM;
@@ -95,4 +96,11 @@ impl Run {
         let _ = room.try_reserve_exact(bytes);
         drop(std::hint::black_box(room));
     }
+}
+
+/// Texts as one zip archive, each at its path in a folder; the same texts give the same bytes.
+#[wasm_bindgen]
+pub fn zip(folder: &str, paths: Vec<String>, texts: Vec<String>) -> Result<Vec<u8>, JsValue> {
+    let files: Vec<_> = paths.into_iter().zip(texts).map(|(path, text)| PackageFile { path, text }).collect();
+    archive::zip(folder, &files).map_err(|error| thrown(&error))
 }

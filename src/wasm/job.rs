@@ -48,6 +48,7 @@ export interface Stock {
   points_mm?: [number, number][]; bottom_mm?: number; top_mm?: number; stl?: string;
   earlier?: { text: string; diameter_mm: number; corner_radius_mm?: number }[];
 }
+export interface ProposedCutting { spindle_rpm: number; feed_per_tooth_mm: "from_feed"; }
 export interface Format { id: string; name: string; extension: string; note: string; }
 "#;
 
@@ -55,6 +56,12 @@ export interface Format { id: string; name: string; extension: string; note: str
 #[wasm_bindgen]
 pub fn default_job() -> String {
     Job::default().to_json()
+}
+
+/// The job that the page opens with, a bracket on a KUKA KR 500-3 MT, as JSON text.
+#[wasm_bindgen]
+pub fn opening_job() -> Result<String, JsValue> {
+    Job::opening().map(|job| job.to_json()).map_err(|error| thrown(&error))
 }
 
 /// Checks a job without computing it; throws an error if it is invalid.
@@ -104,4 +111,12 @@ pub fn place_in_front(json: &str) -> Result<Float64Array, JsValue> {
 pub fn proposed_stock(json: &str) -> Result<JsValue, JsValue> {
     let stock = Job::from_json(json).and_then(|job| setup::proposed_stock(&job));
     stock.map_err(|error| thrown(&error))?.map_or(Ok(JsValue::UNDEFINED), |stock| object(&stock))
+}
+
+/// The cut that a job's program states, as keys of the job's `cutting`. Undefined if it states no
+/// spindle speed. Throws an error if the path cannot be read.
+#[wasm_bindgen(unchecked_return_type = "ProposedCutting | undefined")]
+pub fn proposed_cutting(json: &str) -> Result<JsValue, JsValue> {
+    let cutting = Job::from_json(json).and_then(|job| setup::proposed_cutting(&job));
+    cutting.map_err(|error| thrown(&error))?.map_or(Ok(JsValue::UNDEFINED), |cutting| object(&cutting))
 }

@@ -16,8 +16,12 @@ mod placement;
 mod part;
 mod thesis;
 
+pub use export::zip;
 pub use identify::{Identified, identify_response, identify_stiffness};
-pub use job::{arm, check, default_job, fields, formats, place_in_front, presets, proposed_stock};
+pub use job::{
+    arm, check, default_job, fields, formats, opening_job, place_in_front, presets, proposed_cutting,
+    proposed_stock,
+};
 pub use placement::Survey;
 pub use run::{Run, run};
 pub use thesis::thesis_recomputed;

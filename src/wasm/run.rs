@@ -31,6 +31,7 @@ export interface Understood {
   dialect?: "fanuc" | "linuxcnc" | "grbl" | "siemens" | "mach" | "unknown"; cutting_moves: number; rapid_moves: number;
   multi_axis: boolean;
   lowest_mm: [number, number, number]; highest_mm: [number, number, number]; feeds_mm_s?: [number, number];
+  spindle_rpm?: [number, number];
   ignored: { word: string; lines: number[] }[];
 }
 export interface Effort { joint_travel_deg: number; joint_speed_deg_s: number; error_mm: number; }
