@@ -122,20 +122,32 @@ pub(crate) fn example(file: &str, kind: &str) -> Vec<(&'static str, Value)> {
     ]
 }
 
-/// An example as the page opens it: with its stock and tool, without the default job's shaper.
+/// What a program decides of the cut, as the page takes it over: its first spindle speed, and the chip
+/// that follows from it.
+pub(crate) fn own_cutting(text: &str) -> Vec<(&'static str, Value)> {
+    let words = text.split(['\n', ' ']).filter_map(|word| word.strip_prefix('S'));
+    let speed: Option<f64> = words.filter_map(|digits| digits.trim().parse().ok()).next();
+    speed.map_or(Vec::new(), |speed| {
+        vec![("cutting.spindle_rpm", json!(speed)), ("cutting.feed_per_tooth_mm", json!("from_feed"))]
+    })
+}
+
+/// An example as the page opens it: with its stock, tool and spindle speed, without the default job's
+/// shaper.
 pub(crate) fn opened_example(file: &str) -> Vec<(&'static str, Value)> {
     let text = std::fs::read_to_string(folder().join("index.json")).unwrap();
     let index: Vec<Value> = serde_json::from_str(&text).unwrap();
     let entry = index.iter().find(|entry| entry["file"] == file).unwrap();
     let program = std::fs::read_to_string(folder().join(file)).unwrap();
     let mut changes = vec![
-        ("path", json!({"kind": entry["kind"], "text": program})),
+        ("path", json!({"kind": entry["kind"], "text": &program})),
         ("shaper", json!("none")),
         ("stock", entry["stock"].clone()),
     ];
     for (key, path) in [("diameter_mm", "tool.diameter_mm"), ("corner_radius_mm", "tool.corner_radius_mm")] {
         changes.push((path, entry["tool"][key].clone()));
     }
+    changes.extend(own_cutting(&program));
     changes
 }
 

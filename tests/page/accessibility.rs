@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::browser::{DESKTOP, Key, PHONE, Page, Result, setting, visit};
+use crate::browser::{DESKTOP, Key, PHONE, Page, Result, THESIS, setting, visit};
 use crate::{current, stale, standalone, unfold};
 
 /// axe-core's serious and critical findings on the current page: rule, place and reason, one per
@@ -45,7 +45,7 @@ async fn unfold_all(page: &Page) -> Result {
 
 #[test]
 fn every_view_is_accessible() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         let mut notes = Vec::new();
         current(page).await?;
         let tabs = page.js("return [...document.querySelectorAll('[role=tab]')].map(tab => tab.id)").await?;
@@ -72,7 +72,7 @@ fn every_view_is_accessible() -> Result {
 
 #[test]
 fn every_answer_is_accessible() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         let mut notes = Vec::new();
         current(page).await?;
         page.type_into("#motion-feed_mm_s", "-5").await?;
@@ -90,13 +90,13 @@ fn every_answer_is_accessible() -> Result {
         for group in ["stock", "cutting"] {
             unfold(page, group).await?;
         }
-        page.click("#tab-forces").await?;
+        page.view("forces").await?;
         page.wait_for("document.querySelector('#chart-removal svg .series')", 30.0).await?;
         look(page, "in a stock", &mut notes).await?;
         page.choose("#examples", "dome.apt").await?;
         page.wait_for("document.querySelector('#path-kind').value === 'apt'", 20.0).await?;
         current(page).await?;
-        page.click("#tab-path").await?;
+        page.view("path").await?;
         look(page, "program", &mut notes).await?;
         page.type_into("#path-text", "G41").await?;
         stale(page).await?;
@@ -107,7 +107,7 @@ fn every_answer_is_accessible() -> Result {
 
 #[test]
 fn every_dialog_is_accessible() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         let mut notes = Vec::new();
         current(page).await?;
         page.click("#open-settings").await?;
@@ -129,7 +129,7 @@ fn every_dialog_is_accessible() -> Result {
 #[test]
 fn a_phone_and_the_other_pages_are_accessible() -> Result {
     let mut notes = Vec::new();
-    visit("/", PHONE, async |page| {
+    visit(THESIS, PHONE, async |page| {
         current(page).await?;
         look(page, "phone", &mut notes).await?;
         page.click("#inputs-toggle").await?;

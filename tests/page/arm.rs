@@ -1,6 +1,6 @@
 //! The arm's load, its joint springs and its free tool spin, entered on the page.
 
-use crate::browser::{DESKTOP, Result, visit};
+use crate::browser::{DESKTOP, Result, THESIS, visit};
 use crate::chart::{Chart, column};
 use crate::common::run;
 use crate::{current, shows, text, unfold};
@@ -8,7 +8,7 @@ use serde_json::json;
 
 #[test]
 fn weight_and_worn_joints_are_entered_as_rows() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         unfold(page, "robot").await?;
         page.type_into("#robot-loads_kg_mm", "6, 9, 20, 0, 120").await?;
@@ -33,7 +33,7 @@ fn weight_and_worn_joints_are_entered_as_rows() -> Result {
 
 #[test]
 fn a_free_spin_says_what_it_gains() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         unfold(page, "frames").await?;
         page.type_into("#tool_frame-rpy_deg-pitch", "45").await?;

@@ -29,6 +29,9 @@ pub const DESKTOP: Size = (1280, 800);
 /// A phone's viewport, held upright.
 pub const PHONE: Size = (390, 844);
 
+/// The page with the thesis's job, which the default job is too.
+pub const THESIS: &str = "/#example=thesis";
+
 /// Browser capabilities, shared with wasm-bindgen's test runner.
 const CAPABILITIES: &str = include_str!("../../.cargo/webdriver.json");
 
@@ -212,6 +215,15 @@ impl Page {
     /// If nothing has the focus.
     pub async fn press(&self, keys: impl Display) -> Result {
         Ok(self.client.active_element().await?.send_keys(&keys.to_string()).await?)
+    }
+
+    /// Opens one of the pages of the view "Why".
+    ///
+    /// # Errors
+    /// If there is no such page.
+    pub async fn view(&self, name: &str) -> Result {
+        self.click("#tab-why").await?;
+        self.click(&format!("#tab-{name}")).await
     }
 
     /// Runs the body of a JavaScript function in the page and returns its result; promises are

@@ -1,7 +1,7 @@
 //! The charts in a real browser: filtered, read as tables and exported; values against native runs,
 //! bit for bit.
 
-use crate::browser::{DESKTOP, Key, Result, visit};
+use crate::browser::{DESKTOP, Key, Result, THESIS, visit};
 use crate::chart::{Chart, column};
 use crate::common::run;
 use crate::current;
@@ -9,7 +9,7 @@ use serde_json::json;
 
 #[test]
 fn series_are_hidden_and_isolated() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let chart = Chart::open(page, "overview", "before-after").await?;
         let pressed = async || {
@@ -58,7 +58,7 @@ fn holds(csv: &str, head: &str, columns: &[Vec<f64>]) -> Result {
 
 #[test]
 fn charts_are_taken_away_as_drawing_picture_and_values() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let report = run(&[]);
         let chart = Chart::open(page, "overview", "before-after").await?;
@@ -104,7 +104,7 @@ fn charts_are_taken_away_as_drawing_picture_and_values() -> Result {
 
 #[test]
 fn units_are_chosen_for_axes_values_and_files() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let chart = Chart::open(page, "forces", "force").await?;
         let native = armill::chart::data(
@@ -154,7 +154,7 @@ fn units_are_chosen_for_axes_values_and_files() -> Result {
 
 #[test]
 fn a_table_stands_for_the_chart() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let report = run(&[]);
         for (view, name, key) in

@@ -1,7 +1,7 @@
 //! The cursor of the charts: one sample in all of them and in the program, read and moved as a user
 //! does.
 
-use crate::browser::{DESKTOP, Key, Result, visit};
+use crate::browser::{DESKTOP, Key, Result, THESIS, visit};
 use crate::chart::{Chart, column};
 use crate::common::run;
 use crate::current;
@@ -9,7 +9,7 @@ use serde_json::json;
 
 #[test]
 fn the_cursor_reads_samples_and_is_one_for_all_charts() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let report = run(&[]);
         let chart = Chart::open(page, "error", "after-both").await?;
@@ -59,7 +59,7 @@ fn the_cursor_reads_samples_and_is_one_for_all_charts() -> Result {
 
 #[test]
 fn keys_move_the_cursor() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let chart = Chart::open(page, "error", "error-shaping").await?;
         let report = run(&[]);
@@ -102,7 +102,7 @@ fn keys_move_the_cursor() -> Result {
 
 #[test]
 fn cursor_and_program_line_lead_to_each_other() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         page.choose("#path-kind", "gcode").await?;
         page.type_into("#path-text", "G21 G90\nG0 X600 Y-60 Z100\nG1 Y20 F1200\nG1 X640 Y60\nM30").await?;

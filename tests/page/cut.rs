@@ -1,7 +1,7 @@
 //! The cut on the page: materials with their source, both ways of engagement, the drawing, spindle
 //! figures, the wall.
 
-use crate::browser::{DESKTOP, Page, Result, visit};
+use crate::browser::{DESKTOP, Page, Result, THESIS, visit};
 use crate::common::program::opened_example;
 use crate::common::{column, run};
 use crate::{current, shows, stale, text, unfold};
@@ -18,7 +18,7 @@ async fn figure(page: &Page, name: &str) -> Result<f64> {
 
 #[test]
 fn a_catalogue_material_is_converted_and_says_how_far_to_trust_it() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         unfold(page, "material").await?;
         page.choose("#material-preset", "p2").await?;
@@ -29,7 +29,7 @@ fn a_catalogue_material_is_converted_and_says_how_far_to_trust_it() -> Result {
             note.contains("ISCAR") && note.contains("±30 %") && note.contains("confidence: high"),
             "{note}"
         );
-        page.click("#tab-forces").await?;
+        page.view("forces").await?;
         assert!(text(page, "cut-material").await?.contains("ISCAR"), "beside the figures too");
         let cut = steel.summary().cut;
         assert_eq!(figure(page, "Made at chip").await?, cut.made_at_chip_mm.unwrap());
@@ -56,7 +56,7 @@ fn a_catalogue_material_is_converted_and_says_how_far_to_trust_it() -> Result {
 
 #[test]
 fn the_engagement_is_drawn_for_both_ways_of_giving_it() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let said = "return document.querySelector('#cut-sketch svg').getAttribute('aria-label')";
         let before = page.js(said).await?;
@@ -99,7 +99,7 @@ fn the_engagement_is_drawn_for_both_ways_of_giving_it() -> Result {
 
 #[test]
 fn the_wall_has_both_deviations_and_a_bending_tool_its_part() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         unfold(page, "tool").await?;
         page.choose("#tool-bending", "cantilever").await?;
@@ -111,7 +111,7 @@ fn the_wall_has_both_deviations_and_a_bending_tool_its_part() -> Result {
             ("tool.modulus_gpa", json!(600)),
         ]);
         shows(page, &long).await?;
-        page.click("#tab-forces").await?;
+        page.view("forces").await?;
         assert_eq!(figure(page, "Bends at the tip").await?, long.summary().cut.tool_bending_um_n.unwrap());
         let cells = page
             .js("return [...document.querySelectorAll('#wall-table tbody tr')].map(row => \
@@ -153,9 +153,9 @@ async fn hides(page: &Page, id: &str) -> Result<bool> {
 #[test]
 fn in_a_stock_the_cut_follows_the_program() -> Result {
     let pocket = run(&opened_example("pocket.nc"));
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
-        page.click("#tab-forces").await?;
+        page.view("forces").await?;
         page.wait_for("document.querySelector('#chart-force svg')", 20.0).await?;
         assert_eq!(page.js("return document.querySelectorAll('#chart-engagement').length").await?, 0);
         unfold(page, "path").await?;
@@ -211,7 +211,7 @@ fn in_a_stock_the_cut_follows_the_program() -> Result {
 
 #[test]
 fn the_form_asks_only_for_what_the_engagement_needs() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let engagement = "return [...document.querySelectorAll('#cutting-engagement option')].find(each => \
              each.value === 'from-stock').disabled";

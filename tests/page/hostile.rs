@@ -2,7 +2,7 @@
 //! network, no memory, Workers that die. Each ends in a clear message or a result, and nothing that
 //! was typed or dropped is lost.
 
-use crate::browser::{DESKTOP, Page, Result, visit};
+use crate::browser::{DESKTOP, Page, Result, THESIS, visit};
 use crate::common::run;
 use crate::{current, number, shows, stale, text};
 use serde_json::{Value, json};
@@ -36,7 +36,7 @@ async fn goes_on(page: &Page) -> Result {
 
 #[test]
 fn files_of_fifty_megabytes_are_answered() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         drop_file(page, "image.png", "[new Uint8Array(5e7)]").await?;
         says(page, "“image.png” was not opened: it is not plain text").await?;
@@ -62,7 +62,7 @@ const MILLION: &str =
 
 #[test]
 fn a_million_points_are_answered_and_survive_a_reload() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         // Coarse samples keep the run short.
         page.type_into("#motion-sample_time_s", "0.02").await?;
@@ -101,7 +101,7 @@ fn a_polyline_too_long_for_a_field_is_the_same_path_as_rows() -> Result {
     let points: Vec<[f64; 3]> = (0..6000).map(|k| [600.0, f64::from(k) / 100.0 - 30.0, 100.0]).collect();
     let job = json!({ "motion": { "feed_mm_s": 50 }, "path": { "kind": "polyline", "points_mm": points } });
     let report = run(&[("motion.feed_mm_s", json!(50)), ("path", job["path"].clone())]);
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         drop_file(page, "points.json", &format!("[{}]", json!(job.to_string()))).await?;
         page.wait_for("document.querySelector('#notice').textContent.includes('too many for a field')", 20.0)
@@ -116,7 +116,7 @@ fn a_polyline_too_long_for_a_field_is_the_same_path_as_rows() -> Result {
 
 #[test]
 fn numbers_that_are_none_and_sizes_beyond_any_robot_are_answered_beside_the_field() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         for (typed, reason) in [
             ("1e6", "legal is 0.001 to 10000 mm"), // a kilometre
@@ -164,7 +164,7 @@ const MARKUP: &str = "<img src=x onerror=\"window.intruder=1\"><script>window.in
 
 #[test]
 fn markup_in_names_and_comments_is_text() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let harmless = async || -> Result {
             let found = page
@@ -229,7 +229,7 @@ fn markup_in_names_and_comments_is_text() -> Result {
 
 #[test]
 fn a_full_storage_is_told_and_nothing_else_suffers() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         for store in ["localStorage", "sessionStorage"] {
             page.js(&format!(
@@ -250,7 +250,7 @@ fn a_full_storage_is_told_and_nothing_else_suffers() -> Result {
 
 #[test]
 fn without_a_network_the_page_goes_on() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         page.expect_error("ERR_INTERNET_DISCONNECTED");
         shows(page, &run(&[])).await?;
         page.wait_for("document.querySelectorAll('#panel-overview figure .series').length >= 3", 30.0)
@@ -261,7 +261,7 @@ fn without_a_network_the_page_goes_on() -> Result {
         page.devtools("Network.emulateNetworkConditions", offline).await?;
         page.type_into("#motion-feed_mm_s", "80").await?;
         shows(page, &run(&[("motion.feed_mm_s", json!(80))])).await?;
-        page.click("#tab-joints").await?;
+        page.view("joints").await?;
         page.wait_for("document.querySelector('#panel-joints svg .series')", 20.0).await?;
         page.click("#download-columns").await?;
         assert!(page.downloaded("armill-columns.csv").await?.starts_with("time_s,"));
@@ -282,7 +282,7 @@ const HASTEN: &str = "; const later = window.setTimeout.bind(window); \
 
 #[test]
 fn workers_killed_while_they_compute_are_replaced() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         let source = format!("{HOLD_WORKERS}{HASTEN}");
         page.devtools("Page.addScriptToEvaluateOnNewDocument", json!({ "source": source })).await?;
         page.reload().await?;
@@ -330,7 +330,7 @@ const LITTLE_MEMORY: &str = "\
 
 #[test]
 fn memory_that_does_not_suffice_is_told_and_the_inputs_stay() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         page.expect_error("");
         // 40 MB: enough for 20,000 samples, not for 800,000.
         let source = LITTLE_MEMORY.replace("LIMIT", "640");

@@ -1,7 +1,7 @@
 //! The view Identify in a real browser: measured loads and responses, typed, opened, invalid, put
 //! into the job and undone.
 
-use crate::browser::{DESKTOP, PHONE, Page, Result, visit};
+use crate::browser::{DESKTOP, PHONE, Page, Result, THESIS, visit};
 use crate::current;
 use armill::identify::{Convention, measurement, response, stiffness};
 use armill::{Job, Report};
@@ -44,7 +44,7 @@ async fn paste(page: &Page, css: &str, text: &str) -> Result {
 
 #[test]
 fn the_measured_example_becomes_the_job_and_undo_takes_it_back() -> Result {
-    visit("", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         open(page).await?;
         click(page, "#identify-loads-example").await?;
         page.wait_for("document.querySelectorAll('#identified tbody tr').length === 6", 30.0).await?;
@@ -102,7 +102,7 @@ fn the_measured_example_becomes_the_job_and_undo_takes_it_back() -> Result {
 
 #[test]
 fn a_response_becomes_the_shaper() -> Result {
-    visit("", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         open(page).await?;
         click(page, "#identify-response-example").await?;
         page.wait_for("document.querySelector('#chart-response svg.plot')", 30.0).await?;
@@ -128,7 +128,7 @@ fn a_response_becomes_the_shaper() -> Result {
 
 #[test]
 fn what_is_wrong_is_said_with_its_line_and_the_last_result_stays() -> Result {
-    visit("", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         open(page).await?;
         click(page, "#identify-loads-example").await?;
         page.wait_for("document.querySelectorAll('#identified tbody tr').length === 6", 30.0).await?;
@@ -160,7 +160,7 @@ fn what_is_wrong_is_said_with_its_line_and_the_last_result_stays() -> Result {
 
 #[test]
 fn it_fits_a_phone() -> Result {
-    visit("", PHONE, async |page| {
+    visit(THESIS, PHONE, async |page| {
         open(page).await?;
         click(page, "#identify-loads-example").await?;
         page.wait_for("document.querySelector('#chart-stiffness svg.plot')", 30.0).await?;

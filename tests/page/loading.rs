@@ -3,7 +3,7 @@
 use armill::{Job, Report};
 use serde_json::{Value, json};
 
-use crate::browser::{DESKTOP, Page, Result, visit};
+use crate::browser::{DESKTOP, Page, Result, THESIS, visit};
 use crate::common::run;
 use crate::{shows, stale, text};
 
@@ -50,7 +50,7 @@ async fn choose_program(page: &Page) -> Result<Report> {
 
 #[test]
 fn a_visit_fetches_the_core_once_and_computes_one_run() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         page.devtools("Page.addScriptToEvaluateOnNewDocument", json!({ "source": COUNT_QUESTIONS })).await?;
         page.reload().await?;
         let core = json!(["/pkg/armill_bg.wasm"]);
@@ -61,7 +61,7 @@ fn a_visit_fetches_the_core_once_and_computes_one_run() -> Result {
 
         // Charts, a file, an identification and the thesis's figures come from the same core; none
         // of them computes the job again.
-        page.click("#tab-joints").await?;
+        page.view("joints").await?;
         page.wait_for("document.querySelector('#panel-joints svg .series')", 20.0).await?;
         page.click("#download-columns").await?;
         let file = page.downloaded("armill-columns.csv").await?;
@@ -93,7 +93,7 @@ fn a_visit_fetches_the_core_once_and_computes_one_run() -> Result {
 
 #[test]
 fn the_form_is_built_from_what_the_core_says_of_itself() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         let version =
             page.with_module("core/client", "({ load }) => load().then(({ version }) => version)").await?;
         assert_eq!(version, env!("CARGO_PKG_VERSION"));
@@ -121,7 +121,7 @@ fn the_form_is_built_from_what_the_core_says_of_itself() -> Result {
 
 #[test]
 fn a_core_that_does_not_come_is_reported_and_can_be_tried_again() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         page.devtools("Network.enable", json!({})).await?;
         page.devtools("Network.setCacheDisabled", json!({ "cacheDisabled": true })).await?;
         page.devtools("Network.setBlockedURLs", json!({ "urls": ["*/armill_bg.wasm"] })).await?;
@@ -153,7 +153,7 @@ const LEAD_ASTRAY: &str = "\
 
 #[test]
 fn a_worker_that_does_not_start_is_reported_and_the_last_result_stays() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         page.devtools("Page.addScriptToEvaluateOnNewDocument", json!({ "source": LEAD_ASTRAY })).await?;
         page.reload().await?;
         shows(page, &run(&[])).await?;

@@ -1,6 +1,6 @@
 //! The part as it is cut: its picture and section, in words, and as files; compared with native runs.
 
-use crate::browser::{DESKTOP, Page, Result, visit};
+use crate::browser::{DESKTOP, Page, Result, THESIS, visit};
 use crate::common::program::opened_example;
 use crate::common::{job_text, run};
 use crate::{current, number, shows};
@@ -25,7 +25,6 @@ async fn open(page: &Page, example: &str) -> Result<Report> {
 
 /// Opens the picture and waits for the part in it.
 async fn look(page: &Page) -> Result {
-    page.js("document.getElementById('tab-path').click()").await?;
     page.wait_for("document.querySelector('#scene').dataset.part === 'before'", 60.0).await
 }
 
@@ -54,9 +53,8 @@ async fn pixels(page: &Page, click: &str) -> Result<(Value, u64)> {
 
 #[test]
 fn the_picture_shows_the_part_before_and_after() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
-        page.js("document.getElementById('tab-path').click()").await?;
         page.wait_for("document.querySelector('#scene').dataset.part === 'none'", 30.0).await?;
         let hidden = "return [...document.querySelectorAll('#scene .as-cut, #scene .section-at, #scene .switch.solid')]\
              .every(part => !part.checkVisibility())";
@@ -97,7 +95,7 @@ fn the_picture_shows_the_part_before_and_after() -> Result {
 
 #[test]
 fn the_section_is_the_one_at_the_cursor_and_places_lead_there() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         let report = open(page, "pocket.nc").await?;
         let surface = report.summary().surface.ok_or("no surface")?;
         // In words: figures, places, and where they lead.
@@ -152,7 +150,7 @@ fn the_section_is_the_one_at_the_cursor_and_places_lead_there() -> Result {
 
 #[test]
 fn the_part_is_taken_away_as_stl() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let offered = "return [...document.querySelectorAll('#export-format option')].filter(each => \
              !each.disabled && each.value.startsWith('part-')).map(each => each.value)";
@@ -182,7 +180,7 @@ fn the_part_is_taken_away_as_stl() -> Result {
 #[test]
 fn with_a_part_no_panel_is_wider_than_its_screen() -> Result {
     for width in [335, 390, 768] {
-        visit("/", (width, 844), async |page| {
+        visit(THESIS, (width, 844), async |page| {
             open(page, "pocket.nc").await?;
             look(page).await?;
             page.js("for (const part of document.querySelectorAll('details')) part.open = true").await?;
@@ -195,9 +193,8 @@ fn with_a_part_no_panel_is_wider_than_its_screen() -> Result {
 
 #[test]
 fn nothing_moves_when_the_part_arrives() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         open(page, "pocket.nc").await?;
-        page.js("document.getElementById('tab-path').click()").await?;
         page.wait_for("document.querySelector('#chart-path svg')", 20.0).await?;
         let places = "return [...document.querySelectorAll('#panel-path .chart-figure')].map(each => \
              each.getBoundingClientRect().top + scrollY)";
@@ -212,7 +209,7 @@ fn nothing_moves_when_the_part_arrives() -> Result {
 #[test]
 fn a_frame_says_what_surface_is_left_and_what_the_feed_rule_gains() -> Result {
     let mut face = opened_example("face.nc");
-    face.retain(|(path, _)| *path != "shaper");
+    face.retain(|(path, _)| *path != "shaper" && !path.starts_with("cutting."));
     face.push(("motion.feed_rule", json!("constant-force")));
     face.push(("cutting.feed_per_tooth_mm", json!("from_feed")));
     let report = run(&face);

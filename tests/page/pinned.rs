@@ -1,6 +1,6 @@
 //! A pinned result beside the next one: figures, inputs, curves.
 
-use crate::browser::{DESKTOP, Page, Result, visit};
+use crate::browser::{DESKTOP, Page, Result, THESIS, visit};
 use crate::chart::Chart;
 use crate::common::run;
 use crate::{current, shows};
@@ -9,7 +9,7 @@ use serde_json::json;
 
 #[test]
 fn a_pinned_result_stands_beside_the_next() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         page.click("#pin").await?;
         page.type_into("#motion-feed_mm_s", "50").await?;
@@ -54,7 +54,7 @@ async fn outlines(page: &Page, pinned: bool) -> Result<Vec<String>> {
 
 #[test]
 fn a_pinned_result_is_drawn_with_the_next_and_stays_over_a_reload() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         Chart::open(page, "overview", "before-after").await?;
         page.click("#pin").await?;
         assert_eq!(outlines(page, true).await?.len(), 0, "A beside itself");

@@ -1,6 +1,6 @@
 //! The view "Placement": the map is the core's, a click moves the part, undo restores it.
 
-use crate::browser::{DESKTOP, Result, visit};
+use crate::browser::{DESKTOP, Result, THESIS, visit};
 use crate::current;
 use armill::Job;
 use armill::placement::{PlacementMap, PlacementStatus};
@@ -23,7 +23,7 @@ async fn open(page: &crate::browser::Page) -> Result {
 
 #[test]
 fn the_map_shows_what_the_core_says_of_each_place() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         open(page).await?;
         page.js("document.querySelector('.placement-values').open = true").await?;
         page.wait_for("document.querySelectorAll('#placement-table tbody td').length === 121", 10.0).await?;
@@ -62,7 +62,7 @@ fn the_map_shows_what_the_core_says_of_each_place() -> Result {
 
 #[test]
 fn a_place_is_taken_by_click_or_key_and_given_back_by_undo() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         open(page).await?;
         let place = "[...document.querySelectorAll('#workpiece_frame-xyz_mm input')].map(input => Number(input.value))";
         assert_eq!(page.js(&format!("return {place}")).await?, json!([0, 0, 0]));
@@ -87,7 +87,7 @@ fn a_place_is_taken_by_click_or_key_and_given_back_by_undo() -> Result {
 
 #[test]
 fn a_map_is_cancelled_and_computed_again() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         open(page).await?;
         page.choose("#placement-steps", "41").await?;
         let cancel = "document.querySelector('#placement-cancel')";

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::browser::{DESKTOP, Page, Result, visit};
+use crate::browser::{DESKTOP, Page, Result, THESIS, visit};
 use crate::standalone;
 
 /// Every HTML file of the site.
@@ -110,7 +110,7 @@ async fn holds(page: &Page) -> Result {
 
 #[test]
 fn the_policies_hold() -> Result {
-    visit("/", DESKTOP, holds)?;
+    visit(THESIS, DESKTOP, holds)?;
     visit("/embed.html", DESKTOP, holds)?;
     visit(&standalone::address(), DESKTOP, holds)
 }

@@ -1,8 +1,8 @@
 //! Programs on the page: dropped, followed from chart to line and back, kept when rejected, and
 //! long ones.
 
-use crate::browser::{DESKTOP, Page, Result, visit};
-use crate::common::program::opened_example;
+use crate::browser::{DESKTOP, Page, Result, THESIS, visit};
+use crate::common::program::{opened_example, own_cutting};
 use crate::common::{job_text, run};
 use crate::{current, shows, stale, text};
 use armill::verification::Programs;
@@ -25,12 +25,14 @@ async fn drop(page: &Page, name: &str, content: &str) -> Result {
 
 /// The job of an opened program: the example's shaper goes with the example's path, and the program
 /// stands in a stock up to `top` [mm].
-fn job(kind: &str, text: &str, top: f64) -> [(&'static str, Value); 3] {
-    [
+fn job(kind: &str, text: &str, top: f64) -> Vec<(&'static str, Value)> {
+    let mut changes = vec![
         ("path", json!({ "kind": kind, "text": text })),
         ("shaper", json!("none")),
         ("stock", json!({"kind": "extents", "top_mm": top})),
-    ]
+    ];
+    changes.extend(own_cutting(text));
+    changes
 }
 
 /// The selected line of the program, from 1, and its text.
@@ -44,7 +46,7 @@ async fn selected(page: &Page) -> Result<(u64, String)> {
 
 #[test]
 fn a_dropped_program_is_the_path() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         page.type_into("#motion-feed_mm_s", "50").await?;
         drop(page, "slot.nc", SLOT).await?;
@@ -68,7 +70,7 @@ fn a_dropped_program_is_the_path() -> Result {
 
 #[test]
 fn a_chart_leads_to_its_line_and_back() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         drop(page, "slot.nc", SLOT).await?;
         page.wait_for("document.querySelector('#path-kind').value === 'gcode'", 20.0).await?;
@@ -98,7 +100,7 @@ fn a_chart_leads_to_its_line_and_back() -> Result {
 
 #[test]
 fn a_rejected_program_stays_and_is_told_where() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         for (name, content, place) in [
             ("rotary.nc", SLOT.replace("G1 Y-40", "G1 Y-40 A30"), "line 7, column 9"),
@@ -128,7 +130,7 @@ fn a_rejected_program_stays_and_is_told_where() -> Result {
 
 #[test]
 fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let moves: String = (0..25_000).map(|i| format!("X{:.3}\n", 600.0 + f64::from(i) * 2e-3)).collect();
         let long = format!("G21 G90\nS4000 M3\nG0 X600 Y0 Z100\nG1 F6000\n{moves}M30");
@@ -203,7 +205,7 @@ fn what_a_program_is_worth_stands_under_the_verdict() -> Result {
     let [thesis, carried] = [run(&[]), run(&light)].map(|report| Programs::default().package(&report, None));
     let (thesis, carried) = (thesis?, carried?);
     assert!(carried.met && !thesis.met, "{}", carried.sentence);
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let stated = "document.getElementById('as-program').textContent.startsWith('As a Staubli')";
         page.wait_for(stated, 20.0).await?;
@@ -227,7 +229,7 @@ fn what_a_program_is_worth_stands_under_the_verdict() -> Result {
 #[test]
 fn an_opened_program_brings_a_stock() -> Result {
     let own = json!({"kind":"box","from_mm":[500,-50,90],"to_mm":[700,50,101]});
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         drop(page, "slot.nc", SLOT).await?;
         page.wait_for("document.querySelector('#path-kind').value === 'gcode'", 20.0).await?;
@@ -246,8 +248,8 @@ fn an_opened_program_brings_a_stock() -> Result {
         current(page).await?;
         drop(page, "slot.nc", SLOT).await?;
         page.wait_for("document.querySelector('#path-kind').value === 'gcode'", 20.0).await?;
-        let kept =
-            [("path", json!({"kind": "gcode", "text": SLOT})), ("shaper", json!("none")), ("stock", own)];
+        let mut kept = job("gcode", SLOT, 120.0);
+        kept[2].1 = own;
         shows(page, &run(&kept)).await?;
         // A program pasted over all of the text is opened as well.
         page.js("const t = document.getElementById('path-text'); t.focus(); t.select(); \

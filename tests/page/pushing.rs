@@ -1,6 +1,6 @@
 //! Dragged numbers: a label is a slider, and results follow while it is dragged.
 
-use crate::browser::{DESKTOP, Page, Result, visit};
+use crate::browser::{DESKTOP, Page, Result, THESIS, visit};
 use crate::common::run;
 use crate::{current, shows, unfold};
 use serde_json::json;
@@ -27,7 +27,7 @@ async fn drag(page: &Page, label: &str, pixels: i32) -> Result {
 
 #[test]
 fn a_label_dragged_sideways_is_a_slider() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         unfold(page, "motion").await?;
         drag(page, "#motion-feed_mm_s-label", -40).await?;
@@ -47,7 +47,7 @@ fn a_label_dragged_sideways_is_a_slider() -> Result {
 
 #[test]
 fn a_pushed_number_is_followed_by_previews_and_then_by_all_samples() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         unfold(page, "cutting").await?;
         page.js(

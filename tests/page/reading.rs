@@ -1,7 +1,7 @@
 //! Reading the page: units, colours, what is remembered; stable while it opens; explained; on
 //! paper; without JavaScript.
 
-use crate::browser::{DESKTOP, PHONE, Result, visit};
+use crate::browser::{DESKTOP, PHONE, Result, THESIS, visit};
 use crate::common::run;
 use crate::{current, number, shows, text};
 use serde_json::json;
@@ -10,7 +10,7 @@ use serde_json::json;
 fn no_panel_is_wider_than_its_screen() -> Result {
     // The first is a small phone of 320 px beside the scroll bar of a desktop browser.
     for width in [335, 390, 768, 1280] {
-        visit("/", (width, 844), async |page| {
+        visit(THESIS, (width, 844), async |page| {
             current(page).await?;
             let tabs =
                 page.js("return [...document.querySelectorAll('[role=tab]')].map(tab => tab.id)").await?;
@@ -29,11 +29,11 @@ fn no_panel_is_wider_than_its_screen() -> Result {
 
 #[test]
 fn units_colours_and_open_panels_are_remembered() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let background = "return getComputedStyle(document.body).backgroundColor";
         let light = page.js(background).await?;
-        page.click("#tab-joints").await?;
+        page.view("joints").await?;
         page.js("document.querySelector('#group-motion > summary').click(); \
              document.querySelector('#group-tool > summary').click()")
             .await?;
@@ -85,7 +85,7 @@ fn units_colours_and_open_panels_are_remembered() -> Result {
 #[test]
 fn what_to_expect_covers_nothing() -> Result {
     for size in [DESKTOP, PHONE] {
-        visit("/", size, async |page| {
+        visit(THESIS, size, async |page| {
             let report = run(&[]);
             shows(page, &report).await?;
             assert_eq!(text(page, "expected").await?, report.how_sure().sentence);
@@ -109,7 +109,7 @@ fn nothing_moves_while_the_page_opens_and_typing_never_waits() -> Result {
         addEventListener('keydown', ({ target }) => requestAnimationFrame(() => \
           window.pictures.push([target.value, document.getElementById('results').dataset.state])), true);";
     for size in [DESKTOP, PHONE] {
-        visit("/", size, async |page| {
+        visit(THESIS, size, async |page| {
             page.devtools("Page.addScriptToEvaluateOnNewDocument", json!({ "source": watch })).await?;
             page.reload().await?;
             shows(page, &run(&[])).await?;
@@ -140,7 +140,7 @@ fn nothing_moves_while_the_page_opens_and_typing_never_waits() -> Result {
 
 #[test]
 fn each_view_says_how_it_is_computed_with_and_without_javascript() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         for view in ["overview", "path", "forces", "deflection", "error", "joints", "shaper"] {
             page.click(&format!("#tab-{view}")).await?;
@@ -168,7 +168,7 @@ fn each_view_says_how_it_is_computed_with_and_without_javascript() -> Result {
 
 #[test]
 fn on_paper_it_is_a_report() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         page.wait_for("document.querySelector('#chart-before-after svg.plot')", 20.0).await?;
         page.js("document.querySelector('#open-settings').click(); document.activeElement.blur()").await?;

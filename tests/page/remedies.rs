@@ -1,6 +1,6 @@
 //! What cures a warning is a button beside it, and undo takes it back.
 
-use crate::browser::{DESKTOP, Result, visit};
+use crate::browser::{DESKTOP, Result, THESIS, visit};
 use crate::common::job_text;
 use crate::current;
 use crate::hostile::drop_file;
@@ -17,7 +17,7 @@ fn a_remedy_is_applied_by_its_button_and_undone() -> Result {
         ("cutting.axial_depth_mm", json!(2)),
         ("shaper", json!("none")),
     ]);
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         drop_file(page, "across.json", &json!([job]).to_string()).await?;
         let limit = "document.querySelector('#warnings-list li[data-code=joint-limit]')";

@@ -1,13 +1,13 @@
 //! Robots on the page: the library by maker, where its numbers come from, a custom arm, its
 //! drawing, a place within reach.
 
-use crate::browser::{DESKTOP, Result, visit};
+use crate::browser::{DESKTOP, Result, THESIS, visit};
 use crate::{current, text};
 use serde_json::json;
 
 #[test]
 fn a_robot_is_picked_doubted_drawn_and_reached() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let pick = "const pick = (value) => { const s = document.getElementById('robot-preset'); \
              s.value = value; s.dispatchEvent(new Event('change', { bubbles: true })); };";

@@ -1,7 +1,7 @@
 //! Paths and arm in space, playback, and the error budget: compared with native runs, driven by
 //! real pointers and keys.
 
-use super::browser::{DESKTOP, Key, PHONE, Page, Result, visit};
+use super::browser::{DESKTOP, Key, PHONE, Page, Result, THESIS, visit};
 use super::common::run;
 use super::{current, number};
 use serde_json::json;
@@ -9,7 +9,6 @@ use serde_json::json;
 /// Opens the view and waits for the first picture.
 async fn open(page: &Page) -> Result {
     current(page).await?;
-    page.click("#tab-path").await?;
     page.wait_for("document.querySelector('#scene').dataset.sample === '0'", 30.0).await
 }
 
@@ -38,7 +37,7 @@ async fn colours(page: &Page) -> Result<u64> {
 #[test]
 fn the_scene_shows_paths_and_arm_and_can_be_turned() -> Result {
     for (size, dark) in [(DESKTOP, false), (PHONE, true)] {
-        visit("/", size, async |page| {
+        visit(THESIS, size, async |page| {
             page.prefer_dark(dark).await?;
             open(page).await?;
             assert!(colours(page).await? > 100, "the picture is blank");
@@ -69,7 +68,7 @@ fn the_scene_shows_paths_and_arm_and_can_be_turned() -> Result {
 
 #[test]
 fn the_arm_follows_the_cursor_and_play_stops_at_the_end() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         open(page).await?;
         let report = run(&[]);
         let tip = |sample: usize| {
@@ -120,7 +119,7 @@ fn the_arm_follows_the_cursor_and_play_stops_at_the_end() -> Result {
 
 #[test]
 fn the_picture_comes_back_after_the_graphics_were_lost() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         open(page).await?;
         page.js("window.lose = document.querySelector('#scene \
              canvas').getContext('webgl2').getExtension('WEBGL_lose_context'); lose.loseContext()")
@@ -135,10 +134,9 @@ fn the_picture_comes_back_after_the_graphics_were_lost() -> Result {
 
 #[test]
 fn without_webgl_a_message_leads_to_the_charts() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         page.js("HTMLCanvasElement.prototype.getContext = () => null").await?;
         current(page).await?;
-        page.click("#tab-path").await?;
         page.wait_for("document.querySelector('#scene .message').textContent.includes('WebGL')", 10.0)
             .await?;
         page.wait_for("document.querySelector('#chart-path svg')", 10.0).await
@@ -147,7 +145,7 @@ fn without_webgl_a_message_leads_to_the_charts() -> Result {
 
 #[test]
 fn the_budget_is_the_native_one() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let budget = run(&[]).budget();
         let shown = page

@@ -11,7 +11,7 @@ use crate::{current, shows, text};
 /// The address of the file on disk.
 pub(crate) fn address() -> String {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/site/standalone.html");
-    format!("file://{}", file.display())
+    format!("file://{}#example=thesis", file.display())
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Where the inputs come from and where they go: links, the browser's storage, undo and redo.
 
-use crate::browser::{DESKTOP, Key, Page, Result, visit};
+use crate::browser::{DESKTOP, Key, Page, Result, THESIS, visit};
 use crate::common::program::opened_example;
 use crate::common::{job_text, run};
 use crate::hostile::drop_file;
@@ -50,7 +50,7 @@ async fn open(page: &Page, fragment: &str) -> Result {
 fn a_link_gives_the_same_bits_in_a_fresh_profile() -> Result {
     let report = run(&[("motion.feed_mm_s", json!(80)), ("path.radius_mm", json!(250))]);
     let link = std::cell::OnceCell::new();
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         page.type_into("#motion-feed_mm_s", "80").await?;
         page.type_into("#path-radius_mm", "250").await?;
@@ -74,7 +74,7 @@ fn a_link_gives_the_same_bits_in_a_fresh_profile() -> Result {
 
 #[test]
 fn a_link_that_cannot_be_opened_says_why_and_the_default_stands() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         page.type_into("#motion-feed_mm_s", "70").await?;
         shows(page, &run(&[("motion.feed_mm_s", json!(70))])).await?;
@@ -131,7 +131,7 @@ fn saved(feed: u32, model: Option<u32>) -> String {
 fn what_an_earlier_model_computed_says_so_on_opening() -> Result {
     let of_feed = |feed: u32| run(&[("motion.feed_mm_s", json!(feed))]);
     let kept = "JSON.parse(sessionStorage.getItem('armill-inputs')).state.job";
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         shows(page, &run(&[])).await?;
         assert_eq!(notice(page).await?, "", "the page's own default");
         let says = format!("document.querySelector('#notice').textContent.includes({})", json!(EARLIER));
@@ -187,7 +187,7 @@ fn what_an_earlier_model_computed_says_so_on_opening() -> Result {
 
 #[test]
 fn nothing_typed_is_lost_by_a_reload() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         page.choose("#path-kind", "csv").await?;
         page.type_into("#path-text", "600,-100,100\n650,0,110\n600,100,100").await?;
@@ -212,7 +212,7 @@ fn nothing_typed_is_lost_by_a_reload() -> Result {
 
 #[test]
 fn undo_and_redo_go_by_steps_that_make_sense() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let can =
             async |id: &str| page.js(&format!("return !document.getElementById('{id}').disabled")).await;
@@ -259,7 +259,7 @@ fn undo_and_redo_go_by_steps_that_make_sense() -> Result {
 
 #[test]
 fn without_storage_the_page_works_and_says_once_that_nothing_is_kept() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         let denied = "for (const name of ['localStorage', 'sessionStorage']) Object.defineProperty(window, \
              name, { get() { throw new DOMException('denied', 'SecurityError'); } });";
         page.devtools("Page.addScriptToEvaluateOnNewDocument", json!({ "source": denied })).await?;
@@ -285,7 +285,7 @@ fn without_storage_the_page_works_and_says_once_that_nothing_is_kept() -> Result
 
 #[test]
 fn two_tabs_keep_their_own_inputs() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         page.type_into("#motion-feed_mm_s", "80").await?;
         shows(page, &run(&[("motion.feed_mm_s", json!(80))])).await?;
@@ -307,7 +307,7 @@ fn two_tabs_keep_their_own_inputs() -> Result {
 
 #[test]
 fn a_result_is_shared_in_three_forms() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         page.type_into("#motion-feed_mm_s", "80").await?;
         let report = run(&[("motion.feed_mm_s", json!(80))]);
@@ -387,7 +387,7 @@ fn a_result_is_shared_in_three_forms() -> Result {
 fn a_stock_survives_a_link_and_a_reload_and_is_reported() -> Result {
     let report = run(&opened_example("contour.nc"));
     let link = std::cell::OnceCell::new();
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         crate::unfold(page, "path").await?;
         page.choose("#examples", "contour.nc").await?;

@@ -1,6 +1,6 @@
 //! Zooming and panning of charts, by mouse, wheel and fingers.
 
-use crate::browser::{DESKTOP, PHONE, Result, visit};
+use crate::browser::{DESKTOP, PHONE, Result, THESIS, visit};
 use crate::chart::{CONTROL, Chart, TICKS};
 use crate::common::run;
 use crate::current;
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 #[test]
 fn a_box_zooms_all_charts_over_time_and_a_double_click_shows_all() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let chart = Chart::open(page, "error", "combined").await?;
         let other = Chart { page, css: "#chart-error-shaping".into() };
@@ -52,7 +52,7 @@ fn a_box_zooms_all_charts_over_time_and_a_double_click_shows_all() -> Result {
 
 #[test]
 fn the_wheel_scrolls_the_page_unless_a_chart_is_meant() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let chart = Chart::open(page, "error", "combined").await?;
         let scrolled = async || page.js("return scrollY").await.map(|y| y.as_f64().unwrap());
@@ -79,7 +79,7 @@ fn the_wheel_scrolls_the_page_unless_a_chart_is_meant() -> Result {
 
 #[test]
 fn two_fingers_zoom_and_one_scrolls_or_reads() -> Result {
-    visit("/", PHONE, async |page| {
+    visit(THESIS, PHONE, async |page| {
         page.devtools("Emulation.setTouchEmulationEnabled", json!({ "enabled": true, "maxTouchPoints": 2 }))
             .await?;
         page.reload().await?;

@@ -1,10 +1,11 @@
 // Wires the page: the form edits the job, the calculator has the core compute it, the views show it.
 
 import { Calculator } from "./calculator.js";
-import { setCharts, showPanel } from "./chart/panel.js";
+import { chartTexts, fixChart, setCharts, showPanel } from "./chart/panel.js";
 import * as core from "./core/client.js";
 import { Form } from "./form/form.js";
 import { followCaret, followPaste, programTools } from "./form/program-tools.js";
+import { ask, showAsked } from "./form/still-asked.js";
 import { makeIdentify } from "./identify/panel.js";
 import { Job, merged } from "./job/job.js";
 import { makeOpening } from "./job/opening.js";
@@ -17,26 +18,29 @@ import { setLines } from "./page/program-lines.js";
 import { onSetting } from "./page/settings.js";
 import { settingsPanel } from "./page/settings-panel.js";
 import * as status from "./page/status.js";
-import { makeTabs } from "./page/tabs.js";
+import { makeTabs, viewIn } from "./page/tabs.js";
 import { followTheme } from "./page/theme.js";
 import { makePlacement } from "./placement/panel.js";
 import { pin, pinnedResult, restorePin, showCompared, unpin } from "./result/compare.js";
 import { judgeTakeAway, makeTakeAway } from "./result/export.js";
 import { showProgram } from "./result/program.js";
 import { shareDialog } from "./result/share.js";
-import { showSummary, showThesis, showUnits } from "./result/summary.js";
+import { showSummary, showUnits } from "./result/summary.js";
+import { figuresIn, showFigureIndex, showThesis } from "./result/thesis.js";
 import { makeArmView } from "./scene/sketch.js";
 import { makeScene } from "./scene/view.js";
 import { begun } from "./start.js";
 
-const FILES = ["download-compensated", "download-columns", "download-program", "export-format"];
+const FILES = ["download-compensated", "download-columns", "download-program", "export-format", "all-figures"];
 const OF_RESULT = [...FILES, "share", "pin"];
 
 await begun;
 
 let job;
 let session;
-let standard; // the default job
+let tabs;
+let arm; // the robot of the inputs, by its key
+let examples; // the core's own jobs: `opening`, and `job`, the thesis's
 
 const present = { job: () => job?.data, use: (changed) => session.load(changed) };
 const scene = makeScene(byId("scene"));
@@ -48,7 +52,7 @@ const opening = makeOpening({
   core,
   job: () => job,
   session: () => session,
-  standard: () => standard,
+  thesis: () => examples.job,
   warn: status.warn,
 });
 
@@ -58,13 +62,16 @@ function become(state) {
   if (state === "stale") for (const id of FILES) byId(id).disabled = true;
 }
 
-const progress = (fraction) => (byId("progress").value = fraction);
+function progress(fraction) {
+  byId("progress").value = fraction;
+}
 
 function show(shown) {
   const first = !byId("fingerprint").dataset.seen;
   showFigures();
   takeLines(shown.summary);
   setCharts(shown.charts);
+  showFigureIndex(shown.charts, showChart);
   if (first) {
     performance.mark("first result"); // for whoever measures
     byId("fingerprint").dataset.seen = "yes";
@@ -97,6 +104,12 @@ async function takeLines({ program, duration_s, samples }) {
   }
 }
 
+/** Opens the view of a chart and brings it into sight. */
+function showChart(view, name) {
+  tabs.choose(view);
+  requestAnimationFrame(() => byId(`chart-${name}`)?.scrollIntoView({ block: "nearest" }));
+}
+
 function remedyFor({ code, field }) {
   if (!["unreachable", "branch-ends"].includes(code) && field !== "path") return undefined;
   return { label: "Place the path in front of this robot", go: placeInFront };
@@ -114,8 +127,17 @@ async function placeInFront() {
 
 /** After every edit of the form, and after every job that was opened. */
 function edited(stepped) {
+  arm = job.data.robot.preset;
+  showAsked(job.data);
   calculator.edited(stepped);
   if (!calculator.form.flawed) armView.show(job);
+}
+
+/** After an edit in the form: another robot has neither the tool's frame nor the part's place of the last. */
+function typed(typing, stepped) {
+  const { preset } = job.data.robot;
+  if (preset && preset !== arm) ask(job.data, "robot");
+  session.edited(typing, stepped);
 }
 
 /** On a phone the inputs fold away; elsewhere they always show. */
@@ -133,6 +155,20 @@ async function save(format, name) {
   }
 }
 
+/** All figures of the thesis, as they are for the shown result: drawings and values in one archive. */
+async function saveFigures() {
+  try {
+    const figures = figuresIn(calculator.shown.charts);
+    const texts = await chartTexts(figures.map(({ name }) => name));
+    const files = figures.flatMap(({ number, name }) =>
+      ["svg", "csv"].map((format) => [`fig-${number}-${name}.${format}`, texts.get(name)[format]]),
+    );
+    download("armill-figures.zip", "application/zip", await core.zip("armill-figures", files));
+  } catch (error) {
+    if (!error.fatal) status.warn(`The figures could not be saved: ${error.message}`);
+  }
+}
+
 /** Fills the panel "Thesis, recomputed" when it is first looked at: its rows stay the same. */
 async function recomputeThesis() {
   if (byId("thesis").tBodies[0].rows.length) return;
@@ -146,7 +182,10 @@ async function recomputeThesis() {
 function wire() {
   showUnits(); // before anything is drawn, so that nothing moves later
   byId("cancel").addEventListener("click", () => core.cancel());
-  byId("reset").addEventListener("click", () => session.load(standard));
+  byId("again").addEventListener("click", () => calculator.compute());
+  byId("all-figures").addEventListener("click", saveFigures);
+  byId("open-thesis").addEventListener("click", () => session.load(examples.job));
+  byId("reset").addEventListener("click", () => session.load(examples.opening));
   byId("open-job").addEventListener("click", () => byId("job-file").click());
   byId("job-file").addEventListener("change", ({ target }) => opening.openJob(target.files[0]));
   byId("download-job").addEventListener("click", () =>
@@ -157,20 +196,23 @@ function wire() {
   byId("inputs-toggle").addEventListener("click", () => foldInputs(byId("inputs").classList.contains("open")));
   byId("form").addEventListener("submit", (event) => event.preventDefault());
   wireResultTools();
-  const tabs = makeTabs(document.querySelector("[role=tablist]"), (panel) => {
+  fixChart(byId("curve").querySelector(".charts"), "before-after");
+  tabs = makeTabs((panel) => {
     showPanel(panel);
-    rememberPanels({ tab: panel.getAttribute("aria-labelledby") });
+    rememberPanels({ tab: panel.id.replace("panel-", "") });
     if (panel.id === "panel-thesis") recomputeThesis();
     if (panel.id === "panel-identify") identify.look();
     if (panel.id === "panel-placement") placement.look();
   });
-  if (!tabs.show(openPanels().tab)) showPanel(tabs.current());
+  if (!tabs.show(viewIn(location.hash)) && !tabs.show(openPanels().tab)) showPanel(tabs.current());
 }
 
 /** What is done with the shown result as a whole: shared, pinned, read in other units. */
 function wireResultTools() {
   const share = shareDialog();
-  byId("share").addEventListener("click", () => share({ ...calculator.shown, job: calculator.shown.job, standard }));
+  byId("share").addEventListener("click", () =>
+    share({ ...calculator.shown, job: calculator.shown.job, standard: examples.job }),
+  );
   byId("pin").addEventListener("click", () => pin(calculator.shown));
   byId("unpin").addEventListener("click", () => (unpin(calculator.shown), byId("pin").focus()));
   byId("back-to-a").addEventListener("click", () => session.load(JSON.parse(pinnedResult().text)));
@@ -182,13 +224,11 @@ function wireResultTools() {
 /** Builds the form and opens the job. */
 async function open() {
   const hello = await core.start(calculator.events);
-  standard = hello.job;
-  job = new Job(standard, hello);
+  examples = hello;
+  job = new Job(hello.opening, hello);
   calculator.open(job);
   byId("version").textContent = `v${hello.version}`;
-  const form = new Form(byId("form"), job, hello.fields, hello.presets, (typing, stepped) =>
-    session.edited(typing, stepped),
-  );
+  const form = new Form(byId("form"), job, hello.fields, hello.presets, typed);
   calculator.form = form;
   byId("group-robot").querySelector("legend").after(armView.node);
   byId("group-path").querySelector("legend").after(programTools(opening.useProgram, status.warn));
@@ -197,7 +237,7 @@ async function open() {
   opening.wireDrop();
   makeTakeAway(hello.fields, status.say, status.warn);
   restoreGroups();
-  session = new Session({ job, form, standard, core, changed: edited, warn: status.warn });
+  session = new Session({ job, form, examples, core, changed: edited, warn: status.warn });
   await session.open();
   byId("download-job").disabled = false;
 }

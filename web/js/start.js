@@ -4,7 +4,7 @@
 import { kept } from "./job/autosave.js";
 import * as core from "./core/client.js";
 import { textOf } from "./job/job.js";
-import { holdsJob } from "./job/link.js";
+import { exampleIn, holdsJob } from "./job/link.js";
 import { applyTheme } from "./page/theme.js";
 
 applyTheme();
@@ -16,10 +16,9 @@ const PATIENCE_MS = 100; // on a slow line the page does not wait for the core
  * page.
  */
 async function begin() {
-  const hello = core.load();
-  const state = await kept();
-  if (!holdsJob(location.hash)) core.foresee(state && textOf(state.job));
-  await hello;
+  const [hello, state] = await Promise.all([core.load(), kept()]);
+  if (holdsJob(location.hash)) return;
+  core.foresee(textOf(exampleIn(location.hash, hello) ?? state?.job ?? hello.opening));
 }
 
 /** Settled when the Worker computes the first result: from then on the page is not in its way. */

@@ -16,9 +16,11 @@ import { tableOf } from "./table.js";
 import { toolbar } from "./toolbar.js";
 import { between, fractionOf, nearest, ranged, scaled, shifted, valueAt } from "./view.js";
 
+const LOWEST_PX = 120; // of a chart that fills its place
 const REACH_PX = 60; // a path in space is read off from no further away
 
 export class Figure {
+  fills = false; // whether it is as high as its place instead of as suits its width
   beside = null; // draws the same chart of another result and has its values, like the constructor's `values`
   #plot = make("div", { className: "drawing", tabIndex: 0, role: "slider", "aria-describedby": "chart-keys" });
   #table = make("div", { className: "chart-table", tabIndex: 0, role: "region", hidden: true });
@@ -39,8 +41,8 @@ export class Figure {
   #before = undefined; // where the cursor was when the pointer came
   #waiting = false;
   #drawing = null;
-  #width = 0; // that was drawn at
-  #room = 0; // that there is to draw in, measured when it may have changed: to ask makes the browser lay out the page
+  #drawnAt = { width: 0, height: 0 };
+  #room = null; // to draw in, measured when it may have changed: to ask makes the browser lay out the page
 
   /**
    * `link(figure, range)` is called when the range of time changes, to take the other charts along.
@@ -90,8 +92,8 @@ export class Figure {
       this.#waiting = false;
       const size = this.#size();
       if (size.width < 1) return;
-      this.#width = size.width;
-      this.#plot.style.setProperty("min-height", `${size.height}px`);
+      this.#drawnAt = size;
+      if (!this.fills) this.#plot.style.setProperty("min-height", `${size.height}px`);
       const { x, y } = this.#view;
       const options = {
         ...size,
@@ -134,15 +136,18 @@ export class Figure {
     this.#index = null;
   }
 
-  /** Whether it is drawn as wide as it is, or not to be seen. */
+  /** Whether it is drawn as large as it is, or not to be seen. */
   get fits() {
-    this.#room = 0;
-    return !this.node.checkVisibility() || this.#width === this.#size().width;
+    this.#room = null;
+    if (!this.node.checkVisibility()) return true;
+    const { width, height } = this.#size();
+    return width === this.#drawnAt.width && height === this.#drawnAt.height;
   }
 
-  /** The room to draw in [px]. */
+  /** The room to draw in [px]: all that its place has, or as high as suits the width. */
   #size() {
-    const width = (this.#room ||= Math.round((this.#plot.hidden ? this.#table : this.#plot).clientWidth));
+    const { width, height: room } = (this.#room ??= roomIn(this.#plot.hidden ? this.#table : this.#plot));
+    if (this.fills) return { width, height: Math.max(LOWEST_PX, room) };
     const height = this.plane ? Math.min(560, Math.max(230, width * 0.6)) : Math.min(300, Math.max(200, width * 0.38));
     return { width, height: Math.round(height) };
   }
@@ -406,7 +411,7 @@ export class Figure {
     this.#table.style.setProperty("height", `${this.#plot.clientHeight || this.#size().height}px`);
     this.#plot.hidden = on;
     this.#table.hidden = !on;
-    this.#room = 0; // a table has a scroll bar
+    this.#room = null; // a table has a scroll bar
     this.#fill();
   }
 
@@ -422,18 +427,30 @@ export class Figure {
       if (this.#data || (await this.#fetch())) file("text/csv", csvText(this.#data));
       return;
     }
+    const svg = this.#svgText();
+    file(format === "svg" ? "image/svg+xml" : "image/png", format === "svg" ? svg : await pngOf(svg));
+  }
+
+  /** The drawing as an SVG file and all its values as CSV. */
+  async texts() {
+    if (!this.#data) await this.#fetch();
+    return { svg: this.#svgText(), csv: csvText(this.#data) };
+  }
+
+  #svgText() {
     const hidden = this.#legend.hidden;
     const shown = this.#chart.series.filter(({ key }) => !hidden.includes(key));
     const legend = shown.map((series) => ({
       label: series.label,
       sample: this.#legend.node.querySelector(`[data-key="${CSS.escape(series.key)}"] .sample`) ?? sample(series),
     }));
-    const svg = svgText(this.#chart, this.#svg, legend);
-    file(format === "svg" ? "image/svg+xml" : "image/png", format === "svg" ? svg : await pngOf(svg));
+    return svgText(this.#chart, this.#svg, legend);
   }
 }
 
 /** The range that holds both. */
 const joined = (a, b) => [Math.min(a[0], b[0]), Math.max(a[1], b[1])];
+
+const roomIn = ({ clientWidth, clientHeight }) => ({ width: clientWidth, height: clientHeight });
 
 const units = () => ({ length: setting("length"), force: setting("force") });

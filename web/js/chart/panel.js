@@ -1,4 +1,4 @@
-// Draws the charts of one panel, and keeps them together: one cursor, one range of time, one set of
+// Draws the charts of one panel and one that is always in sight, and keeps them together: one cursor, one range of time, one set of
 // units.
 
 import { Figure } from "./figure.js";
@@ -8,6 +8,7 @@ import { onSetting } from "../page/settings.js";
 
 let available = []; // { name, title, view, figure, kind } of the shown result
 let panel = null;
+let fixed = null; // { place, name }: the chart that is always in sight
 let turn = 0; // drawing that is no longer the latest one stops
 let beside = null; // the core's answers about the pinned result
 let range = null; // of time, in all charts over the run [s]
@@ -28,12 +29,36 @@ export function setBeside(values) {
   draw();
 }
 
+/** Draws the chart `name` in `place`, as large as that is, whichever panel is shown. */
+export function fixChart(place, name) {
+  fixed = { place, name };
+  resized.observe(place);
+}
+
+/** Charts of the shown result as texts, name -> { svg, csv }, drawn out of sight at the width of a page. */
+export async function chartTexts(names) {
+  const place = make("div", { className: "charts unseen", "aria-hidden": "true" });
+  document.body.append(place);
+  const texts = new Map();
+  try {
+    for (const entry of available.filter(({ name }) => names.includes(name))) {
+      const figure = new Figure(entry, () => {});
+      place.replaceChildren(figure.node);
+      await figure.draw();
+      texts.set(entry.name, await figure.texts());
+    }
+  } finally {
+    place.remove();
+  }
+  return texts;
+}
+
 /** Draws the charts of `shown`, and again whenever its width changes. */
 export function showPanel(shown) {
   if (panel) resized.unobserve(panel);
   panel = shown;
   resized.observe(panel);
-  for (const figure of figures.values()) if (!panel.contains(figure.node)) figure.forget();
+  for (const figure of figures.values()) if (!figure.fills && !panel.contains(figure.node)) figure.forget();
   draw();
 }
 
@@ -60,6 +85,7 @@ function figureOf(entry) {
   if (!figures.has(entry.name)) {
     const figure = new Figure(entry, link);
     figure.beside = beside;
+    figure.fills = entry.name === fixed?.name;
     if (figure.kind === "time") figure.zoom(range, null, true);
     figures.set(entry.name, figure);
   }
@@ -74,12 +100,12 @@ const resized = new ResizeObserver(() => {
 async function draw() {
   const mine = ++turn;
   const view = panel.id.replace("panel-", "");
-  const shown = available.filter((chart) => chart.view === view).map(figureOf);
+  const always = available.filter(({ name }) => name === fixed?.name).map(figureOf);
+  const shown = available.filter((chart) => chart.view === view && chart.name !== fixed?.name).map(figureOf);
+  if (always.length) put(fixed.place, always);
   const place = panel.querySelector(".charts");
-  if (shown.some((figure, i) => place.children[i] !== figure.node) || place.children.length !== shown.length) {
-    place.replaceChildren(...shown.map((figure) => figure.node));
-  }
-  for (const figure of shown) {
+  if (place) put(place, shown);
+  for (const figure of [...always, ...shown]) {
     try {
       await figure.draw();
       if (mine !== turn) return;
@@ -87,6 +113,12 @@ async function draw() {
       return; // a newer result, or a recovery, draws again
     }
   }
+}
+
+/** Has a place hold these figures, in this order. */
+function put(place, list) {
+  const as = list.every((figure, i) => place.children[i] === figure.node) && place.children.length === list.length;
+  if (!as) place.replaceChildren(...list.map((figure) => figure.node));
 }
 
 document.body.append(

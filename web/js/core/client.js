@@ -5,7 +5,6 @@
 // shown result away.
 
 import { compileCore, startWorker } from "./assets.js";
-import { textOf } from "../job/job.js";
 
 const SUPERSEDE_MS = [400, 1500]; // a run older than this is cut off when a newer job arrives; a younger one may finish
 const LARGE = 100_000; // samples: a Worker that has held more is not used again, for its memory never shrinks
@@ -17,8 +16,7 @@ let spare = null; // Worker to compute in
 let since = null; // when the run in progress began
 let compiled; // promise of the core's module: every Worker starts from the same one
 let hello; // promise of what a form is built from
-let standard; // the default job, as JSON text
-let foreseen; // { json, result, since } of a speculative run; without `json` it is the default job's
+let foreseen; // { json, result, since } of a speculative run
 let lasted = 0; // how long the shown result took [ms]
 let next = null; // the job to compute next: only the latest counts
 let good = null; // the job of the shown result
@@ -29,16 +27,10 @@ let lost = false; // the shown result was lost to a trap and is being computed a
  * job, fields, presets, formats.
  */
 export function load() {
-  hello ??= (spare ??= spawn()).ask("hello").then(
-    (answer) => {
-      standard = textOf(answer.job);
-      return answer;
-    },
-    (error) => {
-      hello = undefined; // it may be asked for again
-      throw error;
-    },
-  );
+  hello ??= (spare ??= spawn()).ask("hello").catch((error) => {
+    hello = undefined; // it may be asked for again
+    throw error;
+  });
   return hello;
 }
 
@@ -48,16 +40,12 @@ export function start(handlers) {
   return load();
 }
 
-/**
- * Begins to compute a job, or without one the default job, before the page is ready to ask for it.
- */
+/** Begins to compute a job before the page is ready to ask for it. */
 export function foresee(json) {
-  const early = { json, result: spare.ask("run", json) };
+  const early = { json, result: spare.ask("run", json), since: performance.now() };
   early.result.catch(() => {
     if (foreseen === early) foreseen = undefined; // asked for, it runs again and says why it fails
   });
-  const begin = () => (early.since = performance.now());
-  load().then(begin, begin); // the Worker answers this first
   foreseen = early;
 }
 
@@ -91,6 +79,9 @@ export const placeInFront = (json) => (spare ??= spawn()).ask("place", json);
 
 /** Resolves with the stock to give a job's program if it has none of its own, or undefined. */
 export const proposedStock = (json) => (spare ??= spawn()).ask("stock", json);
+
+/** Resolves with what a job's program says of its cut, keys of `cutting`, or undefined. */
+export const proposedCutting = (json) => (spare ??= spawn()).ask("cutting", json);
 
 /** The thesis's printed figures beside ours; they are the default job's, whatever is shown. */
 export const thesis = () => (spare ??= spawn()).ask("thesis");
@@ -139,6 +130,15 @@ export const packaged = (controller) => askShown("packaged", controller);
 /** The package to save, `{ file: { name, type, content }, outline }`. */
 export const packageOf = (controller) => askShown("package", controller);
 
+/** Texts as one zip archive, `files` of [path, text]. */
+export const zip = (folder, files) =>
+  askShown(
+    "zip",
+    folder,
+    files.map(([path]) => path),
+    files.map(([, text]) => text),
+  );
+
 /** Smallest and largest x, y, z [mm] of places for the part that are worth a look. */
 export const extent = (json) => (spare ??= spawn()).ask("extent", json);
 
@@ -178,7 +178,7 @@ async function compute() {
 function foresaw(json) {
   const early = foreseen;
   foreseen = undefined;
-  if (!early || (early.json ?? standard) === json) return early;
+  if (!early || early.json === json) return early;
   cutOff(CANCELLED);
   return undefined;
 }

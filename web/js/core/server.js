@@ -10,11 +10,12 @@ const identified = {}; // what was identified last, `stiffness` and `response`
 let surveyed; // { json, survey } of the map of places
 
 const answers = {
-  /** What a form is built from. The job is as the page saves it: with the number of the model. */
+  /** What a form is built from. Jobs are as the page saves them: with the number of the model. */
   hello: () => ({
     version: armill.version(),
     model: armill.model(),
     job: { ...JSON.parse(armill.default_job()), model: armill.model() },
+    opening: { ...JSON.parse(armill.opening_job()), model: armill.model() },
     fields: armill.fields(),
     presets: armill.presets(),
     formats: armill.formats(),
@@ -23,7 +24,8 @@ const answers = {
   arm: (json) => armill.arm(json),
   place: (json) => armill.place_in_front(json),
   stock: (json) => armill.proposed_stock(json),
-  run(json = armill.default_job()) {
+  cutting: (json) => armill.proposed_cutting(json),
+  run(json) {
     let last = 0;
     const fresh = armill.run(json, (fraction, stage) => {
       const now = performance.now();
@@ -47,6 +49,7 @@ const answers = {
   replay: (format) => run.replay(format),
   packaged: (controller) => outlineOf(run.package(controller)),
   package: packageFile,
+  zip: (folder, paths, texts) => armill.zip(folder, paths, texts),
   release,
   thesis: () => armill.thesis_recomputed(),
   identify(kind, ...args) {

@@ -41,19 +41,21 @@ export class Job {
   #fields;
   #presets;
   #model;
+  #thesis; // the default job
   #drafts = new Map(); // values of fields whose shape is not chosen now, kept for the way back
   #data;
   #frozen; // #data as it is handed out, until the next edit
   #text; // the same as text
 
   /**
-   * A job from its plain object, and the core's fields, presets `{ robots, materials }` and number of
-   * the model.
+   * A job from its plain object, and what the core says of jobs: fields, presets `{ robots, materials }`,
+   * number of the model, and `job`, the default one.
    */
-  constructor(data, { fields, presets, model }) {
+  constructor(data, { fields, presets, model, job }) {
     this.#fields = fields;
     this.#presets = { robot: presets.robots, material: presets.materials };
     this.#model = model;
+    this.#thesis = job;
     this.load(data);
   }
 
@@ -117,6 +119,7 @@ export class Job {
   set(field, value) {
     this.#edit();
     if (field.path.startsWith("robot.") && field.path !== "robot.name") this.#forgetCovariance();
+    if (field.path === "robot.preset") this.#leaveThesis(value);
     if (decides(field)) return this.#reshape(field, value);
     if (field.path === ENGAGEMENT && value === FROM_STOCK) return this.#forget(ENGAGEMENT);
     this.#write(field.path, value);
@@ -145,7 +148,12 @@ export class Job {
   /** Another job of the same kind, from its plain object. */
   of(data) {
     const { robot: robots, material: materials } = this.#presets;
-    return new Job(data, { fields: this.#fields, presets: { robots, materials }, model: this.#model });
+    return new Job(data, {
+      fields: this.#fields,
+      presets: { robots, materials },
+      model: this.#model,
+      job: this.#thesis,
+    });
   }
 
   /** Whether another job, a plain object, was saved by an earlier model; before model 2 it named none. */
@@ -180,6 +188,13 @@ export class Job {
     const factor = field.path.endsWith("_hz") ? TURN : 1 / TURN;
     part[keyOf(other.path)] = Number((value * factor).toPrecision(12));
     return other;
+  }
+
+  /** The thesis's shaper is for its own arm: hardly another controller has one. */
+  #leaveThesis(robot) {
+    const { robot: its, shaper } = this.#thesis;
+    const another = this.#presets.robot.some(({ id }) => id === robot) && robot !== its.preset;
+    if (another && JSON.stringify(this.#data.shaper) === JSON.stringify(shaper)) this.#data.shaper = "none";
   }
 
   /** What was handed out before is not the job any more. */

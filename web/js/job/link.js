@@ -16,6 +16,15 @@ export const LONGEST_LINK = 8000;
 /** Whether a fragment means to be a job. */
 export const holdsJob = (fragment) => /^#?job=/.test(fragment);
 
+/**
+ * The job that a fragment names: `#example=thesis` or `#example=bracket`, of the jobs that the core
+ * brings, { job, opening }; undefined for another fragment.
+ */
+export function exampleIn(fragment, { job: thesis, opening: bracket }) {
+  const [, name] = /^#?example=(\w+)/.exec(fragment) ?? [];
+  return { thesis, bracket }[name];
+}
+
 /** The fragment, without "#", that stands for the JSON text of a job. */
 export async function fragmentOf(json) {
   const bytes = await read(through(new CompressionStream("deflate"), new TextEncoder().encode(json)));
@@ -27,7 +36,7 @@ export async function fragmentOf(json) {
  * to be had.
  */
 export async function jobIn(fragment) {
-  const [, format, body] = /^#?job=(\d+)\.([\w-]*)$/.exec(fragment) ?? [];
+  const [, format, body] = /^#?job=(\d+)\.([\w-]*)(?:&view=[\w-]*)?$/.exec(fragment) ?? [];
   if (format === undefined) throw broken("it is not of the form #job=2.… with letters, digits, - and _ only");
   if (Number(format) > FORMAT)
     throw broken(`it was made by a newer Armill (format ${format}; this one reads formats up to ${FORMAT})`);

@@ -1,15 +1,16 @@
 // Opens what a person brings: a job file, or a program that becomes the path of the job.
 
 import { isOfExample, openProgram, textIn } from "../form/program-tools.js";
+import { ask } from "../form/still-asked.js";
 import { byId } from "../page/dom.js";
 import { merged } from "./job.js";
 
 /**
  * `openJob(file)`, `useProgram(kind, text, example)` and `wireDrop()` for the page. `session()`, `job()`
- * and `standard()`, the default job, are asked for when they are needed; `warn(message)` says what could
+ * and `thesis()`, the default job, are asked for when they are needed; `warn(message)` says what could
  * not be opened.
  */
-export function makeOpening({ core, job, session, standard, warn }) {
+export function makeOpening({ core, job, session, thesis, warn }) {
   let opened = 0; // programs, to know the latest
 
   async function openJob(file) {
@@ -29,20 +30,35 @@ export function makeOpening({ core, job, session, standard, warn }) {
 
   /**
    * Makes a program the path of the job, whatever the job was before. The thesis's shaper goes: hardly
-   * any controller has one, and commands for it are wrong without. An example brings its stock and its
-   * tool; any other program gets a stock unless the job has one. False if another program came meanwhile.
+   * any controller has one, and commands for it are wrong without. The spindle speed is the program's.
+   * An example brings its stock and its tool; any other program gets a stock unless the job has one, and
+   * the rest of the inputs is asked about. False if another program came meanwhile.
    */
-  async function useProgram(kind, text, { stock, tool } = {}) {
+  async function useProgram(kind, text, example) {
     const mine = ++opened;
     core.cancel();
-    const given = stock ?? (await stockFor(kind, text));
-    if (mine !== opened) return false;
+    const stock = example ? example.stock : await stockFor(kind, text);
     const { shaper, stock: _, ...rest } = job().data;
-    const own = JSON.stringify(shaper) !== JSON.stringify(standard().shaper);
-    const next = { ...rest, path: { kind, text }, shaper: own ? shaper : "none" };
-    session().load(merged(next, { ...(given && { stock: given }), ...(tool && { tool }) }));
+    const own = JSON.stringify(shaper) !== JSON.stringify(thesis().shaper);
+    const plain = { ...rest, path: { kind, text }, shaper: own ? shaper : "none" };
+    const next = merged(plain, { ...(stock && { stock }), ...(example?.tool && { tool: example.tool }) });
+    const said = await changesFor(next, Boolean(example));
+    if (mine !== opened) return false;
+    session().load(merged(next, said));
+    if (!example) ask(job().data);
     byId("group-path").open = true;
     return true;
+  }
+
+  /** What the program itself decides, and for an example a place in front of the robot. */
+  async function changesFor(next, placed) {
+    const text = JSON.stringify(next);
+    const atHome = JSON.stringify(next.robot) === JSON.stringify(thesis().robot);
+    const [cutting, xyz_mm] = await Promise.all([
+      core.proposedCutting(text).catch(() => undefined),
+      placed && !atHome ? core.placeInFront(text).catch(() => undefined) : undefined,
+    ]);
+    return { ...(cutting && { cutting }), ...(xyz_mm && { workpiece_frame: { xyz_mm: [...xyz_mm] } }) };
   }
 
   /** The stock for a program: the job's own, or its extents as the core proposes them. */

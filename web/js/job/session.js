@@ -3,7 +3,8 @@
 import * as autosave from "./autosave.js";
 import { byId } from "../page/dom.js";
 import { History } from "./undo.js";
-import { holdsJob, jobIn } from "./link.js";
+import { viewIn } from "../page/tabs.js";
+import { exampleIn, holdsJob, jobIn } from "./link.js";
 import { notify } from "../page/toast.js";
 
 const TYPED = "input:not([type=checkbox], [type=range]), textarea"; // what the browser undoes by itself while it is typed into
@@ -15,7 +16,7 @@ const LINKED = "Opened from the link. Undo brings your own inputs back.";
 export class Session {
   #job;
   #form;
-  #standard;
+  #examples;
   #core;
   #changed;
   #warn;
@@ -24,19 +25,19 @@ export class Session {
   #own; // the focused text field, while it holds something else
 
   /**
-   * `changed(stepped)` is called whenever the inputs are others than before, `warn(message)` with
+   * `examples` has the core's own jobs, `opening` and `job`. `changed(stepped)` is called whenever the inputs are others than before, `warn(message)` with
    * what could not be shown.
    */
-  constructor({ job, form, standard, core, changed, warn }) {
+  constructor({ job, form, examples, core, changed, warn }) {
     this.#job = job;
     this.#form = form;
-    this.#standard = standard;
+    this.#examples = examples;
     this.#core = core;
     this.#changed = changed;
     this.#warn = warn;
   }
 
-  /** Shows what the link holds; without one, what this browser kept; without that, the default. */
+  /** Shows what the link holds; without one, what this browser kept; without that, the opening job. */
   async open() {
     autosave.start({
       onrefused: (full) =>
@@ -50,20 +51,24 @@ export class Session {
     });
     this.#wire();
     const kept = await autosave.kept();
-    if (holdsJob(location.hash)) {
+    const named = exampleIn(location.hash, this.#examples);
+    if (named) {
+      if (kept) this.#history.record(kept);
+      this.#show({ job: named }, Boolean(kept));
+    } else if (holdsJob(location.hash)) {
       if (kept) this.#history.record(kept);
       await this.#openLink((why) => {
-        this.#show({ job: this.#standard });
-        this.#warn(`${why} These are the default inputs.`);
+        this.#show({ job: this.#examples.opening });
+        this.#warn(`${why} This is the example.`);
       });
     } else if (!kept) {
-      this.#show({ job: this.#standard });
+      this.#show({ job: this.#examples.opening });
     } else {
       try {
         this.#show(kept);
       } catch {
-        this.#show({ job: this.#standard });
-        this.#warn("The inputs that this browser kept are not readable any more. These are the default inputs.");
+        this.#show({ job: this.#examples.opening });
+        this.#warn("The inputs that this browser kept are not readable any more. This is the example.");
       }
     }
   }
@@ -125,7 +130,9 @@ export class Session {
 
   /** Once the inputs are not the link's any more, the address must not say so. */
   #unlink() {
-    if (holdsJob(location.hash)) history.replaceState(history.state, "", location.pathname + location.search);
+    if (!holdsJob(location.hash) && !exampleIn(location.hash, this.#examples)) return;
+    const view = viewIn(location.hash);
+    history.replaceState(history.state, "", location.pathname + location.search + (view ? `#view=${view}` : ""));
   }
 
   async #openLink(fail) {
@@ -170,6 +177,8 @@ export class Session {
    * only the address had.
    */
   #moved() {
+    const named = exampleIn(location.hash, this.#examples);
+    if (named) return this.#show({ job: named }, true);
     if (!holdsJob(location.hash)) return autosave.keepHere(this.#state);
     this.#openLink((why) => {
       this.#unlink();

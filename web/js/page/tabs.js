@@ -1,36 +1,99 @@
-// Tabs after the ARIA pattern: one stop for Tab, arrows move and select, Home and End jump.
+// Tabs after the ARIA pattern: one stop for Tab, arrows move and select, Home and End jump. A panel may
+// have tabs of its own, its pages. The address names the view that is shown, so that a link opens it and
+// Back returns to the one before.
 
-/** Makes `list` a working tab list; calls `onshow(panel)` whenever another panel is shown. */
-export function makeTabs(list, onshow) {
-  const tabs = [...list.querySelectorAll("[role=tab]")];
-  const panelOf = (tab) => document.getElementById(tab.getAttribute("aria-controls"));
+import { byId } from "./dom.js";
 
-  const select = (chosen) => {
-    for (const tab of tabs) {
+const VIEW = /(?:^#?|&)view=([\w-]+)/;
+
+/** The view that a fragment names, or undefined. */
+export const viewIn = (fragment) => VIEW.exec(fragment)?.[1];
+
+/** A fragment, without "#", that names another view and is the same otherwise. */
+export function withView(fragment, view) {
+  const rest = fragment.replace(/^#/, "").replace(/&?view=[\w-]*/, "");
+  const own = /^\w+=/.test(rest) ? rest : ""; // not the name of a section
+  return [own, `view=${view}`].filter(Boolean).join("&");
+}
+
+/**
+ * Makes every tab list of the page work; `onshow(panel)` is called whenever another panel without pages
+ * of its own is shown, its view's name in `panel.id` after "panel-".
+ */
+export function makeTabs(onshow) {
+  const lists = [...document.querySelectorAll("[role=tablist]")];
+  const tabsOf = (list) => [...list.querySelectorAll("[role=tab]")];
+  const panelOf = (tab) => byId(tab.getAttribute("aria-controls"));
+  const chosenOf = (list) => tabsOf(list).find((tab) => tab.getAttribute("aria-selected") === "true");
+  const pagesOf = (panel) => panel.querySelector("[role=tablist]");
+
+  function mark(list, chosen) {
+    for (const tab of tabsOf(list)) {
       const on = tab === chosen;
       tab.setAttribute("aria-selected", String(on));
       tab.tabIndex = on ? 0 : -1;
       panelOf(tab).hidden = !on;
     }
     chosen.scrollIntoView({ block: "nearest", inline: "nearest" });
-    onshow(panelOf(chosen));
+  }
+
+  /** The panel that is seen when `tab` is chosen: its own, or its chosen page. */
+  const seen = (tab) => {
+    const pages = pagesOf(panelOf(tab));
+    return pages ? panelOf(chosenOf(pages)) : panelOf(tab);
   };
 
-  list.addEventListener("click", (event) => {
-    const tab = event.target.closest("[role=tab]");
-    if (tab) select(tab);
-  });
-  list.addEventListener("keydown", (event) => {
-    const at = tabs.indexOf(document.activeElement);
-    const to = { ArrowRight: at + 1, ArrowLeft: at - 1 + tabs.length, Home: 0, End: tabs.length - 1 }[event.key];
-    if (at < 0 || to === undefined) return;
-    event.preventDefault();
-    const tab = tabs[to % tabs.length];
-    tab.focus();
+  function select(tab) {
+    const list = tab.closest("[role=tablist]");
+    mark(list, tab);
+    const parent = list.closest("[role=tabpanel]");
+    if (parent) mark(lists[0], byId(parent.getAttribute("aria-labelledby")));
+    onshow(seen(tab));
+  }
+
+  /** As a person does it: the address follows. */
+  function choose(tab) {
     select(tab);
-  });
-  return {
-    show: (id) => tabs.some((tab) => tab.id === id) && select(document.getElementById(id)),
-    current: () => panelOf(tabs.find((tab) => tab.getAttribute("aria-selected") === "true")),
+    const view = seen(tab).id.replace("panel-", "");
+    if (viewIn(location.hash) !== view) history.pushState(null, "", `#${withView(location.hash, view)}`);
+  }
+
+  for (const list of lists) {
+    list.addEventListener("click", ({ target }) => {
+      const tab = target.closest("[role=tab]");
+      if (tab) choose(tab);
+    });
+    list.addEventListener("keydown", (event) => {
+      const tabs = tabsOf(list);
+      const at = tabs.indexOf(document.activeElement);
+      const to = { ArrowRight: at + 1, ArrowLeft: at - 1 + tabs.length, Home: 0, End: tabs.length - 1 }[event.key];
+      if (at < 0 || to === undefined) return;
+      event.preventDefault();
+      const tab = tabs[to % tabs.length];
+      tab.focus();
+      choose(tab);
+    });
+  }
+
+  const tabOf = (view) => view && document.querySelector(`[role=tab][aria-controls="panel-${CSS.escape(view)}"]`);
+  const own = {
+    /** Shows a view by its name; false if there is none. */
+    show(view) {
+      const tab = tabOf(view);
+      if (tab) select(tab);
+      return Boolean(tab);
+    },
+    /** The same as a person would: Back returns. */
+    choose(view) {
+      const tab = tabOf(view);
+      if (tab) choose(tab);
+    },
+    /** The panel that is seen. */
+    current: () => seen(chosenOf(lists[0])),
   };
+  addEventListener("popstate", () => {
+    const view = viewIn(location.hash) ?? "overview";
+    if (own.current().id !== `panel-${view}`) own.show(view);
+  });
+  return own;
 }

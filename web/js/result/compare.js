@@ -12,7 +12,6 @@ const signed = (value, text) => `${value < 0 ? "\u2212" : "+"}${text(Math.abs(va
 const FIGURES = {
   "before-max": { of: ({ before_mm }) => before_mm.both.max, text: lengthText },
   "expected-p50": { of: ({ expected_mm }) => expected_mm.p50, text: lengthText },
-  passes: { of: ({ passes }) => passes, text: formatNumber },
   force: { of: ({ mean_force_n }) => Math.hypot(...mean_force_n), text: forceText },
   duration: { of: ({ duration_s }) => duration_s, text: formatNumber },
 };

@@ -26,6 +26,7 @@ export function showSummary(summary, apply) {
   const { before_mm: before, after_mm: after } = summary;
   showUnits();
   byId("verdict").textContent = summary.verdict;
+  byId("results").dataset.verdict = summary.verdict_state;
   put("before-mean", before.both.mean, lengthText);
   put("before-max", before.both.max, largeText);
   put("expected-p50", summary.expected_mm.p50, largeText);
@@ -34,6 +35,7 @@ export function showSummary(summary, apply) {
   put("passes", summary.passes);
   put("force", Math.hypot(...summary.mean_force_n), forceText);
   put("duration", summary.duration_s);
+  put("fact-duration", summary.duration_s);
   byId("force-parts").textContent = summary.mean_force_n.map((part, i) => `${"xyz"[i]} ${forceText(part)}`).join(", ");
   byId("length").textContent = `${lengthText(summary.path_length_mm, 4)} ${lengthUnit()}${stopsText(summary)}`;
   showTolerance(summary);
@@ -135,20 +137,4 @@ function remedyButton({ label, patch }, apply) {
     apply(patch);
   });
   return button;
-}
-
-/** The table "Thesis, recomputed". */
-export function showThesis(rows) {
-  const cells = rows.map(({ quantity, source, printed, ours, agrees, reason }) =>
-    make(
-      "tr",
-      { className: agrees ? "" : "differs" },
-      make("th", { scope: "row" }, quantity),
-      make("td", {}, source),
-      make("td", { className: "digits" }, printed),
-      make("td", { className: "digits" }, ours),
-      make("td", {}, make("strong", {}, agrees ? "✓ Agrees." : "✗ Differs."), ` ${reason}`),
-    ),
-  );
-  byId("thesis").tBodies[0].replaceChildren(...cells);
 }

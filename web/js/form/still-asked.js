@@ -1,0 +1,75 @@
+// What a new job still has from the job before it. A program that is opened brings its path and its spindle
+// speed; which robot mills it, with which tool, in what and where, only the person knows. What has not
+// been looked at is listed until it is changed or confirmed.
+
+import { byId, make } from "../page/dom.js";
+
+const KEY = "armill-asked";
+const PARTS = {
+  robot: ["Robot", "robot"],
+  tool_frame: ["Tool frame", "frames"],
+  workpiece_frame: ["Part’s place", "frames"],
+  tool: ["Tool", "tool"],
+  material: ["Material", "material"],
+};
+const DEPTHS = ["Depths of cut", "cutting"]; // of a job without a stock, which would give them
+
+const textOf = (part) => JSON.stringify(part ?? null);
+
+/** Parts of `data` that are still as they were when they were asked about, `asked`: [name, group] each. */
+export function stillAsked(data, asked) {
+  const parts = { ...PARTS, ...((data.stock?.kind ?? "none") === "none" && { cutting: DEPTHS }) };
+  return Object.entries(parts)
+    .filter(([key]) => asked[key] === textOf(data[key]))
+    .map(([, names]) => names);
+}
+
+/** The parts of a job, as they are compared later. */
+export const askedOf = (data) =>
+  Object.fromEntries([...Object.keys(PARTS), "cutting"].map((key) => [key, textOf(data[key])]));
+
+/** Asks about what `data` took over; `but` names a part that was just chosen. */
+export function ask(data, but) {
+  const { [but]: _, ...asked } = askedOf(data);
+  keep(asked);
+  showAsked(data);
+}
+
+/** Writes the list of what is still asked about above the inputs. */
+export function showAsked(data) {
+  const box = byId("still-asked");
+  const parts = stillAsked(data, kept());
+  box.hidden = parts.length === 0;
+  if (box.hidden) return;
+  const links = parts.map(([name, group]) => {
+    const button = make("button", { type: "button", className: "quiet" }, name);
+    button.addEventListener("click", () => show(group));
+    return make("li", {}, button);
+  });
+  const confirm = make("button", { type: "button", id: "confirm-asked" }, "These are right");
+  confirm.addEventListener("click", () => (keep({}), showAsked(data)));
+  box.replaceChildren(make("p", {}, "Still from the job before. Check:"), make("ul", {}, ...links), confirm);
+}
+
+function show(group) {
+  const details = byId(`group-${group}`);
+  details.open = true;
+  details.scrollIntoView({ block: "nearest" });
+  details.querySelector("summary").focus();
+}
+
+function kept() {
+  try {
+    return JSON.parse(sessionStorage.getItem(KEY)) ?? {};
+  } catch {
+    return {}; // denied, or not ours
+  }
+}
+
+function keep(asked) {
+  try {
+    sessionStorage.setItem(KEY, JSON.stringify(asked));
+  } catch {
+    // Denied: it is not asked again after a reload.
+  }
+}
