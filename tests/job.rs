@@ -559,9 +559,9 @@ fn chart_data_are_the_columns_in_the_unit_asked_for() {
 }
 
 #[test]
-fn the_readme_s_job_is_the_default_job() {
-    let readme = include_str!("../README.md");
-    let job = readme.split("```json").nth(1).unwrap().split("```").next().unwrap();
+fn the_job_in_the_docs_is_the_default_job() {
+    let page = include_str!("../docs/job.md");
+    let job = page.split("```json").nth(1).unwrap().split("```").next().unwrap();
     let report = armill::run_json(job, &mut armill::Progress::none()).unwrap();
     assert_eq!(report.fingerprint(), run(&[]).fingerprint());
 }

@@ -21,16 +21,16 @@ fn the_measured_example_is_identified() {
     let found =
         printed(&["web/examples/identify-fanuc-r2000ic.csv", "--robot", robot, "--joints", "coupled-j3"]);
     assert!((found["joint_compliance_rad_per_nm"][0].as_f64().unwrap() / 1.161581e-6 - 1.0).abs() < 1e-5);
-    // As described in the README.
+    // As described in the docs.
     let percent = |key: &str| (100.0 * found[key].as_f64().unwrap()).round();
-    let readme = include_str!("../../README.md");
+    let page = include_str!("../../docs/identify.md");
     let words = format!(
         "{:.0} % of the squared displacements; a row is missed by {:.0} % on average, by {:.0} %",
         percent("explained"),
         percent("mean_relative_residual"),
         percent("mean_relative_left_out")
     );
-    assert!(readme.replace('\n', " ").contains(&words), "{words}");
+    assert!(page.replace('\n', " ").contains(&words), "{words}");
 }
 
 #[test]

@@ -237,7 +237,7 @@ fn a_page_of_mdbook_holds_calculators() -> Result {
     visit(&address, DESKTOP, async |page| {
         frame_answers(page, "#default", &run(&[])).await?;
         fits(page, "#default").await?;
-        let slot = include_str!("../../xtask/docs/book/src/slot.json");
+        let slot = include_str!("../../docs/slot.json");
         frame_answers(page, "#file", &armill::run_json(slot, &mut armill::Progress::none())?).await?;
         let mut pocket = opened_example("pocket.nc");
         pocket.retain(|(path, _)| *path != "shaper" && !path.starts_with("cutting."));

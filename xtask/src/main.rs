@@ -1,5 +1,5 @@
 //! Builds, serves and tests Armill: the only tool a contributor needs.
-#![allow(clippy::print_stdout, reason = "a command-line tool speaks on its standard output")]
+#![allow(clippy::print_stdout, reason = "a command-line tool prints to standard output")]
 
 mod workspace;
 mod site;
@@ -27,9 +27,9 @@ usage: cargo xtask <command>
   npm              make the package for npm in target/npm
   test             check formatting and lints, run all tests: native, in the browser, through the page
   test --native    only what needs no browser
-  bench [samples]  time stages and whole jobs, natively and in Chromium, and kinematics beside other crates: some ten minutes for
-                   the sizes 20000,200000,1000000, a minute for one
-  audit            check licences and sources of all dependencies, and known faults in them
+  bench [samples]  time stages and whole jobs, natively and in Chromium, and kinematics beside other crates: about ten minutes
+                   for the sizes 20000,200000,1000000, a minute for one
+  audit            check licences and sources of all dependencies, and known vulnerabilities
   reproduce        build the core in two folders and compare the two, byte by byte
   fuzz [target [seconds]]  search for texts that break a reader, the job or an export: each for a minute
 ";
@@ -59,7 +59,8 @@ fn run(arguments: &[String]) -> Result<()> {
         ["fuzz"] => fuzz::fuzz(None, 60),
         ["fuzz", target] => fuzz::fuzz(Some(target), 60),
         ["fuzz", target, seconds] => {
-            let seconds = seconds.parse().with_context(|| format!("`{seconds}` is no number of seconds"))?;
+            let seconds =
+                seconds.parse().with_context(|| format!("`{seconds}` is not a number of seconds"))?;
             fuzz::fuzz(Some(target), seconds)
         }
         ["reproduce"] => reproduce::reproduce(),
@@ -71,6 +72,6 @@ fn run(arguments: &[String]) -> Result<()> {
             Ok(())
         }
         [] => bail!("which command?\n\n{USAGE}"),
-        _ => bail!("cannot make sense of `{}`\n\n{USAGE}", words.join(" ")),
+        _ => bail!("unknown command `{}`\n\n{USAGE}", words.join(" ")),
     }
 }
