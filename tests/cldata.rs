@@ -98,7 +98,7 @@ fn another_frame_is_remarked_and_a_change_is_refused() {
         assert_eq!(remarks(&sound(&format!("{frame}\n{go}"))), expected, "{frame}");
     }
     for (text, place, part) in [
-        ("CSYS/1,0,0,0,0,1,0,0,0,0,1,9\nGOTO/0,0,0", (1, 1), "let the CAM system"),
+        ("CSYS/1,0,0,0,0,1,0,0,0,0,1,9\nGOTO/0,0,0", (1, 1), "have the CAM system"),
         ("MSYS/0,0,0,1,0,0,0,1,0\nGOTO/0,0,0\nMSYS/0,0,9,1,0,0,0,1,0", (3, 1), "one frame"),
         ("GOTO/0,0,0\nMSYS/0,0,9,1,0,0,0,1,0", (2, 1), "one frame"),
         ("$$-> CSYS/1,0,0,0,0,1,0,0,0,0,1,0\n$$-> CSYS/0,1,0,0,-1,0,0,0,0,0,1,0", (2, 1), "one frame"),

@@ -103,8 +103,8 @@ fn mistakes_are_placed_and_say_what_to_do() {
         // Headers.
         ("x,y\n1,2", (1, 3), "x, y and z"),
         ("x,y,v\n1,2,3", (1, 5), "the columns are"),
-        ("x,y,z,x\n1,2,3,4", (1, 7), "stands once"),
-        ("x,y,z,i,j\n1,2,3,0,0", (1, 9), "all three"),
+        ("x,y,z,x\n1,2,3,4", (1, 7), "only once"),
+        ("x,y,z,i,j\n1,2,3,0,0", (1, 9), "or none"),
         ("x_mm,y_in,z\n1,2,3", (1, 6), "same unit"),
         ("x_m,y,z\n1,2,3", (1, 1), "mm or in"),
         ("x,y,z [furlong]\n1,2,3", (1, 5), "mm or in"),
@@ -115,7 +115,7 @@ fn mistakes_are_placed_and_say_what_to_do() {
         // Commas and points.
         ("1,5,2,5\n2,5,3,5", (1, 1), "semicolons"),
         ("1,5,2,5,3,5\n1,5,2,5,4,5", (1, 1), "semicolons"),
-        ("x,y,z\n1,5,2,5,3,5", (2, 7), "semicolons separate"),
+        ("x,y,z\n1,5,2,5,3,5", (2, 7), "separate the cells by semicolons"),
         ("1,5;2;3\n1.5;2;3", (2, 1), "either points or commas"),
         ("1.234,5;2;3", (1, 1), "\"1.234,5\""),
         ("1,2,3\n1,5;2;3", (2, 1), "decimal signs or separators"),
@@ -232,7 +232,7 @@ fn spreadsheets_are_read_as_they_write() {
         ("sep=|\n1|2|3", (1, 1), "the columns are"),
         ("1,2,3\n4,-5,6\n\u{1a}7,8,9", (3, 1), "\"\u{1a}7\""),
         ("n,x,y\n1,2,3", (1, 5), "x, y and z"),
-        ("n,no,x,y,z\n1,1,2,3,4", (1, 3), "stands once"),
+        ("n,no,x,y,z\n1,1,2,3,4", (1, 3), "only once"),
     ] {
         common::refused_at(read(text), text, place, part);
     }

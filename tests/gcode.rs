@@ -431,9 +431,9 @@ fn refusals_are_placed_and_say_what_to_do() {
         ("a variable without a value", "G1 X#1", 5, "no value"),
         ("an expression that is none", "G1 X[1+a]", 8, "a number"),
         ("a sub-program without an end", "O100 sub", 1, "endsub"),
-        ("a sub-program that is not there", "o<cut> call", 1, "stands in this text"),
+        ("a sub-program that is not there", "o<cut> call", 1, "a sub-program or macro in this text"),
                 ("a second program", "O200", 1, "sub-programs"),
-        ("a call of another file", "M98 P100", 1, "another one is not read"),
+        ("a call of another file", "M98 P100", 1, "other files are not read"),
         ("rotary axis", "G1 X1 A30", 7, "rotary"),
         ("secondary axis", "G1 W3", 4, "secondary"),
         ("counter-clockwise spindle", "S100 M4", 6, "clockwise"),
@@ -445,7 +445,7 @@ fn refusals_are_placed_and_say_what_to_do() {
         ("unknown hundredth of a G", "G1.01", 1, "not known"),
         ("negative G", "G-1", 1, "not known"),
         ("another kinematics", "M428", 1, "kinematics"),
-        ("unknown letter", "G1 X1 E2", 7, "word of milling"),
+        ("unknown letter", "G1 X1 E2", 7, "milling word"),
         ("an exponent without a sign", "G1 X1e3", 6, "exponent"),
         ("two of a modal group", "G0 G1 X1", 4, "modal group"),
         ("two planes", "G17 X1 G18", 8, "G17"),
@@ -496,7 +496,7 @@ fn refusals_are_placed_and_say_what_to_do() {
         check(name, &format!("{HEAD}\n{text}"), &Gives::Error(2, column, words), &Options::default());
     }
     let endless = format!("{HEAD}\no1 while [1 GT 0]\nG4 P0\no1 endwhile");
-    check("a loop without an end", &endless, &Gives::Error(4, 1, "loop that ends"), &Options::default());
+    check("an endless loop", &endless, &Gives::Error(4, 1, "loop that ends"), &Options::default());
     // The tolerance is 0.005 mm + 0.001 of the radius: 0.015 mm at 10 mm. A centre off by half of
     // it makes the two radii differ by all of it.
     assert!(read_with(&format!("{HEAD}\nG2 X20 I10.007"), &Options::default()).is_ok());

@@ -105,7 +105,7 @@ fn macros_take_their_words_as_variables() {
         ),
     ]);
     refuse(&[
-        (Fanuc, "G65 P77 A1\nM30", 1, "stands in this text"),
+        (Fanuc, "G65 P77 A1\nM30", 1, "must be in this text"),
         (Fanuc, "G65 A1\nM30", 1, "names its macro"),
         (Fanuc, "G65 P1 I1 J2 I3\nM30\nO1\nM99", 1, "specification II"),
         (Fanuc, "G65 P1\nM30\nO1\nG65 P1\nM99", 4, "hundred"),

@@ -124,7 +124,7 @@ impl ProgramBuilder {
             if turn > SAME_DIRECTION && !self.program.moves.is_empty() {
                 return Err(Fault::new(
                     format!("a turn of the tool by {:.3} deg in place", turn / DEG),
-                    "the path is measured by the way of the tip: let the tip move by at least 0.01 mm while the tool turns",
+                    "the path is measured along the tip: move the tip by at least 0.01 mm while the tool turns",
                 ));
             }
             self.pose = Some((from, if self.program.moves.is_empty() { target.axis } else { axis_from }));
@@ -140,7 +140,7 @@ impl ProgramBuilder {
     /// at most as much.
     pub(super) fn arc_to(&mut self, circle: Circle, target: Target) -> Result<(), Fault> {
         let Some((from, axis_from)) = self.pose else {
-            return Err(Fault::new("an arc before any point", "an arc starts at the point before it"));
+            return Err(Fault::new("an arc before the first point", "an arc starts at the point before it"));
         };
         let Circle { center, axis, radius, sweep } = circle;
         let flat = |p: Vector3<f64>| {
@@ -155,7 +155,7 @@ impl ProgramBuilder {
         let spoke = start - shift;
         let radius = spoke.norm();
         if radius <= SAME {
-            return Err(Fault::new("an arc without a radius", "the radius is larger than 0"));
+            return Err(Fault::new("an arc of radius 0", "the radius is larger than 0"));
         }
         let u = spoke / radius;
         let v = axis.cross(&u);
@@ -180,8 +180,8 @@ impl ProgramBuilder {
         let Target { point, axis, pace, spindle, line } = target;
         if math::angle_between(&axis_from, &axis) > PI - 1e-6 {
             return Err(Fault::new(
-                format!("the axis {} turned round from {}", list(axis), list(axis_from)),
-                "which way the tool turns by 180 deg is not said: put a point between",
+                format!("the axis {} reversed from {}", list(axis), list(axis_from)),
+                "the program does not say which way the tool turns by 180 deg: add a point in between",
             ));
         }
         self.program.moves.push(Move { segment, axis_from, axis_to: axis, pace, spindle, line });

@@ -2,7 +2,7 @@
 //!
 //! The TCP's x axis follows a direction of the workpiece, projected across the tool axis. Near that
 //! direction a small turn of the axis turns the projection far, and on its way through by half a
-//! turn at once. So the direction is one that the axis keeps clear of all along.
+//! turn at once. So the direction is one that the axis stays clear of along the whole path.
 
 use crate::math::{self, Pose, Turn};
 use crate::path::Move;

@@ -7,7 +7,7 @@ use crate::path::builder::Circle;
 use crate::units::DEG;
 use nalgebra::Vector3;
 
-/// A way of writing an arc, told by the word and the number of its values. The first six values are
+/// A way of writing an arc, recognised by the word and the number of its values. The first six values are
 /// always the centre and a vector along the axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum ArcForm {
@@ -42,7 +42,7 @@ impl ArcForm {
             ),
             Self::Creo => Some(
                 "CIRCLE is read as counter-clockwise about its vector, as PTC Creo means it; \
-                 other systems may mean the other way",
+                 other systems may mean the opposite",
             ),
             Self::Nx => Some(
                 "CIRCLE with eleven values is read as clockwise about its vector, as Siemens NX means it",
@@ -76,7 +76,7 @@ impl<'a> Reader<'a> {
                 degrees => Err(self.error(
                     &token.place,
                     format!("the angle {degrees} deg"),
-                    "an angle is above 0, 1000 turns at most",
+                    "an angle is above 0 and at most 1000 turns",
                 )),
             });
         if let Some(sense) = form.sense() {
@@ -96,15 +96,15 @@ impl<'a> Reader<'a> {
     ) -> Result<f64, Error> {
         let Some((from, _)) = self.builder.pose else {
             let expected = "an arc starts at the point before it";
-            return Err(self.error(&statement.place, "an arc before any point", expected));
+            return Err(self.error(&statement.place, "an arc before the first point", expected));
         };
         Ok((from - center).cross(axis).norm())
     }
 
     fn unknown_arc(&self, statement: &Statement<'a>, tokens: &[AptToken<'a>]) -> Error {
         if let Some(times) = tokens.iter().find(|token| token.is("TIMES")) {
-            let expected = "several turns in one CIRCLE (TIMES, Siemens NX) are not read: \
-                            let the CAM system write helical engages as straight moves";
+            let expected = "several turns in one CIRCLE (TIMES, Siemens NX) are not supported: \
+                            have the CAM system write helical engages as straight moves";
             return self.error(&times.place, format!("{} with TIMES", statement.word), expected);
         }
         let place = tokens.get(7).map_or(statement.end(), |token| token.place);
@@ -112,7 +112,7 @@ impl<'a> Reader<'a> {
             "an arc is MOVARC/xc,yc,zc,i,j,k,r,ANGLE,a"
         } else {
             "an arc is CIRCLE/xc,yc,zc,i,j,k,r, or has six values (SolidWorks CAM) or eleven (Siemens NX); \
-             let the CAM system write others as straight moves"
+             have the CAM system write others as straight moves"
         };
         self.error(&place, format!("{} with {} values", statement.word, tokens.len()), expected)
     }

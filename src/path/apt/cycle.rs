@@ -164,7 +164,7 @@ impl<'a> Reader<'a> {
         place: &TextPlace<'_>,
     ) -> Result<(), Error> {
         if self.rapid {
-            let found = format!("a rapid move while the cycle of line {} is on", cycle.line);
+            let found = format!("a rapid move while the cycle of line {} is active", cycle.line);
             let expected = "each GOTO is a hole here: CYCLE/OFF before RAPID ends the cycle";
             return Err(self.error(place, found, expected));
         }

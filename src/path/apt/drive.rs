@@ -37,8 +37,9 @@ impl<'a> Reader<'a> {
             Vector3::from_column_slice(&numbers)
         } else {
             let Some((from, _)) = self.builder.pose else {
-                let expected = "INDIRP/x,y,z points from the tool: a GOTO before it says where that is";
-                return Err(self.error(&place, "a direction before any point", expected));
+                let expected =
+                    "INDIRP/x,y,z points from the tool: write a GOTO before it to say where the tool is";
+                return Err(self.error(&place, "a direction before the first point", expected));
             };
             self.point(&numbers, &tokens)? - from
         };
@@ -59,7 +60,7 @@ impl<'a> Reader<'a> {
     pub(super) fn arc_on_circle(&mut self, statement: &Statement<'a>) -> Result<(), Error> {
         let place = statement.place;
         let tokens = self.tokens(statement)?;
-        let unknown = "an arc here is TLON,GOFWD/(CIRCLE/xc,yc,zc,r),ON,(LINE/xc,yc,zc,x,y,z); let the CAM system write others as points";
+        let unknown = "an arc here is TLON,GOFWD/(CIRCLE/xc,yc,zc,r),ON,(LINE/xc,yc,zc,x,y,z); have the CAM system write others as points";
         let (circle, line) = match tokens.as_slice() {
             [circle @ .., a, b, c, d, e, f] if circle.len() >= 5 => (circle, [*a, *b, *c, *d, *e, *f]),
             _ => return Err(self.error(&statement.end(), statement.written(), unknown)),
@@ -79,20 +80,20 @@ impl<'a> Reader<'a> {
             self.side = Some((side.to_string(), place));
         }
         let Some((side, side_at)) = self.side.clone() else {
-            let expected = "TLON before it says that the tool is on the circle";
+            let expected = "write TLON before it to put the tool on the circle";
             return Err(self.error(&place, "GOFWD without TLON", expected));
         };
         let Some(ahead) = self.ahead.take() else {
             return Err(self.error(
                 &place,
                 "an arc without a direction",
-                "INDIRV/i,j,k before it says which way it runs",
+                "write INDIRV/i,j,k before it to say which way it runs",
             ));
         };
         let Some((from, tool_axis)) = self.builder.pose else {
             return Err(self.error(
                 &place,
-                "an arc before any point",
+                "an arc before the first point",
                 "an arc starts at the point before it",
             ));
         };
@@ -102,8 +103,8 @@ impl<'a> Reader<'a> {
         let circle = Circle { center, axis, radius: self.radius(&r)?, sweep: None };
         // A tool beside the circle is on it only if its radius is zero.
         if side != "TLON" && !(circle.passes(&from) && circle.passes(&end)) {
-            let expected = "the tool runs beside the circle, which is not followed: \
-                            let the CAM system write the path of its centre with TLON, as CIRCLE or as points";
+            let expected = "the tool runs beside the circle, which is not supported: \
+                            have the CAM system write the path of its centre with TLON, as CIRCLE or as points";
             return Err(self.error(&side_at, side, expected));
         }
         let target = self.target(&place, end, tool_axis)?;
@@ -125,7 +126,7 @@ impl<'a> Reader<'a> {
         let expected = if ahead.tangent {
             "INDIRV points along the circle, parallel to the XY plane"
         } else {
-            "INDIRP points to one side of the start, along the circle"
+            "INDIRP must point to one side of the start, along the circle"
         };
         Err(self.error(&ahead.place, "a direction that is not the arc's", expected))
     }

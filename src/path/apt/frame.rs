@@ -28,12 +28,12 @@ impl<'a> Reader<'a> {
             None => self.builder.pose.map(|_| IDENTITY.as_slice()),
         };
         if first.is_some_and(|first| !is_same(first, &frame)) {
-            let expected = "one frame for the whole program: let the CAM system write one file for each";
+            let expected = "use one frame for the whole program: have the CAM system write one file for each";
             return Err(self.error(&statement.place, statement.written(), expected));
         }
         if !identity {
             self.builder.remark("other-frame", statement.place.line, || {
-                format!("{}: the points are read as written, as points of this frame", statement.written())
+                format!("{}: the points are read as written, in this frame", statement.written())
             });
         }
         self.frame = Some(frame);

@@ -37,7 +37,7 @@ pub(super) fn other_than_apt(text: &str) -> Option<(&'static str, &'static str)>
     lines.iter().find_map(|line| named(line))
 }
 
-/// The language that a line in upper case tells, and what to do about it.
+/// The language that an upper-case line belongs to, and what to do about it.
 fn named(line: &str) -> Option<(&'static str, &'static str)> {
     if is_gcode(line) {
         return Some(("G-code", "this is G-code: choose G-code as the kind of path (\"gcode\")"));
@@ -48,7 +48,7 @@ fn named(line: &str) -> Option<(&'static str, &'static str)> {
     if is_row(line) {
         return Some(("rows of numbers", "these are points: choose points as the kind of path (\"csv\")"));
     }
-    // `DEF PART()` is KRL, `def part():` is URScript, whose moves tell it.
+    // `DEF PART()` is KRL, `def part():` is URScript, recognised by its moves.
     if line.ends_with(':') {
         return None;
     }
@@ -56,7 +56,8 @@ fn named(line: &str) -> Option<(&'static str, &'static str)> {
     Some((*name, NOT_READ))
 }
 
-const NOT_READ: &str = "this language is not read: let the CAM system write G-code, APT/CLDATA or points";
+const NOT_READ: &str =
+    "this language is not supported: have the CAM system write G-code, APT/CLDATA or points";
 
 /// Whether a line in upper case is a block of G-code: letters, each with its number.
 fn is_gcode(line: &str) -> bool {

@@ -38,8 +38,8 @@ impl<'a> Reader<'a> {
                     && circle.passes(&point)
                 {
                     self.builder.remark("chord", place.line, || {
-                        "a straight move between two points of the arc before it: if the CAM system writes several points to a CIRCLE, \
-                         let it write the end only".into()
+                        "a straight move between two points of the arc before it: if the CAM system writes several points \
+                         for one CIRCLE, have it write the end only".into()
                     });
                 }
                 self.builder.line_to(target)
@@ -58,7 +58,7 @@ impl<'a> Reader<'a> {
     ) -> Result<Target, Error> {
         if let Some(line) = self.home {
             let found = format!("a move after GOHOME (line {line})");
-            let expected = "where home lies is not said: write RAPID and the GOTO that it means";
+            let expected = "the program does not say where home is: write RAPID and a GOTO instead";
             return Err(self.error(place, found, expected));
         }
         let pace = if self.builder.pose.is_some() { self.pace(place)? } else { MovePace::JobFeed };
@@ -89,7 +89,7 @@ impl<'a> Reader<'a> {
         }
         self.home = Some(place.line);
         self.ignore(statement);
-        self.builder.remark("home", place.line, || "the way home is not part of the path".into());
+        self.builder.remark("home", place.line, || "the move home is not part of the path".into());
         Ok(())
     }
 
@@ -99,9 +99,8 @@ impl<'a> Reader<'a> {
             return Ok(MovePace::Rapid);
         }
         if self.speed.is_some() && !self.spinning {
-            self.builder.remark("spindle-stopped", place.line, || {
-                "a feed move while the spindle stands still".into()
-            });
+            self.builder
+                .remark("spindle-stopped", place.line, || "a feed move while the spindle is stopped".into());
         }
         let feed = match self.feed {
             Some(Feed::PerTime(feed)) => feed,

@@ -91,7 +91,7 @@ impl<'a> Reader<'a> {
     fn finish(mut self, lines: usize) -> Result<Program, Error> {
         self.no_circle_waits()?;
         if self.builder.program.moves.is_empty() {
-            let expected = "a path has two GOTO points or more that are not all the same";
+            let expected = "a path needs at least two different GOTO points";
             return Err(
                 Fault::new("the end of a text without a move", expected).at(self.field, (lines.max(1), 1))
             );
@@ -177,7 +177,7 @@ impl<'a> Reader<'a> {
     fn harmless(&mut self, word: &str, statement: &Statement<'a>) {
         if matches!(word, "LOADTL" | "LOAD") && !self.builder.program.moves.is_empty() {
             self.builder.remark("tool-change", statement.place.line, || {
-                "the tool changes here; the job's one tool is used for all moves".into()
+                "the tool changes here; the job's tool is used for all moves".into()
             });
         }
         if matches!(word, "CUTTER" | "TLDATA") {
@@ -188,10 +188,7 @@ impl<'a> Reader<'a> {
 
     fn controller_text(&mut self, statement: &Statement<'a>) {
         self.builder.remark("controller-text", statement.place.line, || {
-            format!(
-                "{}: text for the controller is not followed; it must not move the tool",
-                statement.written()
-            )
+            format!("{}: text for the controller is ignored; it must not move the tool", statement.written())
         });
         self.ignore(statement);
     }
@@ -210,8 +207,7 @@ impl<'a> Reader<'a> {
             return Err(self.error(place, format!("{name} (\"{}\")", statement.written()), advice));
         }
         if word.contains('=') {
-            let expected =
-                "definitions belong to part programs: let the CAM system write CLDATA (GOTO points)";
+            let expected = "definitions are not supported, as they belong to part programs: have the CAM system write CLDATA (GOTO points)";
             return Err(self.error(place, statement.written(), expected));
         }
         let expected = match words::nearest(word) {

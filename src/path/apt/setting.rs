@@ -80,7 +80,7 @@ impl<'a> Reader<'a> {
                 Some(0.0) if speed.is_none() => {
                     self.spinning = false;
                     self.builder.remark("spindle-zero", token.place.line, || {
-                        "a spindle speed of 0 is read as a spindle that stands still".into()
+                        "a spindle speed of 0 is read as a stopped spindle".into()
                     });
                     return Ok(());
                 }
@@ -100,7 +100,7 @@ impl<'a> Reader<'a> {
                     let expected = if token.is("CCLW") {
                         "the cutting model is for a clockwise spindle: use a right-hand tool and CLW"
                     } else if token.is("SFM") || token.is("SMM") {
-                        "surface speed needs a diameter: let the CAM system write RPM"
+                        "surface speed needs a diameter: have the CAM system write RPM"
                     } else {
                         "the spindle is SPINDL/RPM,n,CLW or SPINDL/ON or SPINDL/OFF"
                     };

@@ -202,7 +202,7 @@ impl<'a> Iterator for Statements<'a> {
                     break;
                 }
                 let end = (place.line, place.text.chars().count() + 1);
-                let expected = "$ says that the statement goes on in the next line";
+                let expected = "$ continues the statement on the next line";
                 return Some(Err(Fault::new("the end of the text after $", expected).at(self.field, end)));
             };
             (place, goes_on) = (next, more);

@@ -26,7 +26,7 @@ impl<'a> Reader<'a> {
         })?;
         match tokens.iter().find(|token| token.text.is_empty()) {
             Some(token) => {
-                Err(self.error(&token.place, "nothing", "a value stands before and after each comma"))
+                Err(self.error(&token.place, "nothing", "each comma needs a value before and after it"))
             }
             None => Ok(tokens),
         }
@@ -49,7 +49,7 @@ impl<'a> Reader<'a> {
                 let token =
                     tokens.get(1).filter(|_| allowed.iter().any(|word| token.is(word))).unwrap_or(token);
                 let expected = match allowed {
-                    [] => format!("{} stands alone", statement.word),
+                    [] => format!("{} takes no values", statement.word),
                     _ => format!("{} is followed by {}", statement.word, allowed.join(" or ")),
                 };
                 Err(self.error(&token.place, format!("\"{}\"", token.text), expected))
@@ -124,7 +124,7 @@ impl<'a> Reader<'a> {
         if let Some(ijk) = numbers.get(3..6) {
             let place = tokens[3].place;
             if self.multax == Some(false) {
-                let expected = "after MULTAX/OFF a point has three values; MULTAX/ON lets it carry an axis";
+                let expected = "after MULTAX/OFF a point has three values; MULTAX/ON adds an axis";
                 return Err(self.error(&place, "six values", expected));
             }
             let other = Vector3::from_column_slice(ijk);
@@ -133,7 +133,7 @@ impl<'a> Reader<'a> {
                 && circle.passes(&(other * self.unit.in_m()))
             {
                 let expected =
-                    "one GOTO gives the end of the arc: let the CAM system write no points between";
+                    "one GOTO gives the end of the arc: have the CAM system write no points in between";
                 return Err(self.error(&place, "a second point on the arc", expected));
             }
             self.fixed_axis = None;
@@ -148,7 +148,7 @@ impl<'a> Reader<'a> {
             return Ok((point, upright));
         }
         self.builder.remark("axis-kept", line, || {
-            format!("no axis here: the tool keeps ({:.4}, {:.4}, {:.4})", last.x, last.y, last.z)
+            format!("no axis here: the tool axis stays ({:.4}, {:.4}, {:.4})", last.x, last.y, last.z)
         });
         Ok((point, last))
     }

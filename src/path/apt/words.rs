@@ -78,35 +78,35 @@ pub(super) const READ: [&str; 23] = [
 pub(super) fn refused(word: &str) -> Option<&'static str> {
     Some(match word {
         "TRACUT" | "TRANS" | "COPY" | "ROTATE" | "MIRROR" | "SCALE" | "REFSYS" | "MATRIX" | "CSYS" => {
-            "transformed copies are not followed: let the CAM system write the points where the tool goes"
+            "transformed copies are not supported: have the CAM system write the actual points"
         }
         "INDEX" | "ROTABL" | "ROTHED" | "TLROT" | "HEAD" | "PIVOT" => {
-            "rotary axes are not followed: let the CAM system write GOTO/x,y,z,i,j,k in the workpiece's frame (MULTAX/ON)"
+            "rotary axes are not supported: have the CAM system write GOTO/x,y,z,i,j,k in the workpiece's frame (MULTAX/ON)"
         }
         "CUTCOM" => {
-            "cutter compensation bends the path: let the CAM system compensate, and write the tool centre's path"
+            "cutter compensation changes the path: have the CAM system compensate, and write the tool centre's path"
         }
         "CYCLE" | "PITCH" | "THREAD" | "HELIX" => {
-            "such cycles are not followed, only CYCLE/DRILL,DEPTH,d,MMPM,f,CLEAR,c, \
+            "this cycle is not supported, only CYCLE/DRILL,DEPTH,d,MMPM,f,CLEAR,c, \
              DEEP or BRKCHP with STEP,s, and FACE with DWELL,t: \
-             let the CAM system write others out as GOTO (\"expand cycles\")"
+             have the CAM system write other cycles as GOTO (\"expand cycles\")"
         }
         "GODLTA" | "MODE" => "moves are absolute here: write GOTO/x,y,z",
         "GO" | "GOLFT" | "GORGT" | "GOBACK" | "GOUP" | "GODOWN" | "OFFSET" | "PSIS" | "THICK" | "TLONPS"
         | "TLOFPS" => {
-            "part geometry is not followed: let the CAM system write arcs as CIRCLE or as points, in CLDATA (GOTO)"
+            "part geometry is not supported: have the CAM system write arcs as CIRCLE or as points, in CLDATA (GOTO)"
         }
         "RETRCT" | "RETURN" | "GOCLER" => {
-            "a retract to a plane is not followed: write RAPID and the GOTO that it means"
+            "a retract to a plane is not supported: write RAPID and a GOTO instead"
         }
         "NURBS" | "SPLINE" | "BSPLINE" | "POLY" | "KNOT" | "CNTRL" => {
-            "splines are not read: let the CAM system write lines and arcs (GOTO and CIRCLE)"
+            "splines are not supported: have the CAM system write lines and arcs (GOTO and CIRCLE)"
         }
         "ARCDAT" | "ARCMOV" | "ARCSLP" => {
-            "this kind of curve is not followed: let the CAM system write CIRCLE or points"
+            "this kind of curve is not supported: have the CAM system write CIRCLE or points"
         }
         "MACRO" | "CALL" | "TERMAC" | "LOOPST" | "LOOPND" | "IF" | "JUMPTO" | "DO" | "INCLUD" | "READ"
-        | "RESERV" => "programs within the program are not followed: let the CAM system write the points",
+        | "RESERV" => "programs within the program are not supported: have the CAM system write the points",
         _ => return None,
     })
 }

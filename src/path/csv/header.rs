@@ -55,8 +55,8 @@ const ANGLES: [&str; 23] = [
 ];
 
 /// What is allowed where angles of a robot are found.
-pub(super) const NO_ANGLES: &str = "angles of a robot (A, B, C; W, P, R; RX, RY, RZ) are not read: \
-    give the tool's axis as i, j, k, a vector of the length 1 (within 5 %) from tip to spindle, or leave these columns out";
+pub(super) const NO_ANGLES: &str = "robot angles (A, B, C; W, P, R; RX, RY, RZ) are not \
+    supported: give the tool axis as i, j, k, a unit vector (within 5 %) from tip to spindle, or leave these columns out";
 
 impl Columns {
     /// The columns of a text without a header.
@@ -112,7 +112,7 @@ impl Columns {
                 return Err(fault(unknown));
             }
             if places[part].replace(index).is_some() {
-                return Err(fault("each column stands once"));
+                return Err(fault("each column may appear only once"));
             }
             match (part, stated.as_str()) {
                 (_, "") | (INDEX, _) => {}
@@ -132,10 +132,10 @@ impl Columns {
         let all = |part: usize| Some([places[part]?, places[part + 1]?, places[part + 2]?]);
         let end =
             |expected: &str| (names.len().saturating_sub(1), Fault::new("the end of the header", expected));
-        let point = all(0).ok_or_else(|| end("the columns x, y and z are there"))?;
+        let point = all(0).ok_or_else(|| end("the columns x, y and z are needed"))?;
         let axis = all(3);
         if axis.is_none() && places[3..6].iter().any(Option::is_some) {
-            return Err(end("of i, j and k all three are there, or none"));
+            return Err(end("give all of i, j and k, or none"));
         }
         Ok(Self {
             count: names.len(),

@@ -55,14 +55,18 @@ pub fn program(text: &str, options: &Options<'_>, mut on_line: impl FnMut(usize)
         let feed_unit = columns.feed_unit.unwrap_or(options.feed_unit);
         if (unit, feed_unit) != (options.unit, options.feed_unit) && builder.pose.is_none() {
             builder.remark("header-unit", row.line, || {
-                format!("the header's units hold: lengths in {}, feeds in {}", unit.name(), feed_unit.name())
+                format!(
+                    "the header's units are used: lengths in {}, feeds in {}",
+                    unit.name(),
+                    feed_unit.name()
+                )
             });
         }
         if columns.index.is_some() && builder.pose.is_none() {
             builder.remark("index-column", row.line, || match columns.named {
-                true => "the column that numbers the rows is left out".into(),
-                false => "the first column counts the rows and is left out; \
-                          if it is x, name the columns in a first line: x,y,z,feed"
+                true => "the column of row numbers is ignored".into(),
+                false => "the first column looks like row numbers \
+                          and is ignored; if it is x, name the columns in a first line: x,y,z,feed"
                     .into(),
             });
         }
@@ -85,7 +89,7 @@ pub fn program(text: &str, options: &Options<'_>, mut on_line: impl FnMut(usize)
         on_line(rows.lines());
     }
     if builder.program.moves.is_empty() {
-        let expected = "a path has two rows or more that are not all the same point";
+        let expected = "a path needs at least two rows with different points";
         return Err(rows.error((rows.lines().max(1), 1), "the end of a text without a move", expected));
     }
     Ok(builder.finish(rows.unit().name(), rows.lines()))

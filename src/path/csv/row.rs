@@ -124,7 +124,7 @@ impl<'a> Rows<'a> {
     /// The error of the first row whose commas may be either, unless a row has shown what they are.
     pub(super) fn ambiguity(&self) -> Option<Error> {
         let (position, row) = self.ambiguous?;
-        let expected = "nothing says whether the commas are decimal signs: name the columns in a first line (x,y,z,feed), \
+        let expected = "the text does not show whether the commas are decimal signs: name the columns in a first line (x,y,z,feed), \
                         or separate the cells by semicolons";
         Some(self.error(position, &format!("\"{row}\""), expected))
     }
@@ -182,7 +182,7 @@ impl<'a> Rows<'a> {
         if self.cells.len() != columns.count {
             let mut expected = format!("a row has {} cells here, as the first line says", columns.count);
             if separator == Separator::Comma {
-                expected.push_str("; where commas are decimal signs, semicolons separate");
+                expected.push_str("; if commas are decimal signs, separate the cells by semicolons");
             }
             let fault = Fault::new(format!("{} cells", self.cells.len()), expected);
             return Err(self.miscounted(text, columns.count, fault));
@@ -202,13 +202,13 @@ impl<'a> Rows<'a> {
                 _ => cell.contains(',').then_some(Comma::Decimal),
             };
             if comma.is_some_and(|comma| *self.comma.get_or_insert(comma) != comma) {
-                let expected = "in the whole text, commas are either decimal signs or separators";
+                let expected = "commas must be either decimal signs or separators throughout the text";
                 return Err(fail(Fault::new(format!("\"{}\"", text.trim()), expected)));
             }
             if self.decimal_comma && self.decimal_point {
                 return Err(fail(Fault::new(
                     format!("\"{cell}\""),
-                    "decimal signs are either points or commas, in the whole text",
+                    "decimal signs must be either points or commas throughout the text",
                 )));
             }
         }
@@ -257,7 +257,7 @@ fn value(cell: &str, separator: Separator) -> Result<f64, Fault> {
     let text = inner.unwrap_or(cell);
     let thousands = |text: &str| text.split_once(',').is_some_and(|(_, fraction)| fraction.len() == 3);
     if separator == Separator::Comma && inner.is_some_and(thousands) {
-        let expected = "nothing says whether this comma is a decimal sign: write 1234 or 1.234";
+        let expected = "the text does not show whether this comma is a decimal sign: write 1234 or 1.234";
         return Err(Fault::new(cell, expected));
     }
     let grouped = || number(&without_gaps(text).filter(|_| comma)?, comma);

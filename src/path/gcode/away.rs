@@ -16,7 +16,9 @@ impl Interpreter<'_> {
         let axes: Vec<Word> =
             ['X', 'Y', 'Z', 'A', 'B', 'C'].iter().filter_map(|&axis| block.take(axis)).collect();
         if let Some(word) = axes.iter().find(|word| word.letter < 'X' && word.value != 0.0) {
-            return Err(word.fault(block.text, "rotary axes are not read from G-code: post for three axes"));
+            return Err(
+                word.fault(block.text, "rotary axes are not supported in G-code: post for three axes")
+            );
         }
         // G30 P2 is the second of them.
         block.take('P');
@@ -25,8 +27,8 @@ impl Interpreter<'_> {
             let at = axes.first().map_or(block.start(), |word| word.start);
             return Err(WordFault {
                 at,
-                found: "a move to a position of the machine with the tool down".into(),
-                expected: "lift the tool before, in a line of its own: where this move leads is not known"
+                found: "a move to a machine position with the tool down".into(),
+                expected: "lift the tool first, in a line of its own: it is not known where this move leads"
                     .into(),
             });
         }
@@ -37,8 +39,8 @@ impl Interpreter<'_> {
         self.ignore(&name);
         self.remark("machine-zero", || {
             format!(
-                "{name} goes to a position of the machine, which a workpiece does not know: such moves are left out, \
-                 the tool stays clear where it is"
+                "{name} goes to a machine position, which has no place in the workpiece frame: such moves are \
+                 left out, and the tool stays clear where it is"
             )
         });
         for (axis, letter) in AXES.into_iter().enumerate() {
@@ -114,8 +116,10 @@ impl Interpreter<'_> {
             None => Ok(()),
             Some((axis, _)) => Err(WordFault {
                 at: block.start(),
-                found: format!("a cut while the tool is at a position of the machine in {axis}"),
-                expected: format!("first a G0 line with {axis}, which brings the tool back to the workpiece"),
+                found: format!("a cut while the tool is at a machine position in {axis}"),
+                expected: format!(
+                    "first bring the tool back to the workpiece with a G0 line that has {axis}"
+                ),
             }),
         }
     }

@@ -80,7 +80,7 @@ impl<'t> Block<'t> {
             match word.letter {
                 'G' | 'M' => self.add_code(word)?,
                 'N' if first => _ = word.whole(text, 0, 999_999_999)?,
-                'N' => return Err(word.fault(text, "the line number N stands first in its line")),
+                'N' => return Err(word.fault(text, "the line number N comes first in its line")),
                 letter => {
                     let bit = bit(letter);
                     if seen & bit != 0 {
@@ -126,7 +126,7 @@ impl<'t> Block<'t> {
                     let other = other.word.text(self.text);
                     Err(word.fault(
                         self.text,
-                        format!("of its modal group a line holds one code, and {other} stands there already"),
+                        format!("a line holds one code of each modal group, and {other} is already there"),
                     ))
                 }
                 None => {
@@ -196,9 +196,9 @@ impl<'t> Block<'t> {
         let Some(word) = self.words.first() else { return Ok(()) };
         let expected = match word.letter {
             'A' | 'B' | 'C' => {
-                "rotary axes are not read from G-code: post for three axes, or use APT or CSV with tool axes"
+                "rotary axes are not supported in G-code: post for three axes, or use APT or CSV with tool axes"
             }
-            'U' | 'V' | 'W' => "secondary axes are not read: post X, Y and Z",
+            'U' | 'V' | 'W' => "secondary axes are not supported: post X, Y and Z",
             'I' | 'J' | 'K' => "I, J and K give the centre of an arc and need G2 or G3 in force",
             'R' => "R is the radius of an arc (G2, G3) or the clearance plane of a canned cycle",
             'P' => "P belongs to G4 (seconds), G2 and G3 (turns), G64, G82 or G89, once a line",
@@ -208,7 +208,7 @@ impl<'t> Block<'t> {
             'D' => {
                 "D names a cutter radius offset, which is not modelled: post the path of the tool's centre"
             }
-            'E' => "E is no word of milling; an exponent has a sign: X1e-05",
+            'E' => "E is not a milling word; an exponent needs a sign: X1e-05",
             _ => "no word starts with this letter; known are F G H I J K L M N O P Q R S T X Y Z",
         };
         Err(word.fault(self.text, expected))

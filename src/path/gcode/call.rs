@@ -79,7 +79,7 @@ impl Flow<'_> {
             |control: &Option<Control>| matches!(control, Some(Control::Sub(other)) if other == name);
         self.look(self.lines.len());
         let Some(start) = self.controls.iter().position(is_sub) else {
-            return Err(self.fault(here, "a sub-program that stands in this text"));
+            return Err(self.fault(here, "a sub-program in this text"));
         };
         let mut given = Vec::new();
         let mut reader = ExpressionReader::new(self.lines[here], from, variables);
@@ -106,7 +106,7 @@ impl Flow<'_> {
         variables: &mut Variables,
     ) -> Result<(), LineFault> {
         if matches!(variables.dialect, GcodeDialect::LinuxCnc | GcodeDialect::Grbl) {
-            return Err(self.fault(here, "macros (G65) are not of this control: call a sub-program"));
+            return Err(self.fault(here, "this control has no macros (G65): call a sub-program"));
         }
         let line = self.lines[here];
         let mut words: Vec<Word> = Vec::new();
@@ -124,7 +124,7 @@ impl Flow<'_> {
                     };
                     if given.iter().any(|(other, _)| other == local) {
                         return Err(fault(
-                            "each letter once; I, J, K in series (specification II) are not read",
+                            "use each letter once; repeated I, J, K (argument specification II) are not supported",
                         ));
                     }
                     given.push((*local, word.value));
@@ -133,7 +133,7 @@ impl Flow<'_> {
         }
         let Some(number) = number else {
             return Err(
-                self.fault(here, "G65 names its macro by P, which stands in this text as O and its number")
+                self.fault(here, "G65 names its macro by P, which must be in this text as O and its number")
             );
         };
         let start = self.labelled(here, number)?;
@@ -151,7 +151,7 @@ impl Flow<'_> {
         locals: Option<(Locals, Locals)>,
     ) -> Result<(), LineFault> {
         if self.calls.len() >= DEEPEST {
-            return Err(self.fault(here, "calls within each other, a hundred at most"));
+            return Err(self.fault(here, "at most a hundred nested calls"));
         }
         if repeats > 0 {
             self.calls.push(Call { back: here + 1, start, repeats: repeats - 1, locals });
@@ -163,7 +163,7 @@ impl Flow<'_> {
     /// Returns from a call, or repeats it.
     pub(super) fn back(&mut self, here: usize, variables: &mut Variables) -> Result<bool, LineFault> {
         let Some(call) = self.calls.last_mut() else {
-            return Err(self.fault(here, "a return stands in a sub-program that was called"));
+            return Err(self.fault(here, "a return is only allowed in a sub-program that was called"));
         };
         if call.repeats == 0 {
             self.at = call.back;
@@ -190,7 +190,7 @@ impl Flow<'_> {
         variables: &mut Variables,
     ) -> Result<(), LineFault> {
         if variables.dialect == GcodeDialect::LinuxCnc {
-            return Err(self.fault(here, "M99 without P: LinuxCNC returns behind the call"));
+            return Err(self.fault(here, "M99 without P: LinuxCNC returns after the call"));
         }
         match self.calls.last() {
             None => self.at = self.numbered(here, number)?,
@@ -217,11 +217,8 @@ impl Flow<'_> {
         let is_label = |control: &Option<Control>| *control == Some(Control::Label(number));
         self.look(self.lines.len());
         let found = self.controls.iter().position(is_label);
-        found.map(|line| line + 1).ok_or_else(|| {
-            self.fault(
-                here,
-                "a sub-program or macro that stands in this text: the file of another one is not read",
-            )
-        })
+        found
+            .map(|line| line + 1)
+            .ok_or_else(|| self.fault(here, "a sub-program or macro in this text: other files are not read"))
     }
 }

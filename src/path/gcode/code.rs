@@ -95,31 +95,33 @@ pub(super) fn g(tenths: u32) -> Meaning {
         // They store where the reference position is.
         281 | 301 => Harmless(&['X', 'Y', 'Z', 'A', 'B', 'C']),
         410 | 411 | 420 | 421 => Refused(
-            "cutter radius compensation is not read, as it depends on the radius and wear stored in the control: \
+            "cutter radius compensation is not supported, as it depends on the radius and wear stored in the control: \
              have the CAM system post the compensated path (compensation in computer), or program the tool's centre line",
         ),
-        160 => Refused("polar coordinates are not read: have the CAM system post X and Y"),
-        510 | 511 => Refused(
-            "scaling and mirroring are not read: have the CAM system post the coordinates as they are cut",
-        ),
+        160 => Refused("polar coordinates are not supported: have the CAM system post X and Y"),
+        510 | 511 => {
+            Refused("scaling and mirroring are not supported: have the CAM system post the final coordinates")
+        }
         680 | 681 => Refused(
-            "a rotated frame is not read: turn the workpiece frame of the job, or post rotated coordinates",
+            "a rotated frame is not supported: turn the workpiece frame of the job, or post rotated coordinates",
         ),
-        50 | 52 | 62 => Refused("splines are not read: have the CAM system post lines and arcs"),
-        650 => Refused("G65 names its macro by P, which stands in this text as O and its number"),
-        660 | 661 => Refused("modal macro calls are not followed: call the macro by G65 at each place"),
-        431 | 434 | 435 => Refused(
-            "only G43 with an H number is read, for a tool that keeps its direction: post for three axes",
-        ),
+        50 | 52 | 62 => Refused("splines are not supported: have the CAM system post lines and arcs"),
+        650 => Refused("G65 names its macro by P, which must be in this text as O and its number"),
+        660 | 661 => Refused("modal macro calls are not supported: call the macro with G65 at each place"),
+        431 | 434 | 435 => {
+            Refused("only G43 with an H number is supported, for a fixed tool axis: post for three axes")
+        }
         922 | 923 => Refused(
-            "of the G92 family G92 and G92.1 are read: clear the offset with G92.1 and set it with G92",
+            "of the G92 family, only G92 and G92.1 are supported: clear the offset with G92.1 and set it with G92",
         ),
-        330 | 331 | 740 | 840 => Refused("thread cutting and tapping are not milling: leave these holes out"),
+        330 | 331 | 740 | 840 => {
+            Refused("thread cutting and tapping are not supported: leave these holes out")
+        }
         760 | 860 | 870 | 880 => Refused(
-            "of the canned cycles G73, G81, G82, G83, G85 and G89 are read: post the others as plain moves",
+            "of the canned cycles, G73, G81, G82, G83, G85 and G89 are supported: post the others as plain moves",
         ),
-        382..=385 => Refused("probing is not read: delete the line"),
-        70 | 960 => Refused("this is a word of lathes; the reader is for milling"),
+        382..=385 => Refused("probing is not supported: delete the line"),
+        70 | 960 => Refused("this is a lathe code; only milling is supported"),
         _ => Refused("this G number is not known; if it does not change the path, delete it"),
     }
 }
@@ -133,13 +135,11 @@ pub(super) fn m(tenths: u32) -> Meaning {
         60 => Acts(Group::ToolChange),
         40 => Refused("the cutting model is for a clockwise spindle: use a right-hand tool and M3"),
         960..=989 | 1980 => {
-            Refused("sub-program calls are not followed: have the CAM system post one whole program")
+            Refused("sub-program calls are not supported: have the CAM system post one whole program")
         }
         // LinuxCNC's switch of the kinematics.
-        4280 | 4290 | 4300 => Refused("the kinematics is switched here: post for three axes, or use APT"),
-        700..=730 => {
-            Refused("modes that are saved and restored (M70 to M73) are not followed: post plain moves")
-        }
+        4280 | 4290 | 4300 => Refused("this switches the kinematics: post for three axes, or use APT"),
+        700..=730 => Refused("saving and restoring modes (M70 to M73) is not supported: post plain moves"),
         610 | 620 | 630 | 640 | 650 | 660 | 670 | 680 => Harmless(&['P', 'E', 'L', 'Q']),
         // Fans and heaters take S, an oriented spindle R; P is the number or the time of a function.
         1040 | 1060 | 1090 | 1400 => Harmless(&['S', 'P']),

@@ -82,7 +82,7 @@ impl Cycle {
             && let Some(word) = block.take('Q')
         {
             if word.value < 0.0 {
-                return Err(word.fault(block.text, "the depth of a peck is 0 (in one go) or more"));
+                return Err(word.fault(block.text, "the depth of a peck is 0 (no pecking) or more"));
             }
             // A depth of 0 drills in one go.
             self.peck = Some(if word.value > 0.0 { word.value * unit } else { f64::INFINITY });

@@ -39,7 +39,7 @@ impl Interpreter<'_> {
         if self.modal.feed_mode == FeedMode::InverseTime {
             return Err(fault(
                 format!("{name} under G93"),
-                "a canned cycle needs a feed a minute (G94) or a revolution (G95)",
+                "a canned cycle needs a feed per minute (G94) or per revolution (G95)",
             ));
         }
         if cycle.is_called
@@ -68,7 +68,7 @@ impl Interpreter<'_> {
         self.modal.motion = Some(Motion::Cycle(cycle));
         if cycle.clearance.is_none() {
             self.remark("cycle-clearance", || {
-                format!("{name} has no R (clearance plane): the level before it is taken")
+                format!("{name} has no R (clearance plane): the previous level is used")
             });
         }
         let absolute = |level: Level| level.value + self.origin()[normal];
@@ -83,8 +83,8 @@ impl Interpreter<'_> {
         let bottom = if bottom.incremental { clearance + bottom.value } else { absolute(bottom) };
         if bottom > clearance {
             return Err(fault(
-                format!("a hole whose bottom is {:.3} mm above R", (bottom - clearance) * 1e3),
-                "R lies above the bottom of the hole",
+                format!("a hole with its bottom {:.3} mm above R", (bottom - clearance) * 1e3),
+                "R must be above the bottom of the hole",
             ));
         }
         let retract = if self.modal.returns_to_start { start.max(clearance) } else { clearance };
@@ -117,7 +117,7 @@ impl Interpreter<'_> {
         }
         if cycle.pecks() {
             let Some(peck) = cycle.peck else {
-                let expected = format!("{name} drills in steps: give their depth Q");
+                let expected = format!("{name} drills in steps: give the depth of a step, Q");
                 return Err(WordFault { at, found: format!("{name} without Q"), expected });
             };
             if depth / peck > f64::from(MOST) {

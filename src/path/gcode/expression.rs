@@ -84,7 +84,7 @@ impl<'a> ExpressionReader<'a> {
     pub(super) fn operand(&mut self) -> Result<Operand, WordFault> {
         self.depth += 1;
         if self.depth > DEEPEST {
-            return Err(self.fault("brackets within each other, fifty at most"));
+            return Err(self.fault("at most fifty nested brackets"));
         }
         self.skip_blanks();
         let start = self.at;
@@ -103,7 +103,7 @@ impl<'a> ExpressionReader<'a> {
                 Some(value) => value,
                 None => {
                     let found = format!("\"{}\"", &self.line[start..self.at]);
-                    let expected = "this variable has no value here: set it before";
+                    let expected = "this variable has no value here: set it first";
                     return Err(WordFault { at: start, found, expected: expected.into() });
                 }
             }
@@ -166,7 +166,7 @@ impl<'a> ExpressionReader<'a> {
                     };
                     if compared && dialect == GcodeDialect::Fanuc {
                         return Err(fault(
-                            "each comparison in brackets of its own: [[#1 GT 2] AND [#3 LE 7]]",
+                            "put each comparison in its own brackets: [[#1 GT 2] AND [#3 LE 7]]",
                         ));
                     }
                     compared = operator.compares();
@@ -248,7 +248,7 @@ impl<'a> ExpressionReader<'a> {
             if self.take(name) {
                 let (open, close) = if self.take("[") { ("[", "]") } else { ("(", ")") };
                 if open == "(" && !self.take("(") {
-                    return Err(self.fault("the value of a function stands in brackets"));
+                    return Err(self.fault("put the argument of a function in brackets"));
                 }
                 let value = self.bracketed(close)?;
                 let value = self.counted(value);
@@ -265,7 +265,7 @@ impl<'a> ExpressionReader<'a> {
             let two = self.take("2");
             let (open, close) = if self.take("[") { ("[", "]") } else { ("(", ")") };
             if open == "(" && !self.take("(") {
-                return Err(self.fault("the value of a function stands in brackets"));
+                return Err(self.fault("put the argument of a function in brackets"));
             }
             let y = self.expression()?;
             let separate = two && self.take(",");

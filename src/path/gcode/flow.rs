@@ -93,17 +93,17 @@ impl<'t> Flow<'t> {
                 let Some(call) = self.calls.last() else { return Ok(None) };
                 return Err(self.fault(
                     call.back - 1,
-                    "a sub-program that is called here does not return: it ends with M99 or endsub",
+                    "a sub-program called here does not return: end it with M99 or endsub",
                 ));
             };
             self.run += self.lines[self.at].len() + LINE_COST;
             if self.looked.get() > MOST_LOOKED_THROUGH {
-                return Err(self.fault(self.at, "a program with fewer jumps over so many lines"));
+                return Err(self.fault(self.at, "a program with fewer jumps across this many lines"));
             }
             // At a line that decides, which is one of the loop.
             if self.run > self.most_run && control.is_some() {
                 let expected =
-                    "a loop that ends: about half a million lines are run at most, fewer long ones";
+                    "a loop that ends: at most about half a million lines are run, or fewer if they are long";
                 return Err(self.fault(self.at, expected));
             }
             match control.clone() {
@@ -136,7 +136,7 @@ impl<'t> Flow<'t> {
             Label(_) => {
                 return Err(self.fault(
                     here,
-                    "the program before ends with M30, or M99: it runs into the next one here",
+                    "the previous program must end with M30 or M99: it runs into the next one here",
                 ));
             }
             // A definition is run when it is called.
@@ -267,7 +267,7 @@ impl<'t> Flow<'t> {
             return Ok(());
         }
         let at = self.lines[line].len() - rest.len();
-        let expected = "nothing but a comment follows here";
+        let expected = "only a comment may follow here";
         Err((line, WordFault { at, found: format!("\"{}\"", rest.trim_end()), expected: expected.into() }))
     }
 
@@ -275,7 +275,7 @@ impl<'t> Flow<'t> {
     fn go_to(&mut self, here: usize, from: usize, variables: &Variables) -> Result<(), LineFault> {
         let number = self.value(here, from, variables)?;
         if number.fract() != 0.0 || !(0.0..=f64::from(u32::MAX)).contains(&number) {
-            return Err(self.fault(here, &format!("the whole number of a line; this goes to {number}")));
+            return Err(self.fault(here, &format!("a line's whole number; this goes to {number}")));
         }
         self.at = self.numbered(here, number as u32)?;
         Ok(())
@@ -394,9 +394,7 @@ impl<'t> Flow<'t> {
         {
             return Ok(());
         }
-        Err(self.fault(
-            here,
-            "a loop without an end: give it WHILE [condition], or leave it by IF [condition] GOTO",
-        ))
+        Err(self
+            .fault(here, "an endless loop: give it WHILE [condition], or leave it with IF [condition] GOTO"))
     }
 }

@@ -18,13 +18,13 @@ const LANGUAGES: [(&str, &str, &str); 12] = [
     ("UNITS/", "an APT program", APT),
     ("TOOL PATH/", "an APT program", APT),
 ];
-const HEIDENHAIN: &str = "Klartext is not read: post the program as ISO (G-code) or as APT";
-const ROBOT: &str = "robot programs are not read: bring in the milling program that it was made from";
+const HEIDENHAIN: &str = "Klartext is not supported: post the program as ISO (G-code) or as APT";
+const ROBOT: &str = "robot programs are not supported: open the milling program it was made from";
 const APT: &str = "choose APT as the kind of the program";
 /// Lines that are looked at.
 const LOOKED_AT: usize = 20;
 
-/// Fails at the first line that tells another language.
+/// Fails at the first line that belongs to another language.
 ///
 /// # Errors
 /// [`Error::Text`] with the name of the language.

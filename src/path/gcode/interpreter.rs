@@ -146,7 +146,7 @@ impl<'o> Interpreter<'o> {
             self.ignore(word.text(block.text));
             if self.modal.tool.is_some_and(|tool| tool != word.value) {
                 self.remark("tool-change", || {
-                    "the program changes tools; the job's tool is taken for all of it".into()
+                    "the program changes tools; the job's tool is used throughout".into()
                 });
             }
             self.modal.tool = Some(word.value);
@@ -185,7 +185,7 @@ impl<'o> Interpreter<'o> {
             && let Some(word) = block.take('F')
         {
             self.ignore(word.text(block.text));
-            self.remark("feed-zero", || "a feed of 0 is left out: the one before stays in force".into());
+            self.remark("feed-zero", || "a feed of 0 is ignored: the previous feed stays in force".into());
         }
     }
 
@@ -238,7 +238,7 @@ impl<'o> Interpreter<'o> {
         }
         if code.tenths == 640 {
             self.remark("blending", || {
-                "G64 lets a control round corners within its tolerance; the job's own motion settings are used instead".into()
+                "G64 lets a control round corners within its tolerance; the job's motion settings are used instead".into()
             });
         }
     }

@@ -157,7 +157,8 @@ fn run_line<'t>(
     }
     if interpreter.ended() {
         if !content.starts_with(['%', '(', ';']) {
-            interpreter.remark("text-after-end", || "what follows the end of the program is not read".into());
+            interpreter
+                .remark("text-after-end", || "the text after the end of the program is ignored".into());
         }
         return Ok(());
     }
@@ -178,7 +179,8 @@ fn run_line<'t>(
     let from = if content.starts_with(['N', 'n', '/']) { after_slash(line) } else { 0 };
     if from > 0 && interpreter.options.block_delete {
         interpreter.ignore(content.trim_end());
-        interpreter.remark("block-delete", || "lines with a slash are left out: block delete is on".into());
+        interpreter
+            .remark("block-delete", || "lines with a slash are skipped: block delete is assumed on".into());
         return Ok(());
     }
     let line = without_tail(line, interpreter);
@@ -186,7 +188,7 @@ fn run_line<'t>(
     block.read(line, from, variables, siemens)?;
     if variables.used_vacant.take() {
         interpreter.remark("vacant-variable", || {
-            "a variable without a value is used here: its word is passed over, and in sums it counts as 0 (Fanuc)"
+            "a variable without a value is used here: its word is ignored, and in sums it counts as 0 (Fanuc)"
                 .into()
         });
     }
@@ -221,7 +223,7 @@ fn without_tail<'t>(line: &'t str, interpreter: &mut Interpreter) -> &'t str {
             }
             b'/' => interpreter.options.block_delete,
             b'M' | b'm' if text[1..].trim_ascii_start() == "117" => true,
-            // A stop may tell the operator what to do.
+            // A stop may have a message for the operator.
             b'M' | b'm' if !stopped && ["0", "00", "1", "01"].contains(&text[1..].trim_ascii_start()) => {
                 stopped = true;
                 let rest = line[token.end()..].split(['(', ';']).next().unwrap_or_default();

@@ -159,7 +159,7 @@ impl Modal {
         if let (Some(_), Some(cycle)) = (motion, cycle)
             && cycle.tenths != 800
         {
-            let expected = "a line holds one motion: of G0 to G3 and the canned cycles only one";
+            let expected = "a line holds one motion: only one of G0 to G3 and the canned cycles";
             return Err(cycle.word.fault(block.text, expected));
         }
         if let Some(motion) = motion {
@@ -208,7 +208,7 @@ impl Modal {
     fn set_speed(&mut self, block: &mut Block) -> Result<(), WordFault> {
         let Some(word) = block.take('S') else { return Ok(()) };
         if !(word.value == 0.0 || SPINDLE.contains(&word.value)) {
-            let expected = "a spindle speed is 0, or 1 to 1000000 revolutions a minute";
+            let expected = "a spindle speed is 0, or 1 to 1000000 rpm";
             return Err(word.fault(block.text, expected));
         }
         self.speed = Some(word.value * RPM);

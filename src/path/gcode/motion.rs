@@ -28,7 +28,7 @@ impl Interpreter<'_> {
         let unit = self.modal.unit_name();
         if !self.modal.unit_said {
             self.remark("unit-assumed", || {
-                format!("the program does not say its unit (G20 inch, G21 mm): {unit} is taken (path.unit)")
+                format!("the program does not say its unit (G20 inch, G21 mm): {unit} is assumed (path.unit)")
             });
         }
         if self.program.unit.is_empty() {
@@ -58,7 +58,7 @@ impl Interpreter<'_> {
                 target[axis] += value;
             } else {
                 let expected = format!(
-                    "G91 counts from a position that is not known here: give {letter} under G90 first, or path.start_mm"
+                    "G91 counts from a position that is not known here: program {letter} under G90 first, or give path.start_mm"
                 );
                 return Err(word.fault(block.text, expected));
             }
@@ -127,7 +127,7 @@ impl Interpreter<'_> {
                 at: block.start(),
                 found: format!("a move that starts at an unknown {axis}"),
                 expected: format!(
-                    "write where the tool comes from, in a G0 line with {axis} before this one, or give path.start_mm"
+                    "program the start in a G0 line with {axis} before this one, or give path.start_mm"
                 ),
             }),
         }
@@ -154,7 +154,7 @@ impl Interpreter<'_> {
             (true, _) => {
                 if !rapid {
                     self.remark("approach-left-out", || {
-                        "this feed move starts where the machine happens to stand; the path begins where X, Y and Z are known"
+                        "this feed move starts wherever the machine is; the path begins where X, Y and Z are known"
                             .into()
                     });
                 }
@@ -189,7 +189,8 @@ impl Interpreter<'_> {
 
     fn push(&mut self, segment: Segment, pace: MovePace) -> Result<(), WordFault> {
         if self.program.moves.len() >= MOST_MOVES {
-            let expected = "a longer program does not fit a browser's memory: read it in parts".into();
+            let expected =
+                "a longer program does not fit into a browser's memory: split it into parts".into();
             return Err(WordFault { at: 0, found: format!("more than {MOST_MOVES} moves"), expected });
         }
         self.highest = self.highest.max(segment.point(segment.length()).z);
@@ -207,7 +208,7 @@ impl Interpreter<'_> {
     /// The pace of a cutting move of this length [m].
     fn pace(&mut self, length: f64, at: usize) -> Result<MovePace, WordFault> {
         if self.modal.spindle_stopped() {
-            self.remark("spindle-stopped", || "a feed move while the spindle stands still".into());
+            self.remark("spindle-stopped", || "a feed move while the spindle is stopped".into());
         }
         match (self.modal.feed_mode, self.modal.feed) {
             // The move is too short to keep.

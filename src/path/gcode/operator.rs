@@ -76,7 +76,7 @@ impl Operator {
             (Self::Number(compute), _) => Ok(compute(x, y)),
             (Self::Order(holds), _) => Ok(truth(holds(x, y))),
             (Self::Equal(wanted), _) => Ok(truth((a == b) == wanted)),
-            // Comparisons give 0 or 1, of which the bits are the truth.
+            // Comparisons give 0 or 1, whose bits are the truth value.
             (Self::Bits(join), GcodeDialect::Fanuc) => match (whole(x), whole(y)) {
                 (Some(a), Some(b)) => Ok(f64::from(join(a, b))),
                 _ => Err("AND, OR and XOR join whole numbers of 0 to 4294967295 bit by bit here"),

@@ -10,7 +10,7 @@ pub(crate) enum Kind {
     /// A letter and its number, if one follows. Any other character that is not part of a number or
     /// a comment also starts a word.
     Word,
-    /// A comment in round brackets, one of which may be missing.
+    /// A comment in round brackets; either bracket may be missing.
     Comment,
     /// A comment from its semicolon to the end of the line.
     LineComment,

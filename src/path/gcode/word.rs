@@ -126,7 +126,7 @@ pub(super) fn words(
     Ok(())
 }
 
-/// Digits that a double holds exactly, whatever they are.
+/// Number of digits that a double always holds exactly.
 const EXACT_DIGITS: usize = 15;
 /// Powers of ten that a double holds exactly.
 #[rustfmt::skip] // A table.
