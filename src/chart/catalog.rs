@@ -47,7 +47,7 @@ pub const CATALOG: [Entry; 31] = [
     entry("path", "Desired path in space", "path", "5.1", "space"),
     entry("coordinates", "Desired position over time", "path", "5.3", "time"),
     entry("distorted-path", "Path bent by the shaper alone, deviation magnified", "path", "4.12", "space"),
-    entry("compensated-path", "Path to command, correction magnified", "path", "5.11", "space"),
+    entry("compensated-path", "Commanded path, correction magnified", "path", "5.11", "space"),
     entry("revolution", "Milling force over one revolution", "forces", "4.2, 4.3", "curve"),
     entry("force", "Milling force in the base frame", "forces", "4.6", "time"),
     entry(ENGAGEMENT, "Engagement in the stock", "forces", "", "time"),
@@ -77,7 +77,7 @@ pub const CATALOG: [Entry; 31] = [
     entry("joint-6", "Joint 6, original and shaped", "joints", "4.11", "time"),
     entry(SPIN, "Spin about the tool axis", "joints", "", "time"),
     entry("shaper-step", "Unit step, original and shaped", "shaper", "4.10", "curve"),
-    entry("shaper-robustness", "Vibration left if the frequency is misjudged", "shaper", "", "curve"),
+    entry("shaper-robustness", "Residual vibration if the frequency is misjudged", "shaper", "", "curve"),
 ];
 
 /// The charts that apply to a report.

@@ -201,7 +201,7 @@ impl Figures<'_> {
         let bent: Vec<_> =
             actual.iter().zip(errors).map(|(tip, error)| tip + error - error * factor).collect();
         let description = format!(
-            "Deviation drawn {factor} times as large as it is; the largest is {} {}.",
+            "Deviation magnified {factor} times; the largest is {} {}.",
             self.read(largest),
             self.units.length.name()
         );
@@ -216,7 +216,7 @@ impl Figures<'_> {
         let position = &self.report.plan.trajectory.position;
         let commanded: Vec<_> = position.iter().zip(correction).map(|(p, c)| p + c * factor).collect();
         let description = format!(
-            "Correction drawn {factor} times as large as it is; the largest is {} {}.",
+            "Correction magnified {factor} times; the largest is {} {}.",
             self.read(largest),
             self.units.length.name()
         );
@@ -310,7 +310,7 @@ impl Figures<'_> {
         let count = values.len();
         let mut curves = vec![Curve { key: "spin", label: "Chosen", class: "s1", values }];
         if let Some(gain) = &self.report.roll {
-            description += &format!(", compared with {:.1} deg all along", gain.fixed_deg);
+            description += &format!(", compared with a constant {:.1} deg", gain.fixed_deg);
             let values = vec![gain.fixed_deg; count];
             curves.push(Curve { key: "fixed", label: "Fixed", class: "desired", values });
         }
@@ -373,7 +373,7 @@ impl Figures<'_> {
         let description = if self.report.setup().mode.is_none() {
             "No shaper: all of the vibration is left.".to_owned()
         } else if within.is_empty() {
-            "Nowhere below 5 % of the vibration of an unshaped command.".to_owned()
+            "Never below 5 % of the vibration of an unshaped command.".to_owned()
         } else {
             format!(
                 "At most 5 % of the vibration is left from {:.2} to {:.2} times the design frequency.",

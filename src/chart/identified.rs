@@ -24,7 +24,7 @@ impl Fitted<'_> {
     /// [`Error::Invalid`] for options that cannot be drawn.
     pub fn chart(&self, options: &ChartOptions) -> Result<Chart, Error> {
         let (name, title) = match self {
-            Fitted::Stiffness(_) => ("stiffness", "Displacement of each row, and what the fit leaves of it"),
+            Fitted::Stiffness(_) => ("stiffness", "Displacement of each row, and its residual"),
             Fitted::Response(..) => ("response", "Measured response and fitted vibration"),
         };
         let drawn = self.content(options.units).draw(name, title, options);
@@ -51,20 +51,20 @@ fn stiffness(fit: &Fit, units: Units) -> Content {
         Curve { key: "measured", label: "Measured", class: "desired", values: values(|row| row.measured) },
         Curve {
             key: "residual",
-            label: "Left by the fit",
+            label: "Residual of the fit",
             class: "before",
             values: values(|row| row.residual),
         },
         Curve {
             key: "left-out",
-            label: "Left by a fit to the other rows",
+            label: "Residual of a fit to the other rows",
             class: "shaping",
             values: values(|row| row.left_out),
         },
     ];
     let worst = fit.worst().first().map_or(String::new(), |row| {
         format!(
-            " Line {} is missed most: {:.4} {unit} of {:.4} {unit}.",
+            " Line {} fits worst: {:.4} {unit} of {:.4} {unit}.",
             row.line,
             row.residual / size,
             row.measured / size
@@ -73,7 +73,7 @@ fn stiffness(fit: &Fit, units: Units) -> Content {
     let at: Vec<f64> = (1..=fit.rows.len()).map(|row| row as f64).collect();
     let x = Axis { label: "Row", whole: true, range: Some((1.0, at.len().max(2) as f64)), ..Axis::default() };
     let y = Axis { label: "Displacement", unit, zero: true, ..Axis::default() };
-    let description = format!("Lengths of vectors, in the order of the text.{worst}");
+    let description = format!("Vector lengths, in the order of the text.{worst}");
     Content { description, at, shape: Shape::Curves { x, y, curves, markers: true, bands: vec![] } }
 }
 

@@ -8,7 +8,7 @@
 //! logarithm, rounds to whole pixels, draws every sample, and measures text through the DOM, which
 //! a Worker does not have.
 
-#[allow(clippy::module_inception, reason = "the charts have a file for the chart itself")]
+#[allow(clippy::module_inception, reason = "the chart itself can be saved as a file")]
 pub mod chart;
 pub mod catalog;
 pub mod identified;

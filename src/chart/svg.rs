@@ -283,7 +283,7 @@ impl DrawingBackend for SvgBackend {
     }
 }
 
-/// Width of a text as it will be drawn [SVG units]; it errs on the wide side for the common system
+/// Width of a text as it will be drawn [SVG units]; it is rather too wide for the common system
 /// fonts.
 pub(super) fn text_width(text: &str) -> f64 {
     let ems: f64 = text
@@ -305,7 +305,7 @@ fn tenths((x, y): (f64, f64)) -> BackendCoord {
     ((x * TENTHS).round() as i32, (y * TENTHS).round() as i32)
 }
 
-/// Tenths as a decimal number of SVG units, without a needless `.0`.
+/// Tenths as a decimal number of SVG units, without a trailing `.0`.
 fn number(tenths: i32) -> String {
     let sign = if tenths < 0 { "-" } else { "" };
     let (units, rest) = (tenths.unsigned_abs() / 10, tenths.unsigned_abs() % 10);

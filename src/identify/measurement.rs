@@ -83,7 +83,7 @@ impl Convention {
     /// twice.
     pub fn suits(self, robot: &Robot) -> Result<(), Error> {
         if self == Convention::CoupledJ3 && robot.elbow() != Elbow::Serial {
-            let expected = "table: this robot's own joint 3 is counted from the base already";
+            let expected = "table: this robot's own joint 3 is already measured from the base";
             return Err(Error::invalid("convention", "\"coupled-j3\"", expected));
         }
         Ok(())
@@ -151,7 +151,7 @@ pub fn read(text: &str, convention: Convention) -> Result<Measurements, Error> {
                 }
             };
             if number.is_nan() {
-                return wrong("angles, forces and moments are there in every row");
+                return wrong("every row needs angles, forces and moments");
             }
             if value.abs() > most {
                 return wrong(expected);
@@ -165,7 +165,7 @@ pub fn read(text: &str, convention: Convention) -> Result<Measurements, Error> {
         rows.push(Measurement { line, q: convention.joints(q), wrench, displacement });
     }
     if rows.is_empty() {
-        return Err(table.end_error("the end of a text without numbers", "one row a loaded pose"));
+        return Err(table.end_error("a text without numbers", "one row for each loaded pose"));
     }
     let mut remarks = Vec::new();
     let unstated = columns.iter().any(|column| column.quantity == Quantity::Angle && !column.stated);
@@ -188,19 +188,19 @@ fn columns(table: &Table) -> Result<Vec<MeasuredColumn>, Error> {
         let same =
             |other: &MeasuredColumn| (other.quantity, other.component) == (column.quantity, column.component);
         if columns.iter().any(same) {
-            return Err(table.name_error(index, "each column stands once"));
+            return Err(table.name_error(index, "each column may appear only once"));
         }
         columns.push(column);
     }
     let count = |quantity| columns.iter().filter(|column| column.quantity == quantity).count();
     let wanted = if count(Quantity::Angle) != 6 {
-        "the columns q1 to q6 are there"
+        "the columns q1 to q6 are needed"
     } else if count(Quantity::Force) != 3 {
-        "the columns fx, fy and fz are there"
+        "the columns fx, fy and fz are needed"
     } else if count(Quantity::Displacement) == 0 {
-        "one or more of the columns dx, dy and dz are there"
+        "at least one of the columns dx, dy and dz is needed"
     } else if ![0, 3].contains(&count(Quantity::Moment)) {
-        "of mx, my and mz all three are there, or none"
+        "give all of mx, my and mz, or none"
     } else {
         return Ok(columns);
     };

@@ -50,9 +50,7 @@ impl Signal {
     pub fn read(text: &str) -> Result<Self, Error> {
         let table = Table::read(text, FIELD)?;
         if table.len() == 0 {
-            return Err(
-                table.end_error("the end of a text without numbers", "one row an instant: time, signal")
-            );
+            return Err(table.end_error("a text without numbers", "one row for each instant: time, signal"));
         }
         if table.width != 2 {
             return Err(table.cell_error(0, table.width.min(2), "a row is two numbers: time [s] and signal"));
@@ -73,7 +71,7 @@ impl Signal {
                 return Err(table.cell_error(row, empty, "a number, such as 12.5"));
             }
             if time.last().is_some_and(|&before| numbers[0] * unit <= before) {
-                return Err(table.cell_error(row, 0, "each instant comes after the one before"));
+                return Err(table.cell_error(row, 0, "times must increase from row to row"));
             }
             time.push(numbers[0] * unit);
             value.push(numbers[1]);
@@ -153,7 +151,7 @@ pub fn mode(signal: &Signal, from: Option<f64>) -> Result<Mode, Error> {
         other = Some(Other { frequency, damping, share: second.amplitude() / decay.amplitude() });
     }
     if decay.rate <= 0.0 {
-        let expected = "a free decay, from the step or blow on";
+        let expected = "a free decay that starts at the step or impact";
         return Err(Error::invalid(FIELD, "a vibration that grows", expected));
     }
     let left: f64 = rest.iter().map(|r| r * r).sum();
@@ -191,8 +189,8 @@ fn guess(ringing: &Samples<'_>, from: f64) -> Result<Decay, Error> {
         Error::invalid(
             FIELD,
             format!("{} samples from {from:.4} s on", ringing.len()),
-            "nothing rings there for a cycle and a half: the response after a step or a blow, until it has \
-             died down",
+            "nothing vibrates there for a cycle and a half: give the response after a step or impact, \
+             until it has died down",
         )
     })?;
     let samples = samples_per_cycle(ringing, &guess);
@@ -200,7 +198,7 @@ fn guess(ringing: &Samples<'_>, from: f64) -> Result<Decay, Error> {
         return Err(Error::invalid(
             FIELD,
             format!("{samples:.1} samples a cycle"),
-            "sampled too slowly to tell the frequency: ten samples a cycle or more",
+            "sampled too slowly to determine the frequency: at least ten samples per cycle",
         ));
     }
     Ok(guess)
@@ -284,11 +282,11 @@ fn remarks(mode: &Mode, rest: &[f64], explained_by_one: f64) -> Vec<(&'static st
         );
     }
     if mode.cycles < FEW_CYCLES {
-        remark("few-cycles", format!("only {:.1} cycles: the damping hangs on little", mode.cycles));
+        remark("few-cycles", format!("only {:.1} cycles: the damping rests on little data", mode.cycles));
     }
     if mode.samples_per_cycle < FEW_SAMPLES.0 {
         let text = format!(
-            "only {:.1} samples a cycle: what rings faster than half the sampling rate would show up at a wrong, lower frequency",
+            "only {:.1} samples per cycle: a vibration faster than half the sampling rate would appear at a lower, wrong frequency",
             mode.samples_per_cycle
         );
         remark("slow-sampling", text);
@@ -296,10 +294,10 @@ fn remarks(mode: &Mode, rest: &[f64], explained_by_one: f64) -> Vec<(&'static st
     let squares: f64 = rest.iter().map(|r| r * r).sum();
     let neighbours: f64 = rest.windows(2).map(|pair| pair[0] * pair[1]).sum();
     if mode.explained < 1.0 - 1e-9 && neighbours > 0.5 * squares {
-        remark("not-noise", "what is left is no noise, so that the intervals are too narrow".to_owned());
+        remark("not-noise", "the residual is not noise, so the intervals are too narrow".to_owned());
     }
     if !mode.passes.1 {
-        remark("not-converged", format!("the fit did not come to rest in {} passes", mode.passes.0));
+        remark("not-converged", format!("the fit did not converge in {} passes", mode.passes.0));
     }
     remarks
 }

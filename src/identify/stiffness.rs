@@ -179,7 +179,7 @@ pub fn fit(robot: &Robot, rows: &[Measurement]) -> Result<Fit, Error> {
         return Err(Error::invalid(
             FIELD,
             format!("{} rows with {count} displacements", rows.len()),
-            "six compliances and their uncertainty take seven or more measured displacements, better 60",
+            "six compliances and their uncertainty need at least seven measured displacements, preferably 60",
         ));
     }
     let (mut g, mut h, mut square) = (Matrix6::zeros(), Vector6::zeros(), 0.0);

@@ -251,11 +251,11 @@ fn judgement(joint: &Joint) -> String {
     let hard = if others.is_empty() {
         String::new()
     } else {
-        format!("; hard to tell from {others} in these poses")
+        format!("; hard to distinguish from {others} in these poses")
     };
     let more = joint.load_factor.map_or(String::new(), |factor| {
         format!(
-            "; for 10 % to each side: loads {factor:.1} times as large, or {:.0} times the rows",
+            "; for 10 % to each side: use loads {factor:.1} times as large, or {:.0} times as many rows",
             factor * factor
         )
     });
@@ -264,16 +264,16 @@ fn judgement(joint: &Joint) -> String {
         Verdict::Rough => format!("a rough value{hard}{more}"),
         Verdict::Small if joint.at_zero => {
             format!(
-                "held at zero, where the data would make it negative{hard}; the upper end of its interval is all they say"
+                "held at zero because the data would make it negative{hard}; only the upper end of its interval is known"
             )
         }
-        Verdict::Small => format!("not told from a rigid joint{hard}{more}"),
+        Verdict::Small => format!("not distinguishable from a rigid joint{hard}{more}"),
         Verdict::Unloaded => {
             "cannot be identified: no load in these poses turns it. Load the tip further from its axis"
                 .to_owned()
         }
         Verdict::Confounded => format!(
-            "cannot be identified: only a sum with {others} shows. Add poses and directions of load in which they do not move the tip alike"
+            "cannot be identified: only its sum with {others} shows. Add poses and load directions in which they move the tip differently"
         ),
     }
 }
@@ -306,7 +306,7 @@ pub fn response(mode: &Mode) -> ResponseSummary {
         explained: mode.explained,
         passes: mode.passes.0,
         sentence: format!(
-            "{:.2} cycles from {:.3} s to {:.3} s, {:.0} samples a cycle; the fit explains {:.2} % of the signal.",
+            "{:.2} cycles from {:.3} s to {:.3} s, {:.0} samples per cycle; the fit explains {:.2} % of the signal.",
             mode.cycles,
             mode.window.0,
             mode.window.1,

@@ -129,7 +129,7 @@ fn what_makes_a_result_doubtful_is_said() {
 #[test]
 fn what_does_not_ring_is_refused() {
     let quiet = Signal { time: (0..500).map(f64::from).collect(), value: vec![1.0; 500] };
-    assert!(mode(&quiet, None).unwrap_err().to_string().contains("nothing rings"));
+    assert!(mode(&quiet, None).unwrap_err().to_string().contains("nothing vibrates"));
     let signal = ringing(20.0, 0.05, 1000.0, 2.0, 0.0, &mut fastrand::Rng::with_seed(0));
     assert!(mode(&signal, Some(9.0)).unwrap_err().to_string().contains("0 samples"));
     let slow = ringing(TAU * 30.0, 0.02, 100.0, 2.0, 0.0, &mut fastrand::Rng::with_seed(0));
@@ -157,7 +157,7 @@ fn texts_are_read_and_refused_in_place() {
         ("", (1, 1), "without numbers"),
         ("0,1,2", (1, 5), "two numbers"),
         ("0,1\n0.1,x", (2, 5), "a number"),
-        ("0,1\n0.1,2\n0.1,3", (3, 1), "after the one before"),
+        ("0,1\n0.1,2\n0.1,3", (3, 1), "increase from row to row"),
         ("frequency,a\n0,1", (1, 1), "time"),
         ("0,1\n0.1,", (2, 5), "a number"),
     ] {

@@ -248,7 +248,7 @@ fn a_job_takes_over_what_was_identified() {
     changes.push(("uncertainty", json!({ "compliance_covariance": covariance })));
     changes.push(("motion.sample_time_s", json!(0.02)));
     let report = armill::run_json(&job_text(&changes), &mut armill::Progress::none()).unwrap();
-    assert_eq!(report.how_sure().stiffness, "by the covariance of an identification");
+    assert_eq!(report.how_sure().stiffness, "from the covariance of an identification");
     let joints = report.band.shares.iter().filter(|share| share.input.starts_with("joint"));
     assert!(joints.map(|share| share.share).sum::<f64>() > 0.0);
 }
