@@ -237,7 +237,7 @@ fn the_parts_frame_is_counted_as_the_controller_counts() {
         let report = line_of(fanuc.clone(), base, workpiece);
         let text = opening(&written(&report, "fanuc").text);
         assert!(
-            text.contains("The controller counts from axis 2, 670 mm above the foot of the arm"),
+            text.contains("The controller measures from axis 2, 670 mm above the foot of the arm"),
             "{text}"
         );
         assert!(text.contains(stated), "{stated}: {text}");
@@ -266,12 +266,12 @@ fn the_parts_frame_is_counted_as_the_controller_counts() {
     let kuka = line_of(json!({"preset":"kuka-kr-210-2"}), zero.clone(), beside.clone());
     let text = written(&kuka, "krl").text;
     assert!(text.contains("BASE_DATA[1]={X 1500.0,Y 0.0,Z 0.0,"), "{text}");
-    assert!(text.contains("The controller counts from the foot of the arm\n"), "{text}");
+    assert!(text.contains("The controller measures from the foot of the arm\n"), "{text}");
     let mut own = json!({"joint_compliance_rad_per_nm":[0,0,0,0,0,0]});
     let links = armill::job::presets::presets().robots.into_iter().find(|robot| robot.id == "kuka-kr-210-2");
     own["modified_dh"] = json!(links.unwrap().modified_dh);
     let text = written(&line_of(own, zero, beside), "rapid").text;
-    assert!(text.contains("is not known, the foot of the arm is assumed: compare it"), "{text}");
+    assert!(text.contains("is not known, so the foot of the arm is assumed: check it"), "{text}");
     assert!(text.contains("[1500.0,0.0,0.0]"), "{text}");
 }
 

@@ -274,7 +274,7 @@ fn the_job_names_numbers_loads_and_procedures() {
         };
         assert!(numbers.iter().all(|text| all.contains(text)), "{robot}");
         assert!(
-            package.remarks.iter().all(|remark| !remark.contains("load of the flange")),
+            package.remarks.iter().all(|remark| !remark.contains("load on the flange")),
             "{:?}",
             package.remarks
         );
@@ -405,11 +405,11 @@ fn what_a_package_leaves_to_be_done_is_said() {
         .replace("G1 Y60", "S8000\nG1 Y60")
         .replace("G0 X10 Y10", "T2 M6\nG0 X10 Y10");
     let report = job(kuka, place, &json!({"kind":"gcode","text":text}), &[]);
-    for part in ["M0 in line", "M6 in line", "spindle's speed changes", "load of the flange", "Not tried"] {
+    for part in ["M0 in line", "M6 in line", "spindle's speed changes", "load on the flange", "Not tried"] {
         assert!(says(&report, Controller::Kuka, part), "{part}");
     }
-    assert!(!says(&report, Controller::Kuka, "not known to be one with this controller"));
-    assert!(says(&report, Controller::Abb, "not known to be one with this controller"));
+    assert!(!says(&report, Controller::Kuka, "not known to have this controller"));
+    assert!(says(&report, Controller::Abb, "not known to have this controller"));
     assert!(says(&report, Controller::Fanuc, "controller's own acceleration"));
     let fast =
         job(kuka, place, &json!({"kind":"gcode","text":POCKET}), &[("motion.rapid_mm_s", json!(5000))]);

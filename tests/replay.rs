@@ -128,7 +128,7 @@ fn the_header_says_what_comes_out_of_the_program() {
     for (changes, met) in [([arc.clone(), vec![stiff]].concat(), true), (arc, false), (sharp, false)] {
         let report = run(&changes);
         let text = export(&report, "gcode", &ExportOptions::default()).unwrap().text;
-        let line = text.lines().find(|line| line.contains("Run from this file")).unwrap();
+        let line = text.lines().find(|line| line.contains("Simulated from this file")).unwrap();
         let (_, figure) = line.split_once("largest contour error ").unwrap();
         let said: f64 = figure.split(' ').next().unwrap().parse().unwrap();
         assert_eq!(said <= report.summary().tolerance_mm, met, "{line}");
@@ -145,7 +145,7 @@ fn stated(text: &str) -> String {
         |line: &str| line.split_once('!').map_or(line.to_owned(), |(_, rest)| rest.replace(" ;", ""));
     let text: Vec<String> = text.lines().map(comment).collect();
     let text = text.join(" ").split_whitespace().collect::<Vec<_>>().join(" ");
-    let (_, own) = text.split_once("Run from this file").unwrap();
+    let (_, own) = text.split_once("Simulated from this file").unwrap();
     let (_, figure) = own.split_once("largest contour error ").unwrap();
     figure.split(' ').next().unwrap().to_owned()
 }

@@ -12,7 +12,7 @@ use std::io::Write;
 /// [`Error::Invalid`] if the archive cannot hold them.
 pub fn zip(folder: &str, files: &[PackageFile]) -> Result<Vec<u8>, Error> {
     written(folder, files)
-        .map_err(|error| Error::invalid("program", error.to_string(), "files that a zip archive holds"))
+        .map_err(|error| Error::invalid("program", error.to_string(), "files that fit into a zip archive"))
 }
 
 fn written(folder: &str, files: &[PackageFile]) -> Result<Vec<u8>, rawzip::Error> {

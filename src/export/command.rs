@@ -179,7 +179,7 @@ impl Command {
             chain::rest(&mut moves);
             if moves.iter().all(|commanded| commanded.steps.is_empty()) {
                 let least = report.setup().output.least_step / MM;
-                let expected = format!("less than the {} mm that the path is long", path.length() / MM);
+                let expected = format!("less than the path's length of {} mm", path.length() / MM);
                 return Err(Error::invalid("program.least_step_mm", least, expected));
             }
         }
@@ -188,7 +188,10 @@ impl Command {
             return Err(Error::invalid(
                 "thinning_mm",
                 millimetres(thinning),
-                format!("the samples stray {} mm from the thinned path; state more", millimetres(deviation)),
+                format!(
+                    "the samples deviate by {} mm from the thinned path; allow more",
+                    millimetres(deviation)
+                ),
             ));
         }
         let on_path = |s: f64| Point { position: path.point(s), axis: path.axis(s), spin: path.roll(s), s };

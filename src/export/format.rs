@@ -19,13 +19,13 @@ pub const FORMATS: [Format; 10] = [
         id: "columns-csv",
         name: "All columns",
         extension: "csv",
-        note: "Every column of the report, one row a sample.",
+        note: "Every column of the report, one row per sample.",
     },
     Format {
         id: "compensated-csv",
         name: "Compensated samples",
         extension: "csv",
-        note: "Time, position in the base frame and joint commands, one row a sample.",
+        note: "Time, position in the base frame and joint commands, one row per sample.",
     },
     Format {
         id: "path-csv",

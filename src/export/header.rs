@@ -31,7 +31,7 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
         format!("Path {sources}{brought}, robot model {}", ascii(report.plan.robot.name())),
         format!("Verdict, simulated: {}", plain(&report.verdict())),
         format!(
-            "Tolerance asked {} mm, largest contour error reached {} mm if every number is exact, {} mm without compensation",
+            "Tolerance {} mm, largest contour error {} mm if every number is exact, {} mm without compensation",
             millimetres(setup.goal.tolerance),
             millimetres(report.after_max()),
             millimetres(report.before.statistics.max)
@@ -40,7 +40,7 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
     if let Some(by_force) = &setup.feed_rule {
         let ConstantForceFeed { force, least, most } = by_force.rule;
         lines.push(format!(
-            "Feeds hold a mean force of {} N, from {} to {} % of those programmed",
+            "Feeds keep the mean force at {} N, from {} to {} % of the programmed feeds",
             number(force, 1),
             number(least * 100.0, 1),
             number(most * 100.0, 1)
@@ -50,10 +50,12 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
         lines.extend(points(report, command));
     }
     lines.push(format!("Tool tip on the flange at {}", placed(report.plan.robot.tool())));
-    lines.push("Flange and joint zeros are the robot model's: compare them with the controller's".into());
+    lines.push(
+        "Flange and joint zeros are those of the robot model: compare them with the controller's".into(),
+    );
     if let Some((frequency, damping)) = setup.mode {
         lines.push(format!(
-            "These are commands before the input shaper, {frequency} rad/s, damping {damping}: it must act on them"
+            "These commands are meant for an input shaper, {frequency} rad/s, damping {damping}: the controller must apply it"
         ));
     }
     if let Some((command, run)) = command.and_then(|command| Some((command, command.run?))) {
@@ -80,7 +82,10 @@ fn points(report: &Report, command: &Command) -> Vec<String> {
             millimetres(command.deviation)
         ),
         setup.world.sentence(),
-        format!("Positions in the workpiece frame, from there at {}", placed(&setup.workpiece_in_world())),
+        format!(
+            "Positions in the workpiece frame, measured from there at {}",
+            placed(&setup.workpiece_in_world())
+        ),
     ];
     if setup.base != Pose::identity() {
         lines.push(format!("The foot of the arm in the cell at {}", placed(&setup.base)));
@@ -100,14 +105,14 @@ fn rehearsed(report: &Report, command: &Command, run: &ProgramRun) -> Vec<String
         VerdictState::NotMet => "tolerance not met",
     };
     let mut lines = vec![format!(
-        "Run from this file, timed by its own moves, feeds and stops: largest contour error {} mm if every number is exact, \
+        "Simulated from this file, with its own moves, feeds and stops: largest contour error {} mm if every number is exact, \
          up to {} mm in 95 of 100 cases, {met}",
         millimetres(run.worst()),
         millimetres(report.p95_at(run.worst()))
     )];
     if missed > reached {
         lines.push(format!(
-            "That is of a blended corner, from the tip's way, the tip itself is at most {} mm off the path",
+            "That is how far the tip's path misses a blended corner, the tip itself is at most {} mm off the path",
             millimetres(reached)
         ));
     }
@@ -120,7 +125,8 @@ fn rehearsed(report: &Report, command: &Command, run: &ProgramRun) -> Vec<String
     }
     if reached > tolerance && report.after_max() <= tolerance {
         lines.push(
-            "The joint commands at the sample time keep the run's timing and reach the figure above".into(),
+            "The joint commands at the sample time keep the timing of the run and reach the figure above"
+                .into(),
         );
     }
     lines
@@ -131,11 +137,11 @@ fn blending(command: &Command) -> String {
     match command.style.junctions {
         _ if command.blend == 0.0 => "every point is an exact stop".into(),
         Junctions::Share => format!(
-            "blended by CNT{:.0}, which cuts corners by its speed: simulated as overlapping ramps, which is good to a factor of 2",
+            "blended by CNT{:.0}, which rounds corners depending on speed: simulated as overlapping ramps, good to a factor of 2",
             command.blend * 100.0
         ),
         _ => format!(
-            "blended from {} mm before each point, half a move at most, which is simulated as a parabola",
+            "blended from {} mm before each point, at most half a move, simulated as a parabola",
             number(command.blend / MM, 3)
         ),
     }

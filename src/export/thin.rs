@@ -85,7 +85,7 @@ pub fn thin(points: &[Point], tolerance: f64) -> Vec<usize> {
 }
 
 /// Those of `kept` without the ones whose neighbours alone keep every point within `tolerance` [m]: the
-/// rule of the farthest point leaves some that later ones have made needless.
+/// rule of the farthest point leaves some that later ones have made redundant.
 pub fn pruned(points: &[Point], kept: &[usize], tolerance: f64) -> Vec<usize> {
     let mut pruned: Vec<usize> = Vec::with_capacity(kept.len());
     for (i, &index) in kept.iter().enumerate() {

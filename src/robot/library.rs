@@ -74,8 +74,8 @@ impl Preset {
             None => format!("{said}."),
             Some(0.0) => format!("{said} ({source})."),
             Some(mm) => format!(
-                "{said} ({source}). Positions here count from the foot: with the robot's base at zero, add \
-                 {mm} mm to the controller's z. Programs state them as the controller counts."
+                "{said} ({source}). Positions here are measured from the foot of the arm: with the robot's base \
+                 at zero, add {mm} mm to the controller's z. Programs state positions as the controller measures them."
             ),
         }
     }
@@ -112,7 +112,7 @@ pub fn robot(id: &str) -> Result<Preset, Error> {
     let mut keys: Vec<_> = names().map(|[key, ..]| (strsim::jaro_winkler(id, key), key)).collect();
     keys.sort_by(|a, b| b.0.total_cmp(&a.0));
     let like: Vec<_> = keys.iter().take(3).map(|(_, key)| *key).collect();
-    let expected = format!("of the library's {} robots, {} are most like it", keys.len(), like.join(", "));
+    let expected = format!("the most similar of the library's {} robots are {}", keys.len(), like.join(", "));
     Err(Error::invalid("robot.preset", format!("\"{id}\""), expected))
 }
 
@@ -205,8 +205,8 @@ fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
         Some(set) => format!("Joint stiffness: {} ({}).", set.source, set.confidence),
         None => format!(
             "Joint stiffness: not known for this robot. The values are an order of magnitude for \
-             {payload} kg of payload, from eight published sets of other arms, which scatter by a \
-             factor of 2, single joints by 9: identify your own."
+             {payload} kg of payload, from eight published sets for other arms, which scatter \
+             by a factor of 2, and by 9 for single joints: identify your own."
         ),
     };
     let mode_note = match known.as_ref().map(|set| set.mode).filter(|mode| !mode.is_empty()) {

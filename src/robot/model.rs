@@ -152,7 +152,7 @@ impl Robot {
                 }
             }
             if link.sign.abs() != 1.0 {
-                let expected = "a joint turns one way or the other: 1 or -1";
+                let expected = "the sign of a joint is 1 or -1";
                 return Err(Error::invalid(cell(i, "joint_sign"), link.sign, expected));
             }
         }

@@ -25,7 +25,7 @@ impl Spring {
     /// from above 0, or if a rotation falls.
     pub fn through(field: &str, points: Vec<(f64, f64)>) -> Result<Self, Error> {
         if points.is_empty() {
-            return Err(Error::invalid(field, "no point", "a torque and its turn, at least once"));
+            return Err(Error::invalid(field, "no point", "at least one torque with its angle"));
         }
         let mut last = (0.0, 0.0);
         for &(torque, turn) in &points {
@@ -33,14 +33,14 @@ impl Spring {
                 return Err(Error::invalid(
                     field,
                     format!("torque {torque} N m after {} N m", last.0),
-                    "torques of a joint rise from row to row, from above 0",
+                    "the torques of a joint must rise from row to row, starting above 0",
                 ));
             }
             if !(turn.is_finite() && turn >= last.1) {
                 return Err(Error::invalid(
                     field,
-                    format!("turn {turn} rad after {} rad", last.1),
-                    "a joint turns no less under more torque",
+                    format!("an angle of {turn} rad after {} rad", last.1),
+                    "the angle must not fall as the torque rises",
                 ));
             }
             last = (torque, turn);

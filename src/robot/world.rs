@@ -28,14 +28,14 @@ impl World {
     /// A sentence that says it, without full stop: plain ASCII without brackets, for programs.
     pub fn sentence(&self) -> String {
         let Some(height) = self.height else {
-            return "Where the controller counts from is not known, the foot of the arm is assumed: compare it"
+            return "Where the controller measures from is not known, so the foot of the arm is assumed: check it"
                 .into();
         };
         // Rounded to 0.1 um: millimetres to metres and back leave last bits.
         match ((height / MM * 1e4).round() / 1e4, self.at_axis_2) {
-            (0.0, _) => "The controller counts from the foot of the arm".into(),
-            (mm, true) => format!("The controller counts from axis 2, {mm} mm above the foot of the arm"),
-            (mm, false) => format!("The controller counts from {mm} mm above the foot of the arm"),
+            (0.0, _) => "The controller measures from the foot of the arm".into(),
+            (mm, true) => format!("The controller measures from axis 2, {mm} mm above the foot of the arm"),
+            (mm, false) => format!("The controller measures from {mm} mm above the foot of the arm"),
         }
     }
 }

@@ -19,8 +19,8 @@ pub(super) fn remarks(
     let mut remarks = Vec::new();
     if setup.mode.is_some() {
         remarks.push(
-            "These are commands before the input shaper, which must act on them. A controller without one needs a job with \
-             the shaper \"none\"."
+            "These commands are meant for an input shaper, which the controller must apply. Without one, use \
+             a job with the shaper \"none\"."
                 .into(),
         );
     }
@@ -39,14 +39,14 @@ fn of_arm(report: &Report, command: &Command, joints: &[Joints], controller: Con
     let mut remarks = Vec::new();
     if posture::changes(&report.plan.robot, joints) {
         remarks.push(
-            "The arm changes its posture on the way (wrist, elbow or shoulder), which no linear move does: a controller stops \
-             there."
+            "The arm changes its posture on the way (wrist, elbow or shoulder), which no linear move can do: the \
+             controller stops there."
                 .into(),
         );
     }
     if output.of_arm != Some(controller) {
         remarks.push(format!(
-            "The arm is not known to be one with this controller: base and first axes are counted as for {}. Check both.",
+            "This arm is not known to have this controller: base and first axes are measured as for {}. Check both.",
             report.plan.robot.name()
         ));
     }
@@ -97,8 +97,8 @@ fn of_controller(report: &Report, command: &Command, controller: Controller) -> 
     let mut remarks = Vec::new();
     if output.load.is_none() {
         remarks.push(
-            "The load of the flange is not known (program.load_kg): set it in the controller before running, or it follows \
-             less accurately."
+            "The load on the flange is not known (program.load_kg): set it in the controller before running, or \
+             the path will be less accurate."
                 .into(),
         );
     }
@@ -112,11 +112,10 @@ fn of_controller(report: &Report, command: &Command, controller: Controller) -> 
         }
         Controller::Staubli if !output.hooks.is_empty() => {
             let names: Vec<_> = output.hooks.iter().map(|(_, name)| format!("{name}.pgx")).collect();
-            remarks
-                .push(format!("{} are empty: put the cell's own instructions into them.", names.join(", ")));
+            remarks.push(format!("{} are empty: add the cell's own instructions to them.", names.join(", ")));
         }
         Controller::Fanuc if !output.external.is_empty() => {
-            remarks.push("External axes are listed in mm: change a turning one's unit to deg.".into());
+            remarks.push("External axes are listed in mm: change the unit of a rotary one to deg.".into());
         }
         _ => {}
     }

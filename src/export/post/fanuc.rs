@@ -129,7 +129,7 @@ impl Language for Fanuc<'_> {
         lines.extend(brief.hooks(&options.before(), call, &on));
         lines.extend([
             self.comment("To the start by joint motion:"),
-            self.comment("look out for what is in between"),
+            self.comment("check that the way is clear"),
         ]);
         points.push(by_joints(self.frames, &brief.start_deg(), &self.external));
         lines.push(format!("J P[{}] 10% FINE    ;", points.len()));

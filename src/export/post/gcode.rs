@@ -92,7 +92,7 @@ pub(super) fn expressible(report: &Report, command: &Command) -> Result<(), Erro
         return Err(Error::invalid(
             "format",
             "\"gcode\"",
-            "the tool axis is not +Z all along, which this G-code cannot say: use apt",
+            "the tool axis is not +Z throughout, which this G-code cannot express: use apt",
         ));
     }
     Ok(())

@@ -82,7 +82,7 @@ impl Krl {
         let start = brief.command.pose(&brief.command.start);
         lines.extend([
             "PTP $AXIS_ACT".into(),
-            "; To the start by joint motion: look out for what is in between.".into(),
+            "; To the start by joint motion: check that the way is clear.".into(),
             format!("PTP {{{}{}}}", axes.join(","), self.external),
             format!(
                 "; In the base that is {{{},S {},T {}}}",
@@ -111,7 +111,7 @@ impl Krl {
         }
         let said = match options.stores_frames {
             true => "; These lines store tool and base in the controller.",
-            false => "; Compare tool and base with the controller's own: the figures hold for these values.",
+            false => "; Compare tool and base with the controller's own: the figures are for these values.",
         };
         let mut lines = vec![said.to_owned()];
         if options.load.is_none() {

@@ -78,7 +78,7 @@ trait Dialect {
 
     /// A change of spindle speed [rev/min].
     fn spindle(&self, rpm: f64) -> String {
-        self.comment(&format!("spindle clockwise at {} rpm: switch it by your own signals", number(rpm, 2)))
+        self.comment(&format!("spindle clockwise at {} rpm: switch it with your own signals", number(rpm, 2)))
     }
 
     /// A dwell [s].

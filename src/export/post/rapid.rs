@@ -80,7 +80,7 @@ impl<'r> Rapid<'r> {
                     .into(),
             ),
             (false, _) => lines.push(
-                "  ! Tool tMill and work object wPart are the controller's own: the figures hold for these values.".into(),
+                "  ! Tool tMill and work object wPart are the controller's own: the figures are for these values.".into(),
             ),
         }
         let stored =
@@ -135,7 +135,7 @@ impl Language for Rapid<'_> {
             "    ! Spindle and coolant: switch them on here, and wait until the spindle is at speed.";
         lines.extend(brief.hooks(&options.before(), |name| format!("    {name};"), otherwise));
         lines.extend([
-            "    ! To the start by joint motion: look out for what is in between.".into(),
+            "    ! To the start by joint motion: check that the way is clear.".into(),
             format!(
                 "    MoveAbsJ [[{q1},{q2},{q3},{q4},{q5},{q6}],{}]\\NoEOffs,v100,fine,tMill\\WObj:=wPart;",
                 self.external

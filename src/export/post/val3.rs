@@ -137,7 +137,7 @@ impl Language for Val3 {
         };
         lines.push(self.comment(&said));
         if !options.stores_frames {
-            let said = "Compare fPart and tMill with the controller's own: the figures hold for the values in the data";
+            let said = "Compare fPart and tMill with the controller's own: the figures are for the values in the data";
             lines.push(self.comment(said));
         }
         lines.push("  resetMotion()".into());
@@ -146,7 +146,7 @@ impl Language for Val3 {
         lines.extend(brief.hooks(&options.before(), |name| format!("  call {name}()"), otherwise));
         lines.extend(
             [
-                "  // To the start by joint motion: look out for what is in between",
+                "  // To the start by joint motion: check that the way is clear",
                 "  movej(jStart,tMill,mMove)",
                 "  waitEndMove()",
             ]
@@ -168,7 +168,7 @@ impl Language for Val3 {
         // A call must lead to a program of the application: the cell's own go into these.
         for (_, name) in &options.hooks {
             if programs.iter().all(|(known, _)| known != name) {
-                programs.push((name.clone(), vec![self.comment("Put the cell's own instructions here")]));
+                programs.push((name.clone(), vec![self.comment("Add the cell's own instructions here")]));
             }
         }
         programs

@@ -48,8 +48,8 @@ pub(super) fn solutions(robot: &Robot, tcp: &Pose, near: &Joints) -> Result<Solu
     }
     if found.iter().next().is_none() {
         let expected = format!(
-            "no joint values were found that put the tool there with this axis \
-             (numerical inverse, {STARTS} starting points); move or turn the path"
+            "no joint values were found that put the tool there with this \
+             axis (numerical inverse, {STARTS} starting points); move or turn the path"
         );
         return Err(Error::invalid("path", place_mm(tcp), expected));
     }
