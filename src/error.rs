@@ -187,7 +187,7 @@ impl fmt::Display for Error {
         match self {
             Error::Json { message, .. } => write!(f, "{message}"),
             Error::UnknownKey { field, nearest, .. } => {
-                write!(f, "no job has the key {}", Short(field))?;
+                write!(f, "unknown key {}", Short(field))?;
                 match nearest {
                     Some(key) => write!(f, "; did you mean {key}?"),
                     None => Ok(()),
@@ -203,10 +203,7 @@ impl fmt::Display for Error {
                 } else {
                     value.to_string()
                 };
-                write!(
-                    f,
-                    "{field} is {value}{space}{unit}; legal is {min} to {max}{space}{unit}, nearest {nearest}"
-                )
+                write!(f, "{field} is {value}{space}{unit}; it must be {min} to {max}{space}{unit}")
             }
             Error::Invalid { field, value, expected } => write!(f, "{field} is {}; {expected}", Short(value)),
             Error::Missing { field, expected } => write!(f, "{field} is missing: {expected}"),
@@ -231,16 +228,16 @@ impl fmt::Display for Error {
                 }
                 write!(
                     f,
-                    "TCP at ({:.1}, {:.1}, {:.1}) mm in the base frame: the wrist would be {:.1} mm from the shoulder, \
-                     the arm reaches {:.1} to {:.1} mm; move the workpiece {} (workpiece_frame), turn the tool or take \
-                     another arm",
+                    "TCP at ({:.1}, {:.1}, {:.1}) mm in the base frame: the wrist would be {:.1} mm from the \
+                     shoulder, but the arm reaches {:.1} to {:.1} mm; move the workpiece {} (workpiece_frame), turn the tool \
+                     or choose another arm",
                     x * 1e3,
                     y * 1e3,
                     z * 1e3,
                     distance * 1e3,
                     reach_min * 1e3,
                     reach_max * 1e3,
-                    if *distance > (reach_min + reach_max) / 2.0 { "nearer" } else { "further away" }
+                    if *distance > (reach_min + reach_max) / 2.0 { "closer" } else { "further away" }
                 )
             }
             Error::BranchEnds { sample, arc_length, line, position: [x, y, z], joint, turn } => {
@@ -255,8 +252,8 @@ impl fmt::Display for Error {
                 write!(
                     f,
                     ", TCP at ({:.1}, {:.1}, {:.1}) mm in the base frame: joint {joint} would turn by {:.0} deg \
-                     from one sample to the next; take another start_branch or spin (angle, reference, or free), \
-                     turn the tool over a longer move, take shorter samples, or move the part",
+                     from one sample to the next; try another start_branch or spin (angle, reference, \
+                     or free), turn the tool over a longer move, use shorter samples, or move the part",
                     x * 1e3,
                     y * 1e3,
                     z * 1e3,
@@ -297,4 +294,17 @@ impl fmt::Display for Short<'_> {
             None => f.write_str(self.0),
         }
     }
+}
+
+/// A count with its thousands set off by narrow no-break spaces, as the page writes numbers.
+pub(crate) fn grouped(count: f64) -> String {
+    let digits = format!("{count:.0}");
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
 }

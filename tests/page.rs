@@ -174,7 +174,7 @@ fn invalid_input_is_answered_beside_the_field_and_the_last_result_stays() -> Res
             .await
         };
         for (typed, reason) in
-            [("-5", "legal is 0.001 to 10000 mm/s"), ("fast", "not a number"), ("", "needed")]
+            [("-5", "it must be 0.001 to 10000 mm/s"), ("fast", "not a number"), ("", "needed")]
         {
             page.type_into("#motion-feed_mm_s", typed).await?;
             stale(page).await?;

@@ -19,7 +19,7 @@ fn get(object: &JsValue, path: &str) -> JsValue {
 }
 
 fn number(object: &JsValue, path: &str) -> f64 {
-    get(object, path).as_f64().unwrap_or_else(|| panic!("{path} is no number"))
+    get(object, path).as_f64().unwrap_or_else(|| panic!("{path} is not a number"))
 }
 
 fn text(object: &JsValue, path: &str) -> String {
@@ -78,7 +78,7 @@ fn errors_are_errors_with_data() {
     assert!(error.is_instance_of::<js_sys::Error>());
     assert_eq!(text(&error, "code"), "out-of-range");
     assert_eq!(text(&error, "field"), "motion.feed_mm_s");
-    assert!(text(&error, "message").contains("legal is 0.001 to 10000 mm/s"));
+    assert!(text(&error, "message").contains("it must be 0.001 to 10000 mm/s"));
     assert!(get(&error, "line").is_undefined());
 
     let error = thrown("{\n \"moton\": {}}");

@@ -201,7 +201,7 @@ pub(crate) fn check_path_keys(job: &Job) -> Result<(), Error> {
     // They have no field in the form.
     for key in ["block_delete", "start_mm"] {
         if given.get(key).is_some() && job.path.kind != PathKind::Gcode {
-            let expected = format!("a path of kind {kind} has no {key}; it belongs to gcode");
+            let expected = format!("a path of kind {kind} has no {key}; only gcode has it");
             return Err(Error::invalid(format!("path.{key}"), "given", expected));
         }
     }
@@ -224,7 +224,7 @@ fn check_keys(section: &str, given: &Value, kind: &str) -> Result<(), Error> {
             return Err(Error::invalid(
                 field.path,
                 "given",
-                format!("a {section} of kind {kind} has no {key}; it belongs to {kinds}"),
+                format!("a {section} of kind {kind} has no {key}; only {kinds} has it"),
             ));
         }
     }

@@ -91,7 +91,7 @@ impl<'a> Node<'a> {
     /// Reads an object: each key at most once, all of `required`, and no unknown keys.
     pub(super) fn object(&self, keys: &mut [(&str, &mut dyn Read)], required: &[&str]) -> Result<(), Error> {
         let Members::Object(members) = self.members(OBJECT)? else {
-            return Err(self.error("a list stands where an object with named keys belongs"));
+            return Err(self.error("a list instead of an object with named keys"));
         };
         for (k, (key, raw)) in members.iter().enumerate() {
             let node = self.member(PathStep::Key(key), raw);

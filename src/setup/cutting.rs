@@ -58,7 +58,7 @@ pub(super) fn holder(tool: &job::Tool) -> Result<Option<Holder>, Error> {
     let height = tool.stickout_mm.ok_or_else(|| {
         Error::missing(
             "tool.stickout_mm",
-            "how far above the tip the holder begins, with a holder's diameter",
+            "needed with a holder diameter: how far above the tip the holder begins",
         )
     })?;
     Ok(Some(Holder { radius: diameter / 2.0 * MM, height: height * MM }))
@@ -146,7 +146,7 @@ fn engagement(job: &Job) -> Result<Engagement, Error> {
 fn angles(cutting: &job::Cutting) -> Result<Engagement, Error> {
     let (entry, exit) = (cutting.entry_deg, cutting.exit_deg);
     if entry >= exit {
-        let expected = format!("a tooth leaves after it enters: more than entry_deg = {entry}");
+        let expected = format!("a tooth leaves after it enters: it must be more than entry_deg = {entry}");
         return Err(Error::invalid("cutting.exit_deg", exit, expected));
     }
     Ok(Engagement::Angles { entry: entry * DEG, exit: exit * DEG })
@@ -221,7 +221,7 @@ fn chip_thickness(job: &Job, cut: &Cut, contacts: Option<&Contacts>) -> Result<f
         return Ok(mean);
     }
     let expected = format!(
-        "the mean chip of {:.6} mm is thinner than the table's range: give the thickness from {} mm on",
+        "the mean chip of {:.6} mm is thinner than the table's range: give a thickness of at least {} mm",
         mean / MM,
         THINNEST / MM
     );
@@ -230,7 +230,7 @@ fn chip_thickness(job: &Job, cut: &Cut, contacts: Option<&Contacts>) -> Result<f
 
 /// Whether the force follows the deflection: by default where the engagement follows from a stock.
 pub(super) fn follows_deflection(job: &Job, in_stock: bool) -> Result<bool, Error> {
-    let why = "only a stock tells how the force changes as the tool is pushed away";
+    let why = "only a stock shows how the force changes as the tool is pushed away";
     match (job.cutting.coupling, job.cutting.engagement) {
         (Some(Coupling::Deflection), _) if job.stock.is_none() => {
             Err(Error::missing("stock.kind", format!("{why}: box, cylinder, extents, outline or stl")))

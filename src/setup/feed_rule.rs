@@ -48,7 +48,8 @@ pub(super) fn held(
         return alone(motion).map(|()| None);
     }
     let MeanForces::InStock { contacts, forces } = mean_force else {
-        let expected = "programmed, or a stock that the engagement follows from, cut along its z axis";
+        let expected =
+            "programmed, or give a stock that is cut along its z axis and that sets the engagement";
         return Err(Error::invalid("motion.feed_rule", "\"constant-force\"", expected));
     };
     let along = CutAlong { path, contacts, forces, loading };
@@ -95,7 +96,7 @@ fn rule(motion: &job::Motion, along: &CutAlong) -> Result<ConstantForceFeed, Err
         None | Some(Choice::Word) => along.median_force().ok_or_else(|| {
             Error::missing(
                 "motion.force_n",
-                "a number: the program meets no material, so that no force is its median",
+                "a number: the program meets no material, so there is no median force",
             )
         })?,
     };

@@ -23,7 +23,7 @@ pub use robot::robot;
 pub use stock::proposed as proposed_stock;
 
 use crate::cutting::{Bending, Cut, HeaviestPlace, Loading, MeanForces, StiffnessAlong};
-use crate::error::Error;
+use crate::error::{Error, grouped};
 use crate::job::{CompensateAt, Frame, Job, Source, Sources, fields};
 use crate::math::Pose;
 use crate::model::MODEL;
@@ -278,7 +278,9 @@ fn check_samples(path: &Path, limits: &MotionLimits) -> Result<(), Error> {
     }
     let shortest = limits.sample_time * samples / MAX_SAMPLES;
     let expected = format!(
-        "the path would take {samples:.0} samples, at most {MAX_SAMPLES:.0} are computed: from {shortest:.4} s on"
+        "the path would take {} samples, but at most {} are computed: use {shortest:.4} s or more",
+        grouped(samples),
+        grouped(MAX_SAMPLES)
     );
     Err(Error::invalid("motion.sample_time_s", limits.sample_time, expected))
 }
@@ -290,8 +292,8 @@ fn sources(list: &[Source]) -> Result<Sources, Error> {
     if list.len() > usize::from(sources.deflection) + usize::from(sources.shaping) {
         return Err(Error::invalid(
             "compensation.sources",
-            "a list with a source twice",
-            "name each of deflection and shaping once at most",
+            "a list that names a source twice",
+            "name each of deflection and shaping at most once",
         ));
     }
     Ok(sources)

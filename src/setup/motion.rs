@@ -48,7 +48,7 @@ pub(super) fn roll_range(spin: &job::Spin) -> Result<Option<RollRange>, Error> {
         return Err(Error::invalid(
             "spin.range_deg",
             format!("[{low}, {high}]"),
-            "the smallest angle comes first",
+            "put the smallest angle first",
         ));
     }
     let goal = match goal {
@@ -68,7 +68,7 @@ pub(super) fn with_reference(path: Path, spin: &job::Spin) -> Result<Path, Error
     let value = serde_json::to_string(&spin.reference).unwrap_or_default();
     let direction = Vector3::from(given);
     if direction.norm() < 1e-9 {
-        return Err(Error::invalid(field, value, "a direction that is not zero; its length does not matter"));
+        return Err(Error::invalid(field, value, "a direction other than zero, of any length"));
     }
     let (clear, index) = path.clearance(&direction);
     if clear >= LEGAL {
@@ -82,7 +82,7 @@ pub(super) fn with_reference(path: Path, spin: &job::Spin) -> Result<Path, Error
     let line = if step.line > 0 { format!(", line {}", step.line) } else { String::new() };
     let expected = format!(
         "the tool axis comes within {:.1} deg of it ({:.1} mm along the path{line}); \
-         choose a direction that keeps {:.0} deg clear, such as {others}",
+         choose a direction at least {:.0} deg away from it, such as {others}",
         clear / DEG,
         path.start(index) / MM,
         LEGAL / DEG

@@ -30,9 +30,8 @@ pub(super) fn desired(job: &Job, progress: &mut Progress) -> Result<(Path, Optio
     let mut program = program(given, text, progress)?;
     let text = with_line_feeds(text.shared());
     program.remarks.extend(earlier_model(&text));
-    let path = Path::of_program(&program).ok_or_else(|| {
-        Error::invalid(TEXT, "a text without a move", "two positions or more that are not all the same")
-    })?;
+    let path = Path::of_program(&program)
+        .ok_or_else(|| Error::invalid(TEXT, "a text without a move", "at least two different positions"))?;
     Ok((path, Some(SourceProgram { language, text, program })))
 }
 
@@ -77,7 +76,7 @@ fn gcode_options(given: &job::Path, field: &str) -> Result<gcode::Options, Error
     let given_offsets = given.work_offsets_mm.as_deref().unwrap_or_default();
     if given_offsets.len() > work_offsets.len() {
         let value = format!("{} offsets", given_offsets.len());
-        let expected = "G54 to G59, G59.1, G59.2, G59.3: nine at most";
+        let expected = "G54 to G59, G59.1, G59.2, G59.3: at most nine";
         return Err(Error::invalid("path.work_offsets_mm", value, expected));
     }
     for (place, offset) in work_offsets.iter_mut().zip(given_offsets) {
@@ -106,9 +105,8 @@ fn length_unit(given: &job::Path) -> LengthUnit {
 /// The path of a G-code program that was cut before, read as the job's own.
 pub(super) fn earlier(job: &Job, text: &str, field: &str) -> Result<Path, Error> {
     let program = gcode::program(text, &gcode_options(&job.path, field)?, |_| {})?;
-    Path::of_program(&program).ok_or_else(|| {
-        Error::invalid(field, "a text without a move", "two positions or more that are not all the same")
-    })
+    Path::of_program(&program)
+        .ok_or_else(|| Error::invalid(field, "a text without a move", "at least two different positions"))
 }
 
 /// The controller of the job as the reader names it.
@@ -139,7 +137,7 @@ fn shape(given: &job::Path) -> Result<Path, Error> {
     let length = |value: Option<f64>, key: &str| value.ok_or_else(|| need(key)).map(|v| v * MM);
     let normal = Vector3::from(given.normal.unwrap_or([0.0, 0.0, 1.0]));
     if normal.norm() < 1e-9 {
-        return Err(Error::invalid("path.normal", "(0, 0, 0)", "a direction; its length does not matter"));
+        return Err(Error::invalid("path.normal", "(0, 0, 0)", "a direction other than zero, of any length"));
     }
     let segments = match given.kind {
         PathKind::Circle => {
@@ -175,8 +173,8 @@ fn shape(given: &job::Path) -> Result<Path, Error> {
     };
     Path::new(segments).ok_or_else(|| {
         let (field, expected) = match given.kind {
-            PathKind::Polyline => ("path.points_mm", "two points or more that are not all the same"),
-            PathKind::Line => ("path.to_mm", "another point than from_mm"),
+            PathKind::Polyline => ("path.points_mm", "at least two different points"),
+            PathKind::Line => ("path.to_mm", "a point other than from_mm"),
             _ => ("path.sweep_deg", "a sweep that is not zero"),
         };
         Error::invalid(field, "a path without length", expected)

@@ -83,7 +83,7 @@ impl Controller {
             let taken = name.eq_ignore_ascii_case(&options.name)
                 || options.part_prefixes(self).iter().any(|prefix| begins(name, prefix));
             if taken {
-                let expected = "another name than those of this program and its parts";
+                let expected = "a name other than those of this program and its parts";
                 return Err(Error::invalid(*field, format!("\"{name}\""), expected));
             }
         }
@@ -113,8 +113,10 @@ impl Controller {
             return Ok(());
         }
         let expected = match reserved {
-            true => "a name that means nothing else to the controller".to_owned(),
-            false => format!("letters, digits and underscores, a letter first, {longest} characters at most"),
+            true => "a name that the controller does not reserve".to_owned(),
+            false => format!(
+                "it must be letters, digits and underscores, start with a letter and have at most {longest} characters"
+            ),
         };
         Err(Error::invalid(field, format!("\"{name}\""), expected))
     }

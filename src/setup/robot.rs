@@ -101,7 +101,7 @@ fn ortho_parallel(given: &job::Opw) -> Result<Opw, Error> {
     let job::Opw { a1_mm, a2_mm, b_mm, c1_mm, c2_mm, c3_mm, c4_mm, joint_sign, joint_offset_deg } = *given;
     if let Some(i) = joint_sign.iter().position(|sign| sign.abs() != 1.0) {
         let field = format!("robot.opw.joint_sign[{i}]");
-        return Err(Error::invalid(field, joint_sign[i], "a joint turns one way or the other: 1 or -1"));
+        return Err(Error::invalid(field, joint_sign[i], "the sign of a joint is 1 or -1"));
     }
     for (key, length) in [("c2_mm", c2_mm), ("c3_mm", c3_mm)] {
         if length < 0.001 {

@@ -44,7 +44,7 @@ pub(super) fn engagement(
         Some(Engaged::FromStock) if job.stock.is_none() => {
             return Err(Error::missing(
                 "stock.kind",
-                "the engagement is to follow from the stock: box, cylinder, extents, outline or stl",
+                "the engagement is to come from the stock: give a box, cylinder, extents, outline or stl",
             ));
         }
         engagement => !job.stock.is_none() && matches!(engagement, None | Some(Engaged::FromStock)),
@@ -54,7 +54,7 @@ pub(super) fn engagement(
     let solid = solid(job, path)?;
     let earlier = earlier(job)?;
     if job.stock.is_none() && !earlier.is_empty() {
-        let expected = "what the earlier programs have cut: box, cylinder, extents, outline or stl";
+        let expected = "what the earlier programs cut: give a box, cylinder, extents, outline or stl";
         return Err(Error::missing("stock.kind", expected));
     }
     Ok(match solid.filter(|_| from_stock) {
@@ -117,12 +117,13 @@ fn mesh(text: &str) -> Result<Solid, Error> {
         let triangle = triangle.map_err(|error| invalid(error.to_string()))?;
         relief.push(triangle.vertices.map(corner));
         if relief.len() > MOST_TRIANGLES {
-            return Err(invalid(format!("more than {MOST_TRIANGLES} triangles")));
+            let most = crate::error::grouped(MOST_TRIANGLES as f64);
+            return Err(invalid(format!("more than {most} triangles")));
         }
     }
     let count = relief.len();
     if relief.iter().flatten().any(|corner| corner.iter().any(|x| x.is_nan() || x.abs() > FARTHEST)) {
-        return Err(invalid("a corner that is no point within 20 m".into()));
+        return Err(invalid("a corner that is not within 20 m".into()));
     }
     Solid::under(relief).ok_or_else(|| invalid(format!("{count} triangles without a volume")))
 }

@@ -27,7 +27,7 @@ pub(super) fn spreads(
     if let Some((second, _)) = ways.into_iter().filter(|(_, given)| *given).nth(1) {
         return Err(Error::invalid(
             format!("uncertainty.{second}"),
-            "given together with another spread of the stiffness",
+            "given with another spread of the stiffness",
             "give one of stiffness_percent, stiffness_factor and compliance_covariance",
         ));
     }

@@ -22,7 +22,7 @@ fn weight_and_worn_joints_are_entered_as_rows() -> Result {
         let verdict = text(page, "verdict").await?;
         page.type_into("#robot-joint_springs_nm_arcmin", "2, 300, 0.5\n2, 1, 1.5").await?;
         page.wait_for(
-            "document.querySelector('#robot-joint_springs_nm_arcmin-error')?.textContent.includes('torques of a joint rise')",
+            "document.querySelector('#robot-joint_springs_nm_arcmin-error')?.textContent.includes('torques of a joint must rise')",
             20.0,
         )
         .await?;

@@ -104,8 +104,11 @@ fn a_polyline_too_long_for_a_field_is_the_same_path_as_rows() -> Result {
     visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         drop_file(page, "points.json", &format!("[{}]", json!(job.to_string()))).await?;
-        page.wait_for("document.querySelector('#notice').textContent.includes('too many for a field')", 20.0)
-            .await?;
+        page.wait_for(
+            "document.querySelector('#notice').textContent.includes('too many points for a field')",
+            20.0,
+        )
+        .await?;
         current(page).await?;
         assert_eq!(page.value("#path-kind").await?, "csv");
         assert_eq!(number(page, "before-max").await?, report.summary().before_mm.both.max);
@@ -119,12 +122,12 @@ fn numbers_that_are_none_and_sizes_beyond_any_robot_are_answered_beside_the_fiel
     visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         for (typed, reason) in [
-            ("1e6", "legal is 0.001 to 10000 mm"), // a kilometre
-            ("0", "legal is 0.001 to 10000 mm"),
+            ("1e6", "it must be 0.001 to 10000 mm"), // a kilometre
+            ("0", "it must be 0.001 to 10000 mm"),
             ("NaN", "not a number"),
             ("Infinity", "not a number"),
             ("-1e999", "too large"),
-            ("1e-320", "legal is 0.001 to 10000 mm"),
+            ("1e-320", "it must be 0.001 to 10000 mm"),
             ("<b>1</b>", "“<b>1</b>” is not a number"),
             ("", "A number is needed"),
         ] {
@@ -144,7 +147,7 @@ fn numbers_that_are_none_and_sizes_beyond_any_robot_are_answered_beside_the_fiel
         ))
         .await?;
         stale(page).await?;
-        says(page, "Radius is 0 mm; legal is").await?;
+        says(page, "Radius is 0 mm; it must be").await?;
         page.wait_for("localStorage.getItem('armill-inputs')", 10.0).await?;
         page.js("dispatchEvent(new Event('pagehide'))").await?;
         page.reload().await?;

@@ -89,7 +89,7 @@ fn a_link_that_cannot_be_opened_says_why_and_the_default_stands() -> Result {
             ("job=1.a*b".to_owned(), "not of the form"),
             (good.replace("=2.", "=3."), "newer Armill"),
             (bomb, "more than 4 MB"),
-            (fragment(page, "{\"motion\":{\"feed_mm_s\":-5}}").await?, "legal is 0.001 to 10000"),
+            (fragment(page, "{\"motion\":{\"feed_mm_s\":-5}}").await?, "it must be 0.001 to 10000"),
             (fragment(page, "{\"motor\":1}").await?, "motor"),
         ] {
             open(page, &broken).await?;
@@ -267,11 +267,8 @@ fn without_storage_the_page_works_and_says_once_that_nothing_is_kept() -> Result
         current(page).await?;
         assert_eq!(notice(page).await?, "");
         page.type_into("#motion-feed_mm_s", "80").await?;
-        page.wait_for(
-            "document.querySelector('#notice').textContent.includes('Nothing is remembered')",
-            10.0,
-        )
-        .await?;
+        page.wait_for("document.querySelector('#notice').textContent.includes('Inputs are not kept')", 10.0)
+            .await?;
         shows(page, &run(&[("motion.feed_mm_s", json!(80))])).await?;
         page.click("#notice button").await?;
         page.type_into("#motion-feed_mm_s", "90").await?;
@@ -348,7 +345,7 @@ fn a_result_is_shared_in_three_forms() -> Result {
             .await?;
         page.click("#share-copy").await?;
         page.wait_for(
-            "document.querySelector('#share-dialog .said').textContent.includes('does not let')",
+            "document.querySelector('#share-dialog .said').textContent.includes('does not allow')",
             5.0,
         )
         .await?;
