@@ -65,7 +65,7 @@ pub struct Compensation {
 /// Share of the tolerance at which the passes end. The rest is left for what no model covers.
 /// Reaching the aim costs a pass or two.
 const AIM: f64 = 0.1;
-/// A pass that leaves more than this share of the error is no improvement.
+/// A pass that leaves more than this share of the error does not count as an improvement.
 const IMPROVEMENT: f64 = 0.99;
 /// A pass that leaves more than this share of the error is the last: what the shaper lets through
 /// only slowly is not worth the passes.

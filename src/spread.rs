@@ -68,7 +68,7 @@ fn shortest(value: f64, decimals: usize) -> String {
 /// How the joint compliances vary.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Stiffness {
-    /// The stiffness of each joint by itself.
+    /// The stiffness of each joint separately.
     Each([InputSpread; 6]),
     /// Compliances from one fit, which vary together: lower triangular factor L of the covariance
     /// of their logarithms, and half its diagonal, which keeps the means.
@@ -180,7 +180,7 @@ pub struct Spreads {
     pub stiffness: Stiffness,
     /// Of all cutting coefficients together.
     pub cutting: InputSpread,
-    /// Of the ratios of radial to tangential and of axial to tangential force, each by itself.
+    /// Of the ratios of radial to tangential and of axial to tangential force, each separately.
     pub ratios: InputSpread,
     /// Of the frequency of the filter that runs in the controller.
     pub frequency: InputSpread,

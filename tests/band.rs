@@ -180,7 +180,7 @@ fn shares_add_up_and_the_measurement_narrows() {
     let after = default_with(json!({"stiffness_percent": 20, "cutting_percent": 10}));
     // It is estimated at the places that decide: within the 2 % that places may miss.
     assert!((after.band.after.p95 / measure.p95 - 1.0).abs() < 0.02, "{measure:?} {:?}", after.band.after);
-    // Half the deflection: corrected by as much as it errs uncorrected.
+    // Half the deflection: the correction is as large as the uncorrected error.
     let BreakEven::Above(share) = report.band.break_even else { panic!("{:?}", report.band.break_even) };
     assert!((share - 0.5).abs() < 0.03);
 }

@@ -45,7 +45,7 @@ fn places(map: &DeviationMap) -> Vec<(Vector3<f64>, Shift)> {
     (0..part.heights.len()).map(place).collect()
 }
 
-/// Both walls of a slot stand where the tool has been: moved as far as the tip, the one too thick by as much as the
+/// Both walls of a slot stand where the tool has been: moved as far as the tip, one too thick by as much as the
 /// other is too thin. The floor is as deep as the lowest tip that passed.
 #[test]
 fn walls_and_floor_are_moved_as_the_tip_is() {

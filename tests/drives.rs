@@ -143,7 +143,7 @@ fn joints_that_turn_too_fast_are_named() {
         let expected =
             format!("joint {} would have to turn at {:.0} deg/s", worst + 1, share(worst) * limits[worst]);
         assert!(found.message.starts_with(&expected), "{id}: {} instead of {expected}", found.message);
-        assert!(found.message.contains(&format!("its largest speed is {:.0} deg/s", limits[worst])));
+        assert!(found.message.contains(&format!("its maximum is {:.0} deg/s", limits[worst])));
         assert!(warning(&job(100.0), "joint-speed").is_none());
     }
     let own = run(&[]);

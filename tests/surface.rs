@@ -71,7 +71,7 @@ fn excess_is_what_the_tip_is_off_by() {
     follows(&through, 4, 0.0, -3.0, |y, _| vec![-y]);
 }
 
-/// A slot has two walls that err by as much, one too thick, one too thin.
+/// A slot has two walls with equal errors, one too thick, one too thin.
 #[test]
 fn a_slot_has_two_walls_of_opposite_signs() {
     let report = job(SLOT, plate(), &[]);
@@ -213,7 +213,7 @@ fn figures_are_those_of_the_columns() {
     assert!(air.worst.is_empty() && air.worst_before_mm.is_none() && air.after_p95_mm.is_none());
 }
 
-/// In a straight slot the tip errs across the path only, and so the band of its surface is within that of the
+/// In a straight slot the tip's error is across the path only, so the band of its surface is within that of the
 /// tip; without spread it is the nominal rest.
 #[test]
 fn the_band_is_that_of_the_tip_across_the_walls() {
@@ -227,7 +227,7 @@ fn the_band_is_that_of_the_tip_across_the_walls() {
     let surface = job(SLOT, half, &[("uncertainty", sure), passes]).summary().surface.unwrap();
     let (p95, worst) = (surface.after_p95_mm.unwrap(), surface.worst_after_mm.unwrap());
     assert!((p95 / worst - 1.0).abs() < 1e-3, "{p95} {worst}");
-    // Not compensated, before and after are the same; a softer plant errs on the surface as the tip does.
+    // Not compensated, before and after are the same; with a softer plant, the surface has the same error as the tip.
     assert_eq!(surface.before_p95_mm, surface.after_p95_mm);
     let wide = report.summary().surface.unwrap();
     let ours = wide.before_p95_mm.unwrap() / wide.worst_before_mm.unwrap();

@@ -204,7 +204,7 @@ fn what_is_missed_is_drawn_too() {
     assert_ne!(report.verdict_state(), VerdictState::Met, "{}", report.verdict());
 }
 
-/// What a run meets at 95 %, one that is asked for less meets too.
+/// A run that meets a tolerance at 95 % also meets a looser one.
 #[test]
 fn a_looser_tolerance_is_no_reason_to_compensate_less() {
     let mut met = f64::INFINITY;

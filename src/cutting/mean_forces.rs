@@ -81,7 +81,7 @@ impl MeanForces {
 }
 
 /// The mean force and the stiffness of a cut by the tangential, the radial and the axial coefficients
-/// alone, which add up to them. They are computed where they are asked for.
+/// alone, which add up to them. They are computed on demand.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PartForces {
     cuts: [Cut; 3],

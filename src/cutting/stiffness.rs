@@ -95,7 +95,7 @@ impl Cut {
     }
 
     /// The arcs as the tool meets them `by` [m] further up its axis. The material goes on below its tip.
-    /// On the corner its borders follow the wall, whose slope the next layer tells.
+    /// On the corner its borders follow the wall, whose slope follows from the next layer.
     fn up(&self, sides: &[SideArc], by: f64) -> Vec<SideArc> {
         let middle = |arc: &SideArc| (arc.from + arc.to) / 2.0;
         let layers: Vec<&[SideArc]> = sides.chunk_by(|a, b| a.from == b.from).collect();

@@ -88,7 +88,7 @@ struct Direction {
 
 impl Direction {
     /// The one with the least doubt, from the first of `points` or from one of those that follow within
-    /// [`SKIPPED`]: a step to the side of 0.01 mm tells nothing of where a course goes.
+    /// [`SKIPPED`]: a step of 0.01 mm to the side says nothing about where a course goes.
     fn surest(points: &[Vector3<f64>]) -> Self {
         let first = Self::of(points);
         let further = (2..points.len().saturating_sub(2)).step_by(2);

@@ -58,11 +58,10 @@ pub fn in_front_of(setup: &Setup, from: [f64; 3]) -> Result<[f64; 3], Error> {
         let size = (high - low) / MM;
         return Err(Error::invalid(
             "workpiece_frame.xyz_mm",
-            "nowhere in front of this robot",
+            "without a place in front of this robot",
             format!(
-                "a path of {:.0} x {:.0} x {:.0} mm with this tool finds no place within its \
-                 reach and joint limits; take a larger robot, another start branch or \
-                 a turned workpiece",
+                "no place within reach and joint limits fits a path of {:.0} \
+                 x {:.0} x {:.0} mm with this tool; choose a larger robot or another start branch, or turn the workpiece",
                 size.x, size.y, size.z
             ),
         ));

@@ -126,7 +126,7 @@ fn sentence(worst: &Parts) -> String {
     match parts.max_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((name, part)) if worst.total > 0.0 => {
             format!(
-                "{name} gives {:.0} % of the contour error where it is largest.",
+                "{name} causes {:.0} % of the contour error where it is largest.",
                 100.0 * part / worst.total
             )
         }

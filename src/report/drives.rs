@@ -23,7 +23,7 @@ pub(super) fn warnings(report: &Report) -> Vec<Warning> {
     let speed = match report.setup().joint_speeds {
         None => Some(Warning::new(
             "joint-speeds-unknown",
-            "the largest joint speeds of this robot are not known: they are not checked",
+            "the maximum joint speeds of this robot are not known, so they are not checked",
         )),
         Some(largest) => joint_speed(report, &command, &largest),
     };
@@ -37,8 +37,8 @@ fn acceleration(report: &Report, command: &Shaped<Joints>) -> Option<Warning> {
     // Whole samples, and not every sample on a fine grid.
     if dt > INTERVAL + 1e-9 {
         let message = format!(
-            "samples every {dt} s are too far apart to tell what the drives follow: the acceleration of the command \
-             is not checked; take {INTERVAL} s or less (motion.sample_time_s)"
+            "samples every {dt} s are too far apart to judge what the drives can follow, so the acceleration of \
+             the command is not checked; use {INTERVAL} s or less (motion.sample_time_s)"
         );
         return Some(Warning::new("command-unchecked", message));
     }
@@ -57,8 +57,8 @@ fn acceleration(report: &Report, command: &Shaped<Joints>) -> Option<Warning> {
     let all: Vec<Span> = all.into_iter().map(|(first, last)| (first * step, last * step)).collect();
     let worst = beyond().max_by(|&a, &b| size(a).total_cmp(&size(b)))?;
     let message = format!(
-        "the command would accelerate the tool by {:.0} mm/s², more than {ALLOWED:.0} times the motion's {:.0} mm/s²: no arm \
-         follows that; a shaper, rounded corners, leads in and out or a lighter cut make it smoother",
+        "the command would accelerate the tool at {:.0} mm/s², more than {ALLOWED:.0} times the motion's {:.0} mm/s²: no \
+         arm can follow that; a shaper, rounded corners, lead-ins and lead-outs or a lighter cut make it smoother",
         size(worst) / MM,
         report.setup().limits.acceleration / MM
     );
@@ -93,7 +93,7 @@ fn joint_speed(report: &Report, command: &Shaped<Joints>, largest: &Joints) -> O
     }
     let (share, joint) = worst;
     let message = format!(
-        "joint {} would have to turn at {:.0} deg/s, its largest speed is {:.0} deg/s",
+        "joint {} would have to turn at {:.0} deg/s; its maximum is {:.0} deg/s",
         joint + 1,
         share * largest[joint] / DEG,
         largest[joint] / DEG

@@ -45,7 +45,7 @@ pub struct HowSure {
     pub without_compensation_mm: ExpectedError,
     /// The same band at the top of the cut [mm].
     pub wall_mm: ExpectedError,
-    /// Compensating pays while the true deflection is more than this share of the assumed one [%];
+    /// Compensation pays off while the true deflection is more than this share of the assumed one [%];
     /// absent if there is no such share, see `break_even`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub break_even_percent: Option<f64>,
@@ -102,7 +102,7 @@ impl Report {
     fn stiffness_known(&self) -> String {
         let compliance = self.plan.robot.compliance();
         match &self.setup().spreads.stiffness {
-            Stiffness::Together(_) => "by the covariance of an identification".to_owned(),
+            Stiffness::Together(_) => "from the covariance of an identification".to_owned(),
             Stiffness::Each(spreads) => {
                 let soft = spreads.iter().zip(compliance).filter(|(_, compliance)| **compliance > 0.0);
                 let mut words: Vec<String> = soft.map(|(spread, _)| spread.words()).collect();
@@ -121,12 +121,12 @@ impl Report {
             BreakEven::Above(share) => {
                 let percent = 100.0 * share;
                 let words = format!(
-                    "Compensating pays while the true deflection is more than {percent:.0} % of the assumed one."
+                    "Compensation pays off if the true deflection is more than {percent:.0} % of the assumed one."
                 );
                 return (Some(percent), words);
             }
-            BreakEven::Always => "Compensating pays however small the true deflection is.",
-            BreakEven::Never => "Compensating does not pay: the largest error is not smaller with it.",
+            BreakEven::Always => "Compensation pays off however small the true deflection is.",
+            BreakEven::Never => "Compensation does not pay off: it does not reduce the largest error.",
         };
         (None, words.to_owned())
     }
@@ -137,11 +137,14 @@ impl Report {
         let measure_first = band.measure_first.map(|measure| {
             let p95 = crate::report::length_text(measure.p95, MM, 3);
             let how = match measure.input {
-                "stiffness" => "the joint stiffness from a few loaded poses (Identify)",
+                "stiffness" => "the joint stiffness in a few loaded poses (Identify)",
                 "cutting" => "the cutting forces with a dynamometer",
                 _ => "the filter's frequency",
             };
-            let sentence = format!("Measure {how}: known to ±{} %, 95 % would be {p95} mm.", measure.percent);
+            let sentence = format!(
+                "Measure {how}: if it is known to ±{} %, expect at most {p95} mm in 95 of 100 cases.",
+                measure.percent
+            );
             MeasureFirst {
                 input: measure.input,
                 percent: measure.percent,

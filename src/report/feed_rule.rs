@@ -74,8 +74,8 @@ impl FeedRuleGain {
         let (least_percent, most_percent) = (by_force.rule.least * 100.0, by_force.rule.most * 100.0);
         let sentence = format!(
             "Constant force: the feed holds {force_n:.0} N, from {least_percent:.0} to {most_percent:.0} % of the \
-             programmed one. The largest contour error before compensation is {} mm, {} mm at the programmed feed; the \
-             largest mean force {:.0} N, {:.0} N there; the time {:.1} s, {:.1} s there.",
+             programmed one. The largest contour error before compensation is {} mm ({} mm at the programmed \
+             feed), the largest mean force {:.0} N ({:.0} N), the time {:.1} s ({:.1} s).",
             millimetres(held.largest_error_mm * MM),
             millimetres(programmed.largest_error_mm * MM),
             held.largest_force_n,

@@ -31,9 +31,9 @@ fn pulls_in(report: &Report) -> Option<Warning> {
     };
     let spans = spans(report.samples(), |k| report.unsettled.binary_search(&k).is_ok());
     let message = format!(
-        "{line}the cut pulls the tool into the material about as hard as the arm holds it back, or harder, so force and \
-         deflection find no firm balance; they are stated as for the planned cut: take less depth, or mill in the other \
-         direction"
+        "{line}the cut pulls the tool into the material about as hard as the arm holds it back, or harder, so \
+         force and deflection have no stable balance; the figures are those of the planned cut: reduce the \
+         depth, or mill in the other direction"
     );
     Warning::new("cut-pulls-in", message).within(&spans, report.plan.trajectory.sample_time)
 }
@@ -43,8 +43,8 @@ fn coarse(report: &Report, contacts: &Contacts) -> Option<Warning> {
     let diameter = report.setup().cut.diameter;
     let cell = contacts.cell.filter(|cell| *cell > COARSE * diameter)?;
     let message = format!(
-        "the stock is followed in cells of {:.2} mm, wide for a tool of {:.2} mm: the engagement is rough; give a \
-         smaller stock",
+        "the stock is resolved in cells of {:.2} mm, which is coarse for a {:.2} mm tool: the engagement is approximate; \
+         enter a smaller stock",
         cell / MM,
         diameter / MM
     );
@@ -68,7 +68,7 @@ fn collision(report: &Report, contacts: &Contacts, kind: Collider) -> Option<War
     let (code, what) = match kind {
         Collider::Rapid => ("rapid-in-stock", "a rapid move goes through the stock"),
         Collider::Shank => {
-            ("shank-in-stock", "the stock is higher than the flutes: shank or holder run into it")
+            ("shank-in-stock", "the stock is higher than the flutes: the shank or holder runs into it")
         }
         Collider::Holder => ("holder-in-stock", "the holder runs into the stock"),
     };

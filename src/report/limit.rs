@@ -14,7 +14,7 @@ pub(super) fn warnings(report: &Report) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let Report { plan, q: desired, compensation: Compensation { q: compensated, .. }, .. } = report;
     let Some(limits) = plan.robot.limits() else {
-        let message = "no joint ranges were given: they are not checked";
+        let message = "no joint ranges are given, so they are not checked";
         return vec![Warning::new("joint-limits-unknown", message)];
     };
     let dt = plan.trajectory.sample_time;

@@ -18,8 +18,8 @@ fn short(report: &Report, share: &[f64]) -> Option<Warning> {
         return None;
     }
     let message = format!(
-        "no cut is as long as its run-in of {:.1} mm: at most {:.0} % of the force is reached. The run-in takes the front \
-         of the part as straight; where the tool starts in material, the force is larger",
+        "no cut is as long as its run-in of {:.1} mm, so the force reaches at most {:.0} %. The run-in assumes a \
+         straight front of the part; if the tool starts inside material, the force is larger",
         report.setup().loading.run_in / MM,
         100.0 * most
     );
@@ -43,16 +43,16 @@ fn left(report: &Report, share: &[f64]) -> Vec<Warning> {
     };
     let begin = |worst: String, at: f64| {
         format!(
-            "where a cut begins, an error of {worst} mm is left at {at:.3} s: the force sets in within {:.1} mm, faster \
-             than a command can follow that the shaper spreads over {duration:.2} s. An exact inverse of the shaper \
+            "where a cut begins, an error of {worst} mm is left at {at:.3} s: the force builds up within {:.1} \
+             mm, faster than a command that the shaper spreads over {duration:.2} s. An exact inverse of the shaper \
              could, but would undo it and shake the arm, so it is not used; lead in more slowly or with less depth",
             setup.loading.run_in / MM
         )
     };
     let end = |worst: String, at: f64| {
         format!(
-            "where the path ends, an error of {worst} mm is left at {at:.3} s: the command rests once it has arrived, \
-             while the shaped tool still comes in for {duration:.2} s and the force fades; lead out of the part"
+            "where the path ends, an error of {worst} mm is left at {at:.3} s: the command stops when it arrives, \
+             but the shaped tool keeps moving for {duration:.2} s while the force fades; add a lead-out"
         )
     };
     let arrived = trajectory.moving;

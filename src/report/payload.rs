@@ -22,7 +22,7 @@ pub(super) fn warning(report: &Report) -> Option<Warning> {
     let dt = report.plan.trajectory.sample_time;
     let message = format!(
         "the cut pushes with {:.0} N on average, more than the {rated:.0} N that the arm is rated to carry \
-         ({payload} kg): a lighter cut (less depth or width, a smaller feed per tooth) or a larger arm would do",
+         ({payload} kg): take a lighter cut (less depth or width, a smaller feed per tooth) or a larger arm",
         force(worst)
     );
     Warning::new("force-payload", message).within(&spans, dt)

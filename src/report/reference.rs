@@ -11,8 +11,8 @@ pub(super) fn remark(path: &Path) -> Option<Warning> {
         RollReference::Chosen(i, _) => {
             let (name, passed) = if *i == 1 { ("+Y", "+X or -X") } else { ("+Z", "X and of workpiece Y") };
             let message = format!(
-                "the tool axis comes within 15 deg of workpiece {passed}, so the spin counts from {name}; \
-                 spin.reference sets another"
+                "the tool axis comes within 15 deg of workpiece {passed}, so the spin is measured from \
+                 {name}; spin.reference sets another direction"
             );
             Some(Warning::new("spin-reference", message))
         }
@@ -20,8 +20,8 @@ pub(super) fn remark(path: &Path) -> Option<Warning> {
             let turn = path.carried_turn()? / DEG;
             let lap = if path.is_closed() { "in each lap" } else { "by its end" };
             let message = format!(
-                "the tool axis comes near X, Y and Z of the workpiece, so the spin is carried along without \
-                 twist: it turns by {turn:.1} deg {lap}; spin.reference sets a direction to count from"
+                "the tool axis comes near X, Y and Z of the workpiece, so the x axis is carried along \
+                 without twist and turns by {turn:.1} deg {lap}; spin.reference sets a direction"
             );
             Some(Warning::new("spin-carried", message))
         }

@@ -60,10 +60,10 @@ impl RollGain {
         let mm = |effort: &RollOutcome| millimetres(effort.error_mm * MM);
         let gain = match &fixed {
             None => {
-                format!("with {:.1} deg all along the arm does not reach the whole path", fixed_angle / DEG)
+                format!("at a constant {:.1} deg the arm does not reach the whole path", fixed_angle / DEG)
             }
             Some(fixed) => format!(
-                "against {:.1} deg all along, the joints travel {:.0} deg instead of {:.0}, \
+                "compared with a constant {:.1} deg, the joints travel {:.0} deg instead of {:.0}, \
                  the fastest turns at {:.1} deg/s instead of {:.1}, and \
                  the largest contour error before compensation is {} mm instead of {}",
                 fixed_angle / DEG,

@@ -1,4 +1,4 @@
-//! How much a warning matters, as a rule by its code.
+//! How much a warning matters, usually by its code.
 
 use serde::Serialize;
 

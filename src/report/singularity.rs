@@ -48,7 +48,7 @@ pub(crate) fn singularities(plan: &Plan, q: &[Joints], margins: &[Margin]) -> Ve
         (SHOULDER_MARGIN, SHOULDER_LEAST),
         |least| {
             format!(
-                "the wrist centre comes within {:.1} mm of axis 1, where joint 1 can turn without moving it (shoulder singularity)",
+                "the wrist centre comes within {:.1} mm of axis 1, where turning joint 1 does not move it (shoulder singularity)",
                 least / MM
             )
         },
@@ -71,7 +71,7 @@ pub(crate) fn singularities(plan: &Plan, q: &[Joints], margins: &[Margin]) -> Ve
         |least| {
             format!(
                 "axes 4 and 6 come within {:.1} deg of each other (wrist singularity): \
-                 small changes of the tool axis there turn joints 4 and 6 far",
+                 there, small changes of the tool axis turn joints 4 and 6 a long way",
                 angle_of_sine(least) / DEG
             )
         },

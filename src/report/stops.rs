@@ -30,7 +30,7 @@ impl Stops {
         let duration = report.duration();
         let message = format!(
             "the path stops {count} times: its corners sharper than {} deg take {corners_s:.1} of {duration:.1} s, and a cutter \
-             that stands leaves marks; a larger motion.corner_angle_deg passes them, finer points or arcs have none",
+             that dwells leaves marks; a larger motion.corner_angle_deg runs through them, and finer points or arcs avoid them",
             report.setup().limits.corner_angle / DEG
         );
         (count >= MANY && corners_s > duration / 2.0).then(|| Warning::new("many-stops", message))

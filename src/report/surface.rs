@@ -97,7 +97,7 @@ impl Report {
         })
     }
 
-    /// The columns of the surface that is left: the excess of what errs most of it at each sample, 0 where none
+    /// The columns of the surface that is left: the largest excess at each sample, 0 where none
     /// is left.
     pub(super) fn surface_series<'a>(&'a self, timing: Arc<Cow<'a, TimingLaw>>) -> Vec<Series<'a>> {
         let (Some(surface), Some(contacts)) = (&self.surface, &self.setup().contacts) else {

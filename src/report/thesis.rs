@@ -148,8 +148,8 @@ fn pose() -> Result<ThesisRow, Error> {
         printed: "(271.6, 746.1, 955.7)",
         ours: point(&wrist, 1),
         agrees: (wrist.position / MM - Vector3::new(271.6, 746.1, 955.7)).norm() < 0.1,
-        reason: "Position and approach agree with d6 = 0, the wrist point; the printed n and s columns \
-                 have the opposite sign of what eq. 3.5 gives.",
+        reason: "Position and approach agree with d6 = 0, the wrist point; the printed columns \
+                 n and s have the opposite sign to eq. 3.5.",
     })
 }
 
@@ -176,9 +176,9 @@ fn mean_force(case: &ConstantForce) -> ThesisRow {
         printed: "(302.9372, 1071.9, 509.3078)",
         ours: format!("({:.3}, {:.3}, {:.3})", force.x, force.y, force.z),
         agrees: (force - Vector3::new(302.9372, 1071.9, 509.3078)).norm() < 1e-4 * force.norm(),
-        reason: "Closed form; the printed digits carry the error of the thesis's step in angle. The axial \
-                 force has the thesis's sign, towards the spindle. A right-hand helix pulls the other way, \
-                 and so it does in every job.",
+        reason: "Closed form; the printed digits contain the error of the thesis's angular step. The axial \
+                 force has the thesis's sign, towards the spindle. A right-hand helix pulls the other \
+                 way, and so Armill does in every job.",
     }
 }
 
@@ -194,8 +194,8 @@ fn impulses() -> ThesisRow {
         printed: "0.3344 at 0, 0.4877 at 0.1754, 0.1778 at 0.3508",
         ours: text.join(", "),
         agrees: shaped.len() == 3 && shaped.iter().zip(printed).all(same),
-        reason: "The text says 18 Hz, the numbers are those of 18 rad/s (2.9 Hz); at 18 Hz the shaper lasts \
-                 0.056 s.",
+        reason: "The text says 18 Hz, but the numbers are for 18 rad/s (2.9 Hz); at 18 Hz the \
+                 shaper would last 0.056 s.",
     }
 }
 
@@ -212,7 +212,7 @@ fn points() -> Result<ThesisRow, Error> {
         printed: "0",
         ours: format!("{worst:.3}"),
         agrees: worst < 0.06,
-        reason: "With d6 = 0: the wrist point stands for the tip there.",
+        reason: "With d6 = 0: the wrist point is used as the tip there.",
     })
 }
 
@@ -253,8 +253,8 @@ fn errors_by_shaper(report: &Report) -> ThesisRow {
         printed: "0.1 and 0.16",
         ours: mean_max(shaping),
         agrees: (shaping.mean - 0.1).abs() < 0.005 && (shaping.max - 0.16).abs() < 0.005,
-        reason: "The mean agrees to the digit that is printed. The maximum comes out at 0.18 mm whatever the \
-                 sample time; the figure's data are lost.",
+        reason: "The mean agrees to the last printed digit. The maximum is 0.18 mm at \
+                 any sample time; the figure's data are lost.",
     }
 }
 
@@ -266,8 +266,8 @@ fn error_after(case: &ConstantForce) -> ThesisRow {
         printed: "below 0.02",
         ours: format!("{:.4}", after.max),
         agrees: after.max < 0.02,
-        reason: "With the thesis's force, constant from the first sample on. The correction is filed under \
-                 the command that causes the error; filed under the time index it stays at 0.02 mm.",
+        reason: "With the thesis's force, constant from the first sample on. The correction is assigned \
+                 to the command that causes the error; assigned to the time index, it stays at 0.02 mm.",
     }
 }
 
@@ -281,8 +281,8 @@ fn turn_of_joint_1(report: &Report) -> ThesisRow {
         printed: "within the robot's range",
         ours: format!("{turned:.0}"),
         agrees: turned < 320.0,
-        reason: "The circle runs all around the base: joint 1 turns once, beyond any RX-90's range of about \
-                 +-160 deg. We compute it and warn.",
+        reason: "The circle runs all around the base: joint 1 turns once, beyond the RX-90's range of \
+                 about +-160 deg. Armill computes it and warns.",
     }
 }
 
@@ -294,8 +294,8 @@ fn feed_per_tooth(report: &Report) -> ThesisRow {
         printed: "0.1",
         ours: format!("{chip:.3}"),
         agrees: (chip - 0.1).abs() < 0.001,
-        reason: "The feed of 100 mm/s at 4000 rpm and 4 flutes gives more than the chip that the forces were \
-                 computed with. We keep 0.1 mm, as printed, and warn.",
+        reason: "The feed of 100 mm/s at 4000 rpm and 4 flutes gives a larger chip than the \
+                 forces were computed with. Armill keeps 0.1 mm, as printed, and warns.",
     }
 }
 

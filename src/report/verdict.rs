@@ -27,7 +27,7 @@ struct JudgedError {
     nominal: f64,
     /// 95 % quantile with what is known of robot and material.
     p95: f64,
-    /// What is off by it with exact numbers, and what may be; empty for the tip, of which the figures
+    /// What is off by it with exact numbers, and what may be; empty for the tip, whose figures
     /// are anyway.
     what: [&'static str; 2],
 }

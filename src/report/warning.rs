@@ -75,7 +75,7 @@ impl Warning {
         (self.from_s, self.to_s) = (Some(time(*from)), Some(time(*to)));
         if spans.len() > MOST_SPANS {
             let count = spans.len();
-            self.message += &format!("; {count} stretches, the nearest joined into {MOST_SPANS}");
+            self.message += &format!("; {count} intervals, the closest merged into {MOST_SPANS}");
         }
         self.spans_samples = joined(spans, MOST_SPANS);
         self.spans_s = self.spans_samples.iter().map(|&(from, to)| (time(from), time(to))).collect();
@@ -108,9 +108,9 @@ pub(crate) fn warnings(report: &Report) -> Vec<Warning> {
     let setup = report.setup();
     let mut warnings = Vec::new();
     if setup.stiffness_assumed {
-        let message = "there is no published joint stiffness for this robot: \
-                       deflections are an order of magnitude, off by a factor of 2 as a rule and of 9 in \
-                       single joints; enter your own";
+        let message = "no joint stiffness has been published for this \
+                       robot: deflections are an order of magnitude, usually within a factor of 2, for single joints \
+                       within a factor of 9; enter your own values";
         warnings.push(Warning::new("stiffness-assumed", message));
     }
     if let Err(reason) = plan.robot.closed_form() {
@@ -130,15 +130,16 @@ pub(crate) fn warnings(report: &Report) -> Vec<Warning> {
     warnings.extend(Stops::warning(report));
     program(setup, &mut warnings);
     if let Some(error) = &compensation.stopped {
-        let message =
-            format!("a compensated path could not be commanded ({error}); the last one that could is kept");
+        let message = format!(
+            "a compensated path could not be commanded ({error}); the last one that could be is kept"
+        );
         warnings.push(Warning::new("compensation-stopped", message));
     }
     let compensates = setup.sources != Sources::NONE && setup.goal.max_passes > 0;
     let after_max = report.after_max();
     if compensates && after_max > setup.goal.tolerance {
         let corners = if setup.shaper.duration() > 0.0 && !plan.trajectory.stops.is_empty() {
-            "; a longer wait in corners gives the shaped correction time to turn with the force"
+            "; a longer wait in corners gives the shaped correction time to follow the force"
         } else {
             ""
         };
@@ -166,7 +167,7 @@ fn springs(report: &Report, warnings: &mut Vec<Warning>) {
         |k: usize| !equilibrium(&report.plan.robot, statics, &q.at(k), &report.planned_force[k]).converged;
     let samples = report.samples();
     if (0..samples).step_by(samples.div_ceil(LOOKS)).any(unsettled) {
-        let message = "the joints are so soft under this load that their springs do not come to rest: deflections are not to be trusted";
+        let message = "the joints are so soft under this load that their springs find no balance: do not rely on these deflections";
         warnings.push(Warning::new("springs-unsettled", message));
     }
 }
@@ -180,7 +181,7 @@ fn program(setup: &Setup, warnings: &mut Vec<Warning>) {
     let mut tools = setup.program.iter().flat_map(|source| &source.program.tools);
     if let Some(tool) = tools.find(other) {
         let message = format!(
-            "line {}: the program's tool has a diameter of {:.3} mm, the job's {:.3} mm; the force is that of the job's",
+            "line {}: the program's tool has a diameter of {:.3} mm, the job's tool {:.3} mm; the force is computed for the job's tool",
             tool.line,
             tool.diameter / MM,
             setup.cut.diameter / MM
@@ -199,19 +200,19 @@ fn cut(setup: &Setup, plan: &Plan, warnings: &mut Vec<Warning>) {
     warnings.extend(chip_load(setup, plan));
     if matches!(setup.material.model, Model::Linear(_)) && setup.rake != 0.0 {
         let message =
-            "the rake angle is not used: these coefficients hold for the tool they were measured with";
+            "the rake angle is not used: these coefficients apply to the tool they were measured with";
         warnings.push(Warning::new("rake-unused", message));
     }
     if setup.cut.runout > 0.0 {
         let message = "runout raises the peak of the force within a revolution; the mean force and the deviation \
-                       of the path are computed without it. Teeth that pass without cutting miss their edge \
-                       force: in aluminium, for example, the mean is up to 3 % lower at 0.015 mm of runout and 12 \
+                       of the path are computed without it. Teeth that pass without cutting \
+                       have no edge force: in aluminium, for example, the mean is up to 3 % lower at 0.015 mm of runout and 12 \
                        to 17 % at 0.05 mm";
         warnings.push(Warning::new("runout", message));
     }
     if setup.tilted_in_stock {
-        let message = "the stock is not followed: the tool axis is not the workpiece's z axis all along the path. The \
-                       stated engagement holds everywhere";
+        let message = "the stock is not used: the tool axis is not the workpiece's z axis along the \
+                       whole path. The stated engagement is used everywhere";
         warnings.push(Warning::new("stock-unused", message));
     }
     // In a stock the bottom cuts as well.
@@ -241,7 +242,7 @@ fn chip_load(setup: &Setup, plan: &Plan) -> Option<Warning> {
     let worst = cutting_moves(plan).map(from_feed).max_by(|a, b| off(*a).total_cmp(&off(*b)));
     let chip = worst.filter(|chip| off(*chip) > 0.05)?;
     let message = format!(
-        "the feed per tooth of {} mm does not agree with feed and spindle speed, which give {} mm",
+        "the feed per tooth of {} mm does not match feed and spindle speed, which give {} mm",
         c / MM,
         millimetres(chip)
     );
@@ -264,8 +265,8 @@ fn plunge(plan: &Plan) -> Option<Warning> {
     let spans = spans(trajectory.len(), |k| sine(k) > steep);
     let steepest = angle_of_sine((0..trajectory.len()).map(sine).fold(0.0, f64::max)) / DEG;
     let message = format!(
-        "the tool climbs or dives at up to {steepest:.0} deg; the force model takes the cut across the tool \
-         axis only and knows no plunging"
+        "the tool climbs or dives at up to {steepest:.0} deg; the force model covers cuts across \
+         the tool axis only, not plunging"
     );
     Warning::new("plunge", message).within(&spans, trajectory.sample_time)
 }
@@ -295,14 +296,14 @@ fn centripetal(setup: &Setup, plan: &Plan) -> Option<Warning> {
     warning.clone().within(&spans, trajectory.sample_time).or(Some(warning))
 }
 
-/// A shaper for a mode that vibrates faster than the samples can tell (above their Nyquist
+/// A shaper for a mode that vibrates faster than the samples can show (above their Nyquist
 /// frequency): its impulses lie within a sample.
 fn sampling(setup: &Setup) -> Option<Warning> {
     let (frequency, _) = setup.mode?;
     let highest = 0.5 / setup.limits.sample_time;
     let message = format!(
-        "samples every {} s carry up to {:.0} Hz, the shaper is for {:.0} Hz: its impulses lie within a sample, and \
-         it does nothing; take shorter samples (motion.sample_time_s) or check the frequency",
+        "samples every {} s carry up to {:.0} Hz, but the shaper is for {:.0} Hz: its impulses fall within one \
+         sample, so it does nothing; use shorter samples (motion.sample_time_s) or check the frequency",
         setup.limits.sample_time,
         highest,
         frequency / HZ

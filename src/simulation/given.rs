@@ -33,7 +33,7 @@ pub(super) fn thesis(not_given: &[String]) -> Option<Warning> {
     let left = OF_THE_THESIS.iter().filter(|(key, _)| missing(key));
     let left: Vec<_> = left.map(|(key, value)| format!("{key} ({value})")).collect();
     let message = format!(
-        "not given, so the thesis's values hold, which belong to its own robot and cut: {}",
+        "not given, so the thesis's values are used, which belong to its own robot and cut: {}",
         left.join(", ")
     );
     (!left.is_empty()).then(|| Warning::new("thesis-default", message))
@@ -41,7 +41,7 @@ pub(super) fn thesis(not_given: &[String]) -> Option<Warning> {
 
 /// The keys that a job's text leaves at their defaults.
 pub(super) fn defaults(not_given: &[String]) -> Option<Warning> {
-    let message = format!("not given, so the default job's value holds: {}", not_given.join(", "));
+    let message = format!("not given, so the default job's values are used: {}", not_given.join(", "));
     (!not_given.is_empty()).then(|| Warning::new("default-used", message))
 }
 

@@ -153,7 +153,7 @@ fn turn(job: &Job, turn_deg: f64, angle_deg: f64) -> Remedy {
 /// The path in front of the robot, if all joints then stay within their limits.
 fn placed(job: &Job, plan: &Plan) -> Option<Remedy> {
     let setup = &plan.setup;
-    // A free spin is chosen anew at each place.
+    // A free spin is chosen again at each place.
     if setup.roll_range.is_some() {
         return None;
     }
@@ -165,7 +165,7 @@ fn placed(job: &Job, plan: &Plan) -> Option<Remedy> {
     let clearance = clearance(&closely(plan, path))?;
     let [x, y, z] = to;
     (clearance.room >= CORRECTION && clearance.jump <= JUMP).then(|| Remedy {
-        label: format!("Place the path in front of the robot, the workpiece at ({x}, {y}, {z}) mm"),
+        label: format!("Place the path in front of the robot, with the workpiece at ({x}, {y}, {z}) mm"),
         patch: json!({ "workpiece_frame": { "xyz_mm": to } }),
     })
 }

@@ -24,7 +24,7 @@ pub(super) const MOST_STATIONS: f64 = 1e6;
 pub(super) const LOOK: f64 = 0.5;
 /// Least distance of stations, as a part of the radius.
 const NEAR: f64 = 0.002;
-/// Shift that tells how a contact changes, as a part of the radius.
+/// Shift used to find how a contact changes, as a share of the radius.
 const SHIFT: f64 = 1e-4;
 /// How many times as fast as that of a wall along the feed an end of an arc is taken to move at most. Where two
 /// circles just touch or the tool breaks through a side, it jumps: a gap opens like the square root of the shift, at

@@ -129,7 +129,7 @@ impl ArcParts {
         &self.ranges
     }
 
-    /// Removes what lies in a region; `near` tells whether it comes within a distance [m] of a point.
+    /// Removes what lies in a region; `near` says whether it comes within a distance [m] of a point.
     pub(super) fn subtract(
         &mut self,
         half: &HalfCircle,

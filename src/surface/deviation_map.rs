@@ -36,7 +36,7 @@ pub struct DeviationMap {
     pub(super) blank: Vec<f32>,
 }
 
-/// A wall's normal that leans by more than this is no wall's: its part across the tool axis.
+/// A normal that leans by more than this does not belong to a wall: its part across the tool axis.
 const UPRIGHT: f64 = 0.7;
 /// How far from a piece of wall heights are that take its excess, in cells.
 const REACH: f64 = 1.5;

@@ -1,4 +1,4 @@
-//! By how much the surface left at a sample errs.
+//! Deviation of the surface left at a sample.
 
 use crate::deviation::Deviation;
 use crate::motion::TimingLaw;
@@ -8,7 +8,7 @@ use crate::surface::facet::{Across, FACETS, FacetSet, members};
 use crate::surface::{LeftFacets, SurfacePlace, cutter};
 use nalgebra::Vector3;
 
-/// What tells the excess at each sample. All vectors are in the base frame.
+/// What the excess at each sample is computed from. All vectors are in the base frame.
 pub struct Excesses<'a> {
     pub(super) plan: &'a Plan,
     left: &'a LeftFacets,
@@ -23,7 +23,7 @@ pub(super) struct Displaced<'a> {
     across: Across,
     /// From the tip's place on the path to the tip [m].
     moved: Vector3<f64>,
-    /// Turn of the tool axis by deflection [rad], with the contact and the tool to tell heights; `None` if it is not
+    /// Turn of the tool axis by deflection [rad], with the contact and the tool to find heights; `None` if it is not
     /// known.
     turned: Option<(Vector3<f64>, Contact<'a>, &'a Cutter)>,
 }
@@ -36,7 +36,7 @@ impl<'a> Excesses<'a> {
         Self { plan, left, contacts, cutter: cutter(plan), axes }
     }
 
-    /// Excess of the facet left at the sample `k` that errs most [m]; `None` where nothing is left.
+    /// Largest excess of the facets left at the sample `k` [m]; `None` where nothing is left.
     pub fn worst(&self, timing: &TimingLaw, k: usize, run: &Deviation) -> Option<f64> {
         let set = self.set(timing, k);
         if set == 0 {

@@ -43,9 +43,9 @@ const ADDS: f64 = 0.3;
 /// The surface that a run leaves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
-    /// Where it errs most with the desired path commanded; `None` if nothing is cut.
+    /// Where the error is largest with the desired path commanded; `None` if nothing is cut.
     pub before: Option<SurfacePlace>,
-    /// Where it errs most with the compensated path commanded.
+    /// Where the error is largest with the compensated path commanded.
     pub after: Option<SurfacePlace>,
     /// The worst places, one for each line of the program, the largest excess before first.
     pub worst: Vec<SurfacePlace>,

@@ -22,7 +22,7 @@ const STEP: f64 = 0.05;
 /// Material thinner than this over the bottom is none [m].
 const THIN: f64 = 1e-6;
 
-/// The tool cuts as far as its tip goes: where the path wants it, or where it really is.
+/// The tool cuts where its tip goes: where the path puts it, or where it really is.
 #[derive(Debug, Clone, Copy)]
 pub enum PartCut<'a> {
     /// Nowhere: what the program starts from.

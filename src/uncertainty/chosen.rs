@@ -27,7 +27,7 @@ pub(super) fn places(
         return (0..samples).collect();
     }
     let rest: Vec<f64> = errors.after.iter().map(Vector3::norm).collect();
-    // With another frequency of the filter, shaping errs more where it errs already.
+    // With another frequency of the filter, the shaping error grows where it is already present.
     let varied = if varies_filter { errors.before } else { errors.deflection };
     let deflection: Vec<f64> = varied.iter().map(Vector3::norm).collect();
     let scale = if varies_filter { largest(&deflection).0 } else { 0.0 };

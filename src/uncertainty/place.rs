@@ -14,7 +14,7 @@ use crate::robot::{Joints, equilibrium, forward, jacobian};
 use crate::uncertainty::Draw;
 use nalgebra::Vector3;
 
-/// What a place needs to tell where the tip goes.
+/// What a place needs to find where the tip goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DrawnPlace {
     /// Arc length of the tool [m].

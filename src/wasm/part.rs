@@ -131,7 +131,7 @@ impl Run {
 }
 
 impl Run {
-    /// The map behind meshes and sections, made when first asked for.
+    /// The map behind meshes and sections, made on first use.
     fn deviation_map(&self) -> Result<&DeviationMap, Error> {
         if let Some(map) = self.deviations.get() {
             return Ok(map);
