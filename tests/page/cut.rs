@@ -32,7 +32,7 @@ fn a_catalogue_material_is_converted_and_says_how_far_to_trust_it() -> Result {
         page.view("forces").await?;
         assert!(text(page, "cut-material").await?.contains("ISCAR"), "beside the figures too");
         let cut = steel.summary().cut;
-        assert_eq!(figure(page, "Made at chip").await?, cut.made_at_chip_mm.unwrap());
+        assert_eq!(figure(page, "At chip").await?, cut.made_at_chip_mm.unwrap());
         assert_eq!(figure(page, "Spindle power").await?, cut.power_kw);
         assert_eq!(figure(page, "Removal rate").await?, cut.removal_cm3_min);
         // The shares that no catalogue gives can be overridden, and restored.
@@ -112,7 +112,7 @@ fn the_wall_has_both_deviations_and_a_bending_tool_its_part() -> Result {
         ]);
         shows(page, &long).await?;
         page.view("forces").await?;
-        assert_eq!(figure(page, "Bends at the tip").await?, long.summary().cut.tool_bending_um_n.unwrap());
+        assert_eq!(figure(page, "Tip deflection of the tool").await?, long.summary().cut.tool_bending_um_n.unwrap());
         let cells = page
             .js("return [...document.querySelectorAll('#wall-table tbody tr')].map(row => \
              [...row.cells].slice(1, 3).map(cell => cell.dataset.value ?? null))")
@@ -168,7 +168,7 @@ fn in_a_stock_the_cut_follows_the_program() -> Result {
         assert!(text(page, "cut-drawing").await?.contains("Where the force is largest"));
         assert_eq!(Some(figure(page, "Largest engaged angle").await?), cut.largest_engaged_deg);
         assert_eq!(Some(figure(page, "Removed volume").await?), cut.removed_cm3);
-        assert_eq!(Some(figure(page, "Way in the air").await?), cut.air_share);
+        assert_eq!(Some(figure(page, "Share in the air").await?), cut.air_share);
         // The charts are the columns, bit for bit.
         page.wait_for("document.querySelector('#chart-removal svg .series')", 30.0).await?;
         for (chart, at, key) in [

@@ -99,12 +99,12 @@ fn a_frame_shows_scene_budget_and_units_if_asked_to() -> Result {
 fn what_cannot_be_shown_is_said() -> Result {
     visit("/embed.html#preset=unobtainium", DESKTOP, async |page| {
         let wrong = [
-            ("preset=unobtainium", "preset \"unobtainium\", which is none of staubli-rx90"),
-            ("theme=pink", "theme \"pink\", which is none of auto, light, dark"),
-            ("inputs=motion+colour", "inputs \"colour\", which is none of none, robot"),
-            ("show=pie", "show \"pie\", which is none of none, scene, budget"),
-            ("units=inch+furlong", "units \"furlong\", which is none of mm, inch, N, lbf"),
-            ("charts=pie", "charts \"pie\", which is none of none, overview, before-after"),
+            ("preset=unobtainium", "preset \"unobtainium\", which is not one of staubli-rx90"),
+            ("theme=pink", "theme \"pink\", which is not one of auto, light, dark"),
+            ("inputs=motion+colour", "inputs \"colour\", which is not one of none, robot"),
+            ("show=pie", "show \"pie\", which is not one of none, scene, budget"),
+            ("units=inch+furlong", "units \"furlong\", which is not one of mm, inch, N, lbf"),
+            ("charts=pie", "charts \"pie\", which is not one of none, overview, before-after"),
             ("job=1.AAAA", "The link could not be opened"),
             ("job={\"version\":1,\"motion\":{\"feed\":1}}", "feed"),
             ("job={", "JSON"),

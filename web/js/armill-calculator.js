@@ -13,7 +13,7 @@
 //   src     where embed.html is, if it is not where this script came from
 
 const HANDED_ON = ["preset", "inputs", "charts", "show", "units", "theme"];
-const FIRST_HEIGHT = 480; // until the frame tells
+const FIRST_HEIGHT = 480; // until the frame reports it
 const TALLEST = 20_000; // a frame that asks for more is not ours
 
 export class ArmillCalculator extends HTMLElement {

@@ -87,4 +87,4 @@ function chosen(option, items, asked, legal, picks) {
 }
 
 const unknown = (option, value, legal) =>
-  new Error(`This calculator is asked for ${option} "${value}", which is none of ${legal.join(", ")}.`);
+  new Error(`This calculator is asked for ${option} "${value}", which is not one of ${legal.join(", ")}.`);

@@ -18,7 +18,7 @@ export const EMBEDDABLE = true;
 /** The core, fetched and compiled. */
 export async function compileCore() {
   const answer = await fetch(urlOf("pkg/armill_bg.wasm"));
-  if (!answer.ok) throw new Error(`the server answers ${answer.status}`);
+  if (!answer.ok) throw new Error(`the server answered ${answer.status}`);
   // Hosts that do not know the file's type get it compiled after loading instead of meanwhile.
   const typed = answer.headers.get("Content-Type") === "application/wasm";
   return typed ? WebAssembly.compileStreaming(answer) : WebAssembly.compile(await answer.arrayBuffer());

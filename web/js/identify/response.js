@@ -52,7 +52,7 @@ export function makeResponse({ ask, job, use }) {
         ? { frequency_rad_s: digits(frequency_rad_s) }
         : { frequency_hz: digits(frequency_hz) };
     use({ ...next, shaper: { kind: before.kind, ...frequency, damping: digits(damping) } });
-    notify("The job’s shaper has this frequency and damping. Undo takes them back.");
+    notify("The job’s shaper now has this frequency and damping. Undo removes them.");
   }
 
   function show(found) {
@@ -92,7 +92,7 @@ export function makeResponse({ ask, job, use }) {
       make(
         "p",
         { className: "note" },
-        "± is half a 95 % interval, if what is left by the fit is noise. The frequency is the undamped one, which the shaper takes.",
+        "± is half a 95 % interval, if the residual of the fit is noise. The frequency is the undamped one, which the shaper needs.",
       ),
       make("div", { className: "identify-tools" }, button),
     ];
@@ -106,7 +106,7 @@ export function makeResponse({ ask, job, use }) {
       make(
         "p",
         { className: "lead" },
-        "Let the arm stop hard, or strike it, and record an acceleration until it is still. One row an instant: time " +
+        "Stop the arm abruptly, or strike it, and record the acceleration until it is at rest. One row per instant: time " +
           "and signal. The signal’s unit does not matter.",
       ),
       source.node,

@@ -35,7 +35,7 @@ export function makeStiffness({ ask, job, use }) {
     ask,
     kind: "stiffness",
     source,
-    chart: { name: "stiffness", title: "Displacement of each row, and what the fit leaves of it" },
+    chart: { name: "stiffness", title: "Displacement of each row, and its residual" },
     show,
   });
   joints.addEventListener("change", () => look());
@@ -76,8 +76,8 @@ export function makeStiffness({ ask, job, use }) {
       : { ...rest, stiffness_percent, stiffness_factor };
     use(next);
     notify(
-      `The job has the compliances ${found.source}${covariance ? ", and how sure they are" : ""}` +
-        `${example ? ", with the robot, its tool and a workpiece in its reach" : ""}. Undo takes them back.`,
+      `The job has the compliances ${found.source}${covariance ? ", and their uncertainty" : ""}` +
+        `${example ? ", with the robot, its tool and a workpiece in its reach" : ""}. Undo removes them.`,
     );
   }
 
@@ -94,7 +94,7 @@ export function makeStiffness({ ask, job, use }) {
     const warning = unsure.length
       ? [
           `${unsure.length > 1 ? "Joints" : "Joint"} ${unsure.join(", ")} cannot be identified from these postures: ` +
-            `the value in the table is not to be relied on.`,
+            `do not rely on the values in the table.`,
         ]
       : [];
     return [
@@ -104,10 +104,10 @@ export function makeStiffness({ ask, job, use }) {
       make(
         "p",
         { className: "note" },
-        `Intervals hold 95 %, if errors are independent and equally large and nothing but the joints gives way. ` +
+        `Intervals are 95 % if errors are independent and of equal size and only the joints deflect. ` +
           `Inflation: how many times the variance grows because the joints look alike in these postures. Condition number ` +
           `${formatNumber(found.condition ?? Infinity)}${found.condition === null ? " infinite" : ""}, residual ` +
-          `${lengthText(found.residual_rms_mm)} ${lengthUnit()} rms a component, ${found.degrees_of_freedom} degrees of freedom.`.replace(
+          `${lengthText(found.residual_rms_mm)} ${lengthUnit()} rms per component, ${found.degrees_of_freedom} degrees of freedom.`.replace(
             "– infinite",
             "infinite",
           ),
@@ -124,8 +124,8 @@ export function makeStiffness({ ask, job, use }) {
       make(
         "p",
         { className: "lead" },
-        "Load the tip in twenty postures or more, as different as the cell allows, and measure how far it gives way. " +
-          "One row a load: six joint angles, force on the tip and displacement of the tip in the robot’s base frame. A " +
+        "Load the tip in at least twenty postures, as different as the cell allows, and measure the deflection. " +
+          "One row per load: six joint angles, force on the tip and displacement of the tip in the robot’s base frame. A " +
           "first line may name columns and units; moments (mx_nm, my_nm, mz_nm) may be added, displacements left out.",
       ),
       source.node,
@@ -182,7 +182,7 @@ function tableOf(joints) {
         head("95 % interval"),
         head("Stiffness", "kN m/rad"),
         head("Inflation"),
-        head("How far it is known"),
+        head("How well it is known"),
       ),
     ),
     make("tbody", {}, ...joints.map(row)),

@@ -2,7 +2,7 @@
 //
 // Every tab keeps its own (session storage) and opens with it again; a new tab opens with what was
 // changed last anywhere (local storage). So two tabs never change each other's inputs, and
-// `onshared` tells when they compete.
+// `onshared` is called when they compete.
 
 import { debounced } from "../page/dom.js";
 import { isDown, named, pickUp, putDown } from "./long-texts.js";

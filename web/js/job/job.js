@@ -59,7 +59,7 @@ export class Job {
     this.load(data);
   }
 
-  /** The job as plain data, which nobody can change. */
+  /** The job as plain data, frozen. */
   get data() {
     return (this.#frozen ??= frozen(copy(this.#data)));
   }
@@ -320,8 +320,8 @@ export class Job {
         continue;
       }
       const asked = field.when && (field.when.path === decider?.path || (own && field.when.path === path));
-      const needless = asked && !field.when.is.includes(choice);
-      if (byPreset || needless || this.#inOtherUnit(field, known)) continue;
+      const unneeded = asked && !field.when.is.includes(choice);
+      if (byPreset || unneeded || this.#inOtherUnit(field, known)) continue;
       if (choice === "extents" && EXTENTS.includes(field.path)) continue;
       const standard = field.defaults?.[choice] ?? field.default;
       shape[key] = structuredClone(known.get(key) ?? this.#drafts.get(draftKey(field, choice)) ?? standard);

@@ -8,7 +8,7 @@ const FORMAT = 2;
 const LARGEST = 4_000_000; // bytes of JSON: what unfolds to more is refused, for a few kB can be made to unfold to gigabytes
 
 /**
- * Characters of the longest link that is handed out. Browsers take far more; mail and chat programs
+ * Characters of the longest link that the page offers. Browsers take far more; mail and chat programs
  * cut or refuse it.
  */
 export const LONGEST_LINK = 8000;
@@ -67,7 +67,7 @@ async function read(stream, most = Infinity) {
     size += value.length;
     if (size > most) {
       reader.cancel().catch(() => {});
-      throw broken(`it unfolds to more than ${most / 1e6} MB`);
+      throw broken(`it expands to more than ${most / 1e6} MB`);
     }
     parts.push(value);
   }

@@ -10,7 +10,7 @@ const keys = new Map(); // text -> its key; null if the database does not take i
 const isLong = (value) => typeof value === "string" && value.length > LONG;
 
 /**
- * Puts down the long texts in plain data that lie nowhere yet; resolves when they lie, or cannot.
+ * Stores the long texts in plain data that are not stored yet; resolves when they are, or cannot be.
  */
 export async function putDown(data) {
   for (const text of textsIn(data)) {

@@ -10,8 +10,8 @@ import { notify } from "../page/toast.js";
 const TYPED = "input:not([type=checkbox], [type=range]), textarea"; // what the browser undoes by itself while it is typed into
 const EARLIER = "Computed with an earlier model; figures differ.";
 const LISTED =
-  "The points of the path are too many for a field. They are shown as rows of points, line by line: the same path.";
-const LINKED = "Opened from the link. Undo brings your own inputs back.";
+  "The path has too many points for a field. They are shown as rows of points instead; the path is the same.";
+const LINKED = "Opened from the link. Undo restores your own inputs.";
 
 export class Session {
   #job;
@@ -42,11 +42,11 @@ export class Session {
     autosave.start({
       onrefused: (full) =>
         notify(
-          `Nothing is remembered: this browser’s storage for the page is ${full ? "full" : "denied"}. Save the job as a file to keep it.`,
+          `Inputs are not kept: this browser’s storage for the page is ${full ? "full" : "blocked"}. Save the job as a file to keep it.`,
         ),
       onshared: () =>
         notify(
-          "Armill is open in another tab too. Each tab keeps its own inputs; a new tab opens with those that were changed last.",
+          "Armill is open in another tab too. Each tab keeps its own inputs; a new tab opens with those changed last.",
         ),
     });
     this.#wire();
@@ -68,7 +68,7 @@ export class Session {
         this.#show(kept);
       } catch {
         this.#show({ job: this.#examples.opening });
-        this.#warn("The inputs that this browser kept are not readable any more. This is the example.");
+        this.#warn("The inputs kept in this browser can no longer be read. This is the example.");
       }
     }
   }

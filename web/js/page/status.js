@@ -2,7 +2,7 @@
 
 import { byId, make, sentence } from "./dom.js";
 
-/** The calculator's state, of which the styles depend. */
+/** The calculator's state, which the styles depend on. */
 export const become = (state) => (byId("results").dataset.state = state);
 
 /** The line of status. */

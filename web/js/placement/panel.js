@@ -79,7 +79,7 @@ export function makePlacement(node, { job, use }) {
   const keys = make(
     "p",
     { id: "placement-keys", className: "hint" },
-    "Click a cell to place the part there; undo takes it back. Arrow keys move over the cells, Enter places the part.",
+    "Click a cell to place the part there; undo moves it back. Arrow keys move over the cells, Enter places the part.",
   );
   node.replaceChildren(
     fields,
@@ -128,8 +128,8 @@ export function makePlacement(node, { job, use }) {
     numbers.forEach((input, i) =>
       i === wrong || i === turned ? input.setAttribute("aria-invalid", "true") : input.removeAttribute("aria-invalid"),
     );
-    if (wrong >= 0) return say(`${labels[wrong].textContent}: a number is needed.`);
-    if (turned >= 0) return say(`${labels[turned].textContent}: more than the start is needed.`);
+    if (wrong >= 0) return say(`${labels[wrong].textContent}: enter a number.`);
+    if (turned >= 0) return say(`${labels[turned].textContent}: enter more than the start.`);
     const { workpiece_frame: frame, ...others } = job();
     const xyz = frame.xyz_mm;
     // The map does not depend on where the part is now.
@@ -212,7 +212,7 @@ export function makePlacement(node, { job, use }) {
     verdict.textContent = top
       ? `Best on this map: ${spot(top.i, top.k)}, at most ${lengthText(top.max)} ${lengthUnit()} off the path before compensation.`
       : errors.length
-        ? "No place on this map is free of limits and singularities."
+        ? "Every place on this map violates a limit or is near a singularity."
         : running
           ? ""
           : "No place on this map is within reach.";
@@ -242,7 +242,7 @@ export function makePlacement(node, { job, use }) {
     const round = (v) => Math.round(v * 1000) / 1000;
     [xyz[map.axes[0]], xyz[map.axes[1]], xyz[map.axes[2]]] = [round(map.columns[i]), round(map.rows[k]), map.fixed];
     use({ ...next, workpiece_frame: { ...next.workpiece_frame, xyz_mm: xyz } });
-    say(`The part is at ${spot(i, k)}; undo takes it back.`);
+    say(`The part is at ${spot(i, k)}; undo moves it back.`);
     show();
   }
 

@@ -5,7 +5,7 @@ import { helper } from "../core/client.js";
 const MOST = 8;
 
 /**
- * Asks for every band, an array of positions [mm], and tells `onband(index, numbers)` as they come. Resolves when all are there;
+ * Asks for every band, an array of positions [mm], and calls `onband(index, numbers)` as they come. Resolves when all are there;
  * rejects when `signal` aborts, or with what is wrong with the job.
  */
 export async function survey(json, bands, onband, signal) {

@@ -88,13 +88,13 @@ function showFigure(output, { of, text }, shown) {
   const change = b - a;
   const share =
     a === 0 || change === 0 ? "" : `(${signed((100 * change) / a, (percent) => formatNumber(percent, 2))}\u00a0%)`;
-  const told = change === 0 ? "no change" : `${signed(change, text)} ${share}`;
+  const difference = change === 0 ? "no change" : `${signed(change, text)} ${share}`;
   const line = make(
     "dd",
     { className: "sub versus" },
     make("strong", {}, "A"),
     ` ${text(a)} `,
-    make("span", {}, `B − A ${told}`),
+    make("span", {}, `B − A ${difference}`),
   );
   line.dataset.value = String(change);
   cell.append(line);
@@ -105,7 +105,7 @@ function showInputs(box, shown) {
   const count = differences.length;
   byId("compare-title").textContent =
     count === 0
-      ? "A is pinned. Change an input, and the next result stands beside it as B."
+      ? "A is pinned. Change an input, and the next result appears beside it as B."
       : `A is pinned, B is shown: ${count === 1 ? "one input differs" : `${count} inputs differ`}.`;
   const rows = differences.map(({ field, own, other }) =>
     make(

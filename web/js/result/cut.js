@@ -134,7 +134,11 @@ function figures(cut, mean) {
       lengthUnit(),
       `${length("feed_per_tooth_mm")}; ${length("mean_chip_mm")}, ${length("largest_chip_mm")}`,
     ],
-    ["Mean force; largest in a turn", forceUnit(), `${forceText(Math.hypot(...mean))}; ${forceText(cut.peak_force_n)}`],
+    [
+      "Mean force; largest in a revolution",
+      forceUnit(),
+      `${forceText(Math.hypot(...mean))}; ${forceText(cut.peak_force_n)}`,
+    ],
     [
       "Torque" + (cut.spindle_torque_nm ? ", of rated" : ""),
       "N m",
@@ -153,21 +157,21 @@ function figures(cut, mean) {
     rows.push(
       ["Largest engaged angle", "deg", n("largest_engaged_deg"), "largest_engaged_deg"],
       ["Removed volume", "cm³", n("removed_cm3"), "removed_cm3"],
-      ["Way in the air", "%", formatNumber(100 * cut.air_share, 2), "air_share"],
+      ["Share in the air", "%", formatNumber(100 * cut.air_share, 2), "air_share"],
     );
   if (cut.removal_cm3_min > 0)
     rows.push(["Power for removal rate", "N/mm²", formatNumber((cut.power_kw * 6e4) / cut.removal_cm3_min)]);
   if (cut.kc11_n_mm2) rows.splice(1, 0, ["k_c1.1; m_c", "N/mm²; 1", `${n("kc11_n_mm2", 4)}; ${n("mc")}`]);
   if (cut.made_at_chip_mm)
     rows.splice(cut.kc11_n_mm2 ? 2 : 1, 0, [
-      "Made at chip thickness",
+      "At chip thickness",
       lengthUnit(),
       length("made_at_chip_mm"),
       "made_at_chip_mm",
     ]);
   if (cut.tool_bending_um_n)
-    rows.splice(1, 0, ["Bends at the tip by", "µm/N", n("tool_bending_um_n"), "tool_bending_um_n"]);
-  if (cut.spread_percent) rows.push(["Coefficients are known to", "%", `±${n("spread_percent")}`, "spread_percent"]);
+    rows.splice(1, 0, ["Tip deflection of the tool", "µm/N", n("tool_bending_um_n"), "tool_bending_um_n"]);
+  if (cut.spread_percent) rows.push(["Coefficients known to ±", "%", n("spread_percent"), "spread_percent"]);
   return rows;
 }
 
@@ -194,7 +198,7 @@ function showWalls(walls, passing) {
     return [
       row(`By the mean force${which}`, wall.mean_force_n, wall.by_mean_force_mm, wall.by_mean_force_max_mm),
       row(
-        `At the instant that makes the wall${which}`,
+        `At the instant that forms the wall${which}`,
         wall.instant_force_n,
         wall.at_instant_mm,
         wall.at_instant_max_mm,

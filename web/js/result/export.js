@@ -1,11 +1,11 @@
-// The program to take away: which controller it is for, what it is worth, and its files.
+// Export of the program: the controller, the program's accuracy, and its files.
 
 import * as core from "../core/client.js";
 import { byId, make } from "../page/dom.js";
 import { download } from "../page/download.js";
 
-const QUIET_MS = 400; // inputs that still move are not judged
-const LONG_MS = 3000; // a run that takes longer is judged when it is exported: several runs are made for it
+const QUIET_MS = 400; // inputs that are still changing are not judged
+const LONG_MS = 3000; // longer runs are checked on export only, as a check costs several runs
 
 // Downloads other than programs: a name for the menu and for the button, the file, and how it is made.
 const joints = {
@@ -83,7 +83,7 @@ function judgeSoon(quiet) {
   const { value } = byId("export-format");
   if (!shown || shown.preview || OTHERS[value]) return; // nothing is promised
   if (shown.took > LONG_MS)
-    line.textContent = "Timed by its own moves and feeds, a program may differ: it is run when it is exported.";
+    line.textContent = "A program has its own timing, so its accuracy may differ; it is simulated on export.";
   else waiting = setTimeout(judge, quiet, line, value, core.shownJob());
 }
 

@@ -47,7 +47,7 @@ export function markdown({ summary, job, standard, link }) {
 /** The cut in a stock. */
 const inStock = ({ stock, removed_cm3, air_share, largest_engaged_deg }) =>
   `Engagement from the stock: ${stock}. It loses ${formatNumber(removed_cm3)} cm³; the tool is engaged by up to ` +
-  `${formatNumber(largest_engaged_deg)} deg and in the air on ${formatNumber(100 * air_share, 2)} % of its way at feed.`;
+  `${formatNumber(largest_engaged_deg)} deg and in the air on ${formatNumber(100 * air_share, 2)} % of its path at feed.`;
 
 /** The surface that is left. */
 const surfaceLeft = ({ worst_before_mm, worst_after_mm, after_p95_mm, worst }) =>

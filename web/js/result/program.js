@@ -36,7 +36,7 @@ export function showProgram(program, duration) {
     [`Extents, ${lengthUnit()}`, extents.join(", ")],
     [
       `Feeds, ${lengthUnit()}/s`,
-      program.feeds_mm_s ? span(...program.feeds_mm_s) : "none in the program: the job's feed holds",
+      program.feeds_mm_s ? span(...program.feeds_mm_s) : "none in the program: the job's feed is used",
     ],
     ["Time, s", formatNumber(duration, 4)],
     ["Without effect", program.ignored.length ? "" : "nothing"],

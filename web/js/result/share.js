@@ -1,4 +1,4 @@
-// The dialog that hands out the shown result: as a link, as Markdown, as a frame to embed. Nothing
+// The dialog that shares the shown result: as a link, as Markdown, as a frame to embed. Nothing
 // is sent anywhere.
 
 import { byId, make } from "../page/dom.js";
@@ -88,7 +88,8 @@ export function shareDialog() {
     } catch {
       text.focus();
       text.select();
-      said.textContent = "This browser does not let the page copy. The text is selected: copy it with Ctrl+C or ⌘C.";
+      said.textContent =
+        "This browser does not allow the page to copy. The text is selected: copy it with Ctrl+C or ⌘C.";
     }
   });
   file.addEventListener("click", () => download("armill-job.json", "application/json", `${given.text}\n`));
@@ -109,7 +110,7 @@ export function shareDialog() {
 }
 
 const tooLong = (length) =>
-  `the link would have ${formatNumber(length)} characters. Mail and chat programs cut links above ` +
+  `The link would have ${formatNumber(length)} characters. Mail and chat programs cut links above ` +
   `${formatNumber(LONGEST_LINK)}, so send the job as a file instead; “Open job…” reads it.`;
 
 /** The frame that shows the job of a link. */

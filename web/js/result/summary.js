@@ -129,7 +129,7 @@ function stretches(spans) {
   return `${one([spans[0][0], spans.at(-1)[1]])}, in ${spans.length} stretches`;
 }
 
-/** What cures a warning. The list is written anew after it, so the focus goes to its heading. */
+/** The button that applies a warning's remedy. The list is rebuilt afterwards, so the focus moves to its heading. */
 function remedyButton({ label, patch }, apply) {
   const button = make("button", { type: "button", className: "remedy" }, label);
   button.addEventListener("click", () => {
