@@ -1,7 +1,7 @@
 //! Times in Chromium, in the core that the site ships and in one with the benchmark's own stages.
 //! `cargo xtask bench` starts the server and the driver and passes their addresses; the result is a
 //! JSON file.
-#![allow(clippy::print_stdout, reason = "a command-line tool speaks on its standard output")]
+#![allow(clippy::print_stdout, reason = "a command-line tool prints to standard output")]
 
 use std::error::Error;
 use std::time::Duration;

@@ -1,6 +1,6 @@
 //! Peak memory of a whole job and of one in a stock, in a separate process for each size in the
 //! arguments. Prints a line `samples: bytes` for each.
-#![allow(clippy::print_stdout, reason = "a command-line tool speaks on its standard output")]
+#![allow(clippy::print_stdout, reason = "a command-line tool prints to standard output")]
 
 use std::error::Error;
 use std::process::Command;

@@ -1,6 +1,6 @@
 // Times the core in a Worker, as the page runs it.
 
-const WARM_MS = 500; // V8 compiles what is hot anew
+const WARM_MS = 500; // V8 recompiles hot code
 const ENOUGH_MS = 1000;
 const FEWEST = 5;
 const CLOCK_MS = 10; // the browser's clock is coarse: one reading covers at least this much

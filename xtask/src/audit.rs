@@ -34,7 +34,7 @@ pub(crate) fn audit() -> Result<()> {
         Ok(folder) => known_faults(&folder, &rules),
         Err(error) => {
             println!(
-                "SKIPPED: known faults were not looked up, because {ADVISORIES} cannot be fetched: {error:#}"
+                "SKIPPED: known vulnerabilities were not checked, because {ADVISORIES} cannot be fetched: {error:#}"
             );
             Ok(())
         }
@@ -45,7 +45,9 @@ pub(crate) fn audit() -> Result<()> {
 fn strings<'a>(rules: &'a toml::Table, section: &str, key: &str) -> Result<Vec<&'a str>> {
     let list = rules.get(section).and_then(|section| section.get(key)).and_then(toml::Value::as_array);
     let list = list.with_context(|| format!("deny.toml has no list {section}.{key}"))?;
-    list.iter().map(|item| item.as_str().with_context(|| format!("{section}.{key} holds strings"))).collect()
+    list.iter()
+        .map(|item| item.as_str().with_context(|| format!("{section}.{key} must hold strings")))
+        .collect()
 }
 
 /// The violations of the rules among these packages, as listed by `cargo metadata`.
@@ -115,8 +117,8 @@ fn known_faults(database: &Path, rules: &toml::Table) -> Result<()> {
         format!("{} {}: {} {}", package.name, package.version, advisory.id, advisory.title)
     });
     let found: Vec<String> = found.collect();
-    ensure!(found.is_empty(), "known faults:\n  {}", found.join("\n  "));
-    println!("None of {} published faults is in Cargo.lock", database.iter().count());
+    ensure!(found.is_empty(), "known vulnerabilities:\n  {}", found.join("\n  "));
+    println!("None of {} published vulnerabilities affects Cargo.lock", database.iter().count());
     Ok(())
 }
 

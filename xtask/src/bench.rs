@@ -25,11 +25,11 @@ use results::{Native, Results};
 pub(crate) fn bench(sizes: &str) -> Result<()> {
     let numbers: Vec<usize> = sizes
         .split(',')
-        .map(|size| size.parse().with_context(|| format!("`{size}` is no number of samples")))
+        .map(|size| size.parse().with_context(|| format!("`{size}` is not a number of samples")))
         .collect::<Result<_>>()?;
     ensure!(
         numbers.iter().all(|size| (100..=2_000_000).contains(size)),
-        "sizes from 100 to 2000000 samples, please"
+        "sizes must be from 100 to 2000000 samples"
     );
     let folder = workspace::root()?.join("target/bench");
     let site = page(&folder)?;

@@ -55,7 +55,7 @@ pub(crate) fn native() -> Result<()> {
         workspace::add_wasm_target()?;
         lint(&["--target", WASM, "--package", "armill", "--lib", "--test", "web"])
     })?;
-    step("licences, sources and known faults of dependencies", audit::audit)?;
+    step("licences, sources and known vulnerabilities of dependencies", audit::audit)?;
     step("native tests", || run(&mut cargo(&["test", "--locked"])?))?;
     step("tests of this tool", || run(&mut cargo(&["test", "--locked", "--package", "xtask"])?))
 }

@@ -36,7 +36,7 @@ pub(crate) fn fuzz(target: Option<&str>, seconds: u32) -> Result<()> {
     }
     let targets = match target {
         Some(target) => vec![*TARGETS.iter().find(|known| **known == target).with_context(|| {
-            format!("there is no target {target}, but {} and {LINK}", TARGETS.join(", "))
+            format!("unknown target {target}; the targets are {} and {LINK}", TARGETS.join(", "))
         })?],
         None => TARGETS.to_vec(),
     };
@@ -79,9 +79,9 @@ fn any_seed() -> u32 {
 
 /// Builds the engine, which is not a member of the workspace, with all of Armill instrumented.
 fn build() -> Result<PathBuf> {
-    let rustc = output("rustc", &["-vV"]).context("rustc does not say what it is")?;
+    let rustc = output("rustc", &["-vV"]).context("rustc does not report its version")?;
     let Some(host) = rustc.lines().find_map(|line| line.strip_prefix("host: ")) else {
-        bail!("rustc does not say what it runs on");
+        bail!("rustc does not report its host");
     };
     let manifest = ["--manifest-path", "tests/fuzz/engine/Cargo.toml", "--target-dir", "target/fuzz/build"];
     // With an explicit target, the flags do not apply to build scripts.

@@ -79,7 +79,7 @@ pub(crate) fn tools() -> Result<PathBuf> {
         let names = TOOLS.map(|(name, version)| format!("{name}@{version}"));
         install(&folder, &names.each_ref().map(String::as_str)).with_context(|| {
             format!(
-                "{} could not be had from the npm registry; `cargo xtask test --native` needs neither",
+                "{} could not be fetched from the npm registry; `cargo xtask test --native` does not need them",
                 names.join(" and ")
             )
         })?;
@@ -122,5 +122,5 @@ fn npm() -> Result<Command> {
         PACKAGES[0],
         PACKAGES[1]
     );
-    Ok(Command::new(program("npm").context("npm has vanished")?))
+    Ok(Command::new(program("npm").context("npm is no longer there")?))
 }

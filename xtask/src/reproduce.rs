@@ -28,7 +28,10 @@ pub(crate) fn reproduce() -> Result<()> {
     }
     let hash: String = Sha256::digest(&one).iter().map(|byte| format!("{byte:02x}")).collect();
     println!("The core has the same {} bytes from both folders, SHA-256 {hash}", one.len());
-    println!("With {}", workspace::output("rustc", &["--version"]).context("rustc does not say what it is")?);
+    println!(
+        "With {}",
+        workspace::output("rustc", &["--version"]).context("rustc does not report its version")?
+    );
     Ok(())
 }
 

@@ -166,7 +166,7 @@ impl Results {
         let native = |name: &str| self.native.of(&format!("samples {size}"), name);
         writeln!(
             f,
-            "| {samples} samples | native ms | least | Chromium ms | least | ratio | native ns a sample |"
+            "| {samples} samples | native ms | least | Chromium ms | least | ratio | native ns per sample |"
         )?;
         writeln!(f, "| --- | ---: | ---: | ---: | ---: | ---: | ---: |")?;
         for stage in stages() {
@@ -218,7 +218,7 @@ impl Results {
         }
         writeln!(
             f,
-            "\nk's inverse iterates to the nearest solution from a degree beside; rs-opw-kinematics takes the Jacobian by differences.\n"
+            "\nk's inverse iterates to the nearest solution from one degree away; rs-opw-kinematics takes the Jacobian by differences.\n"
         )
     }
 

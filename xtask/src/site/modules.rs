@@ -103,7 +103,7 @@ fn add(
     }
     ensure!(
         !open.iter().any(|each| each == path),
-        "modules need each other in a circle: {open:?}, then {path:?} again"
+        "modules import each other in a circle: {open:?}, then {path:?} again"
     );
     open.push(path.to_path_buf());
     let module =
@@ -161,7 +161,7 @@ impl Module {
             self.exports.extend(items(list).map(|(local, name)| format!("{name}: {local}")));
             return Ok(());
         }
-        let unknown = || format!("no syntax that this knows: {statement}");
+        let unknown = || format!("unsupported syntax: {statement}");
         let (clause, from) = statement
             .strip_prefix("import ")
             .and_then(|rest| rest.split_once(" from "))
@@ -205,7 +205,7 @@ fn declared(declaration: &str) -> Result<&str> {
         }
     }
     // A copy of a `let` would not follow it.
-    bail!("no export that this knows: {declaration}")
+    bail!("unsupported export: {declaration}")
 }
 
 /// The module that `specifier` refers to in `path`.

@@ -65,7 +65,7 @@ pub(super) fn page(web: &Path, pkg: &Path) -> Result<String> {
     let html = replaced(&html, META, "\">", |_| Ok(format!("{META}{}\">", hashes.policy())))?;
     ensure!(
         !html.contains("<link rel=\"stylesheet\"") && !html.contains("<script src"),
-        "something of the page is still beside it"
+        "the page still refers to files beside it"
     );
     Ok(html)
 }
