@@ -146,6 +146,36 @@ fn stretches_are_where_the_condition_holds() {
 }
 
 #[test]
+fn the_excess_of_a_joint_is_what_its_command_is_beyond_its_range() {
+    // Joint 5 is bent so far that it is out of range on a part of the way.
+    let report = run(&[
+        ("robot", json!({"preset":"kuka-kr-210-2"})),
+        ("workpiece_frame", json!({"xyz_mm":[1500,0,800]})),
+        ("tool_frame", json!({"xyz_mm":[0,0,100],"rpy_deg":[0,90,0]})),
+        ("spin", json!({"angle_deg":0})),
+        ("path", json!({"kind":"polyline","points_mm":[[0,0,0],[900,0,-500]]})),
+        ("motion.sample_time_s", json!(0.05)),
+        ("shaper", json!("none")),
+    ]);
+    let limits = report.plan.robot.limits().unwrap();
+    let columns = |kind: &str| [1, 2, 3, 4, 5, 6].map(|i| column(&report, &format!("{kind}q{i}_deg")));
+    let (own, bent) = (columns(""), columns("compensated_"));
+    let mut signs = BTreeSet::new();
+    for k in 0..report.samples() {
+        let excess = report.joint_excess(k).unwrap();
+        for (i, (low, high)) in limits.into_iter().enumerate() {
+            let beyond = |q: f64| (low.to_degrees() - q).max(q - high.to_degrees());
+            let wanted = beyond(own[i][k]).max(beyond(bent[i][k]));
+            // Degrees from radians and back: the last bits.
+            assert!((excess[i].to_degrees() - wanted).abs() < 1e-9, "joint {} at {k}", i + 1);
+            signs.insert(wanted > 0.0);
+        }
+    }
+    assert_eq!(signs.len(), 2, "inside and outside both occur");
+    assert_eq!(report.joint_excess(usize::MAX), report.joint_excess(report.samples() - 1));
+}
+
+#[test]
 fn three_plunges_are_three_stretches() {
     let hole = |x: f64| [[x, 0.0, 5.0], [x, 0.0, -5.0], [x, 0.0, 5.0], [x + 20.0, 0.0, 5.0]];
     let points: Vec<[f64; 3]> = [0.0, 20.0, 40.0].into_iter().flat_map(hole).collect();

@@ -22,6 +22,20 @@ fn block(from: [f64; 3], to: [f64; 3]) -> Solid {
     Solid::prism(Outline::rectangle(corner(from), corner(to)), from[2] / 1e3, to[2] / 1e3)
 }
 
+#[test]
+fn the_corners_of_an_outline_are_its_own_or_evenly_on_its_circle() {
+    let block = block([0.0, 0.0, 0.0], [30.0, 20.0, 10.0]);
+    let corners = block.outline.corners(72);
+    assert_eq!(Outline::Polygon(corners).area(), block.outline.area());
+    let (center, radius) = (Vector2::new(0.1, -0.2), 0.05);
+    let round = Outline::Circle { center, radius };
+    let corners = round.corners(72);
+    assert!(corners.iter().all(|corner| ((corner - center).norm() - radius).abs() < 1e-12));
+    // A regular polygon of n corners has n / 2 sin(2 pi / n) of the squared radius.
+    let area = 36.0 * (PI / 36.0).sin() * radius * radius;
+    assert!((Outline::Polygon(corners).area() - area).abs() < 1e-12);
+}
+
 fn program(text: &str) -> Path {
     let options = gcode::Options { field: "text".into(), ..Default::default() };
     Path::of_program(&gcode::program(text, &options, |_| ()).unwrap()).unwrap()

@@ -3,7 +3,6 @@
 use crate::compensation::Compensation;
 use crate::report::span::spans;
 use crate::report::{Report, Warning};
-use crate::robot::Joints;
 use crate::units::DEG;
 
 /// Margin to a joint limit below which a warning is given [rad].
@@ -19,9 +18,7 @@ pub(super) fn warnings(report: &Report) -> Vec<Warning> {
     };
     let dt = plan.trajectory.sample_time;
     for (i, (low, high)) in limits.iter().enumerate() {
-        // Excess over the range, by the desired or by the compensated command.
-        let beyond = |q: &Joints| (low - q[i]).max(q[i] - high);
-        let worst = |k: usize| beyond(&desired[k]).max(beyond(&compensated[k]));
+        let worst = |k: usize| beyond((*low, *high), desired[k][i], compensated[k][i]);
         let count = desired.len();
         let extreme = (0..count).map(worst).fold(f64::NEG_INFINITY, f64::max);
         let (code, threshold, what) = if extreme > 0.0 {
@@ -40,4 +37,21 @@ pub(super) fn warnings(report: &Report) -> Vec<Warning> {
         warnings.extend(Warning::new(code, message).within(&spans, dt));
     }
     warnings
+}
+
+impl Report {
+    /// How far the command to each joint is beyond its range at a sample [rad], the desired or the
+    /// compensated one, whichever is farther; negative within it. `None` if no ranges are known. A
+    /// sample past the end stands for the last one.
+    pub fn joint_excess(&self, sample: usize) -> Option<[f64; 6]> {
+        let limits = self.plan.robot.limits()?;
+        let k = sample.min(self.samples() - 1);
+        let (desired, compensated) = (&self.q[k], &self.compensation.q[k]);
+        Some(std::array::from_fn(|i| beyond(limits[i], desired[i], compensated[i])))
+    }
+}
+
+/// How far the farther of two joint values is beyond a range.
+fn beyond((low, high): (f64, f64), a: f64, b: f64) -> f64 {
+    (low - a.min(b)).max(a.max(b) - high)
 }

@@ -1,5 +1,6 @@
 //! The solid that a program starts from.
 
+use crate::math;
 use crate::stock::circle::{HalfCircle, Region};
 use nalgebra::{Vector2, Vector3};
 
@@ -63,6 +64,19 @@ impl Outline {
                 let none = [Vector2::repeat(f64::INFINITY), Vector2::repeat(f64::NEG_INFINITY)];
                 corners.iter().fold(none, |[low, high], corner| [low.inf(corner), high.sup(corner)])
             }
+        }
+    }
+
+    /// Its corners in order [m]; a circle is given as many, evenly spaced.
+    pub fn corners(&self, count: usize) -> Vec<Vector2<f64>> {
+        match self {
+            Self::Circle { center, radius } => (0..count)
+                .map(|i| {
+                    let (sine, cosine) = math::sin_cos(std::f64::consts::TAU * i as f64 / count as f64);
+                    center + Vector2::new(cosine, sine) * *radius
+                })
+                .collect(),
+            Self::Polygon(corners) => corners.clone(),
         }
     }
 

@@ -14,6 +14,7 @@ mod export;
 mod identify;
 mod placement;
 mod part;
+mod scene;
 mod thesis;
 
 pub use export::zip;

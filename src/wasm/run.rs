@@ -158,20 +158,6 @@ impl Run {
         Ok(Float64Array::from(series.column().values.as_slice()))
     }
 
-    /// Frames at a sample: base, six joints, TCP and workpiece in the base frame, each as origin
-    /// [mm] and x, y, z axes (12 numbers).
-    pub fn frames(&self, sample: usize) -> Float64Array {
-        Float64Array::from(self.report.frames(sample).as_slice())
-    }
-
-    /// The paths for a picture in space, in at most about `most` rows of 17 numbers: sample,
-    /// whether it cuts, then x, y, z [mm] of the desired point, the closest point of the desired
-    /// path, the vectors from the path to the actual tip before and after compensation, and the
-    /// correction to command.
-    pub fn track(&self, most: usize) -> Float64Array {
-        Float64Array::from(self.report.track(most).as_slice())
-    }
-
     /// Hash over the bits of all columns.
     pub fn fingerprint(&self) -> String {
         self.report.fingerprint()

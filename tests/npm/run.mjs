@@ -29,7 +29,9 @@ const methods = {
   chart: charts,
   chart_data: [result.chart_data("before-after", { length: "inch" })],
   frames: [result.frames(0)],
+  joint_excess: [result.joint_excess(0)],
   track: [result.track(100)],
+  stock_solid: [result.stock_solid(), stocked.stock_solid()],
   export: [result.export("krl")],
   columns_csv: [result.columns_csv(0, 3)],
   package: [result.package(), other.package("gcode")],
@@ -55,6 +57,7 @@ const literal = (value) => {
   if (value instanceof Uint32Array) return `new Uint32Array([${value.slice(0, 3)}])`;
   if (value instanceof Uint8Array) return `new Uint8Array([${value.slice(0, 3)}])`;
   if (Array.isArray(value)) return `[${value.map(literal)}]`;
+  if (value === undefined) return "undefined";
   if (value === null || typeof value !== "object") return JSON.stringify(value);
   return `{${Object.entries(value).map(([key, each]) => `${JSON.stringify(key)}: ${literal(each)}`)}}`;
 };
