@@ -44,6 +44,8 @@ mod remedies;
 mod robots;
 #[path = "page/scene.rs"]
 mod scene;
+#[path = "page/scene_marks.rs"]
+mod scene_marks;
 #[path = "page/standalone.rs"]
 mod standalone;
 #[path = "page/reading.rs"]

@@ -103,8 +103,14 @@ export const chartData = (name, units) => askShown("data", name, units);
 /** One column of the shown result, as a Float64Array. */
 export const column = (key) => askShown("column", key);
 
-/** Frames of base, joints, TCP and workpiece at a sample of the shown result, as a Float64Array. */
-export const frames = (sample) => askShown("frames", sample);
+/**
+ * The arm at a sample of the shown result: `frames` of base, joints, TCP and workpiece, and by how much each joint is
+ * beyond its range, `excess` [deg], empty if no ranges are known.
+ */
+export const pose = (sample) => askShown("pose", sample);
+
+/** The shown result's stock before the first cut, or undefined. */
+export const stockSolid = () => askShown("stock_solid");
 
 /** The paths of the shown result in at most about `most` rows, as a Float64Array. */
 export const track = (most) => askShown("track", most);

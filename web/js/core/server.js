@@ -38,7 +38,8 @@ const answers = {
     return { summary: run.summary(), charts: run.charts() };
   },
   column: (key) => run.column(key),
-  frames: (sample) => run.frames(sample),
+  pose: (sample) => ({ frames: run.frames(sample), excess: run.joint_excess(sample) }),
+  stock_solid: () => run.stock_solid(),
   track: (most) => run.track(most),
   chart: (name, options) => run.chart(name, options),
   data: (name, units) => run.chart_data(name, units),

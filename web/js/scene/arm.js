@@ -5,6 +5,7 @@ import { cross, dot, length, minus, plus } from "./camera.js";
 
 const FRAME = 12; // numbers in a frame: origin, x, y, z axes
 const JOINTS = 6;
+const WIDE = 0.08; // about the largest radius of a link, as a share of the arm's length
 
 /** The frames of the core's answer. */
 export function framesOf(numbers) {
@@ -16,8 +17,11 @@ export function framesOf(numbers) {
   return { base: all[0], joints: all.slice(1, 1 + JOINTS), tcp: all[1 + JOINTS], workpiece: all[2 + JOINTS] };
 }
 
-/** The solids of the arm in a pose, for the painter; `tone` tells what they are. */
-export function armParts({ base, joints, tcp }) {
+/**
+ * The solids of the arm in a pose, for the painter; `tone` tells what they are. A joint that is beyond its range by
+ * `excess` [deg] has a tone of its own.
+ */
+export function armParts({ base, joints, tcp }, excess = []) {
   const stations = [base, ...joints];
   const lengths = joints.map(({ origin }, i) => length(minus(origin, stations[i].origin)));
   const size = lengths.reduce((sum, each) => sum + each, 0) || 1;
@@ -30,7 +34,7 @@ export function armParts({ base, joints, tcp }) {
     const shared = lengths[i + 1] < 1;
     const back = dot(minus(origin, stations[i].origin), z) < 0 ? 1 : -1;
     const [from, to] = shared ? [1.3 * back * half, -0.6 * back * half] : [-half, half];
-    return tubeBetween(plus(origin, z, from), plus(origin, z, to), wide, 1, "joint");
+    return tubeBetween(plus(origin, z, from), plus(origin, z, to), wide, 1, excess[i] > 0 ? "beyond" : "joint");
   };
   const parts = [tubeBetween(base.origin, plus(base.origin, base.z, 0.02 * size), 1.55 * radius(0), 1, "joint")];
   const bare = length(minus(joints[5].origin, tcp.origin)) < 1; // the tip is at the flange: the tool takes the last link's place
@@ -40,6 +44,16 @@ export function armParts({ base, joints, tcp }) {
     parts.push(housing(origin, z, i));
   });
   return [...parts, ...toolParts(joints, tcp, size, bare)];
+}
+
+/** Points that an arm's solids stay within about, to fit a view to. */
+export function armPoints({ base, joints, tcp }) {
+  const stations = [base, ...joints, tcp].map(({ origin }) => origin);
+  const size = stations.slice(1).reduce((sum, origin, i) => sum + length(minus(origin, stations[i])), 0);
+  const spread = [1, -1].flatMap((side) =>
+    [0, 1, 2].map((axis) => [0, 1, 2].map((i) => (i === axis ? side * WIDE * size : 0))),
+  );
+  return stations.flatMap((origin) => spread.map((off) => plus(origin, off)));
 }
 
 /**

@@ -1,6 +1,7 @@
 // A camera that looks at a target from a direction: orbit, pan, zoom, fit. Lengths in mm, z up.
 
 const HALF = Math.tan((15 * Math.PI) / 180); // tangent of half the upright field of view
+const MARGIN = 1.08; // around what a fitted picture shows
 const RIGHT_ANGLE = Math.PI / 2;
 
 /** Directions to look from: [azimuth, elevation] in degrees. */
@@ -56,26 +57,31 @@ export class Camera {
     [this.azimuth, this.elevation] = [(azimuth * Math.PI) / 180, (elevation * Math.PI) / 180];
   }
 
-  /** Looks from a direction in space. */
+  /** Looks from a direction in space; from straight above as the view from the top does. */
   lookFrom([x, y, z]) {
-    if (Math.hypot(x, y) > 1e-9) this.azimuth = Math.atan2(y, x);
+    this.azimuth = Math.hypot(x, y) > 1e-6 ? Math.atan2(y, x) : -RIGHT_ANGLE;
     this.elevation = Math.atan2(z, Math.hypot(x, y));
   }
 
-  /** Shows the whole box [low, high]. */
-  fit([low, high]) {
+  /**
+   * Shows all points. At the edges of the picture `above` and `below` pixels are left for what is written there.
+   */
+  fit(points, { above = 0, below = 0 } = {}) {
     const { right, up, out } = this.axes();
+    const free = Math.max(0.4, 1 - (above + below) / this.height); // share of the height
     const aspect = this.width / this.height;
-    this.target = low.map((v, i) => (v + high[i]) / 2);
-    this.distance = 1;
-    for (let corner = 0; corner < 8; corner++) {
-      const way = minus(
-        low.map((v, i) => ((corner >> i) & 1 ? high[i] : v)),
-        this.target,
-      );
-      const needed = Math.max(Math.abs(dot(way, right)) / aspect, Math.abs(dot(way, up))) / HALF;
-      this.distance = Math.max(this.distance, dot(way, out) + 1.1 * needed);
+    this.target = [0, 0, 0];
+    for (const axis of [right, up, out]) {
+      const places = points.map((point) => dot(axis, point));
+      this.target = plus(this.target, axis, (Math.min(...places) + Math.max(...places)) / 2);
     }
+    this.distance = 1;
+    for (const point of points) {
+      const way = minus(point, this.target);
+      const needed = Math.max(Math.abs(dot(way, right)) / aspect, Math.abs(dot(way, up)) / free) / HALF;
+      this.distance = Math.max(this.distance, dot(way, out) + MARGIN * needed);
+    }
+    this.target = plus(this.target, up, ((above - below) / 2) * this.pixel());
   }
 
   /** From the base frame to the picture, column by column. */

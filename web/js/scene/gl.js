@@ -3,23 +3,18 @@
 // A line's points lie in a texture, and a quad is spanned around each of its pieces: so one buffer
 // serves any thinning, and machines without graphics hardware draw it tens of times as fast as with
 // instances. A point is VERTEX numbers: its place, the value that gives its colour, a way that is
-// added `factor` times, and the length so far (minus that and one where it is drawn faintly).
+// added `factor` times, and the length so far (minus that and one on a rapid move).
 
 export const VERTEX = 8;
 const WIDTH = 1024; // of a texture of points: 512 points
 
 /** The numbers of a point. */
-export const vertex = (place, { way = [0, 0, 0], value = 0, along = 0, faint = false } = {}) => [
-  ...place,
-  value,
-  ...way,
-  faint ? -1 - along : along,
-];
+export const vertex = (place, { way = [0, 0, 0], value = 0 } = {}) => [...place, value, ...way, 0];
 
 const LINE_VERTEX = `#version 300 es
 uniform highp sampler2D points;
-uniform mat4 camera; uniform vec2 size; uniform float factor, halfWidth, radius, pixelsPerMm, bias, stride, ahead, last;
-out vec2 facts; out vec2 at; out float far; out float reach;
+uniform mat4 camera; uniform vec2 size; uniform float factor, halfWidth, rapid, radius, pixelsPerMm, bias, stride, ahead, last;
+out vec2 facts; out vec2 at; out float far; out float reach; flat out float isRapid;
 vec4 texel(int i) {
   int width = textureSize(points, 0).x;
   return texelFetch(points, ivec2(i % width, i / width), 0);
@@ -30,7 +25,8 @@ void main() {
   vec4 placeA = texel(2 * first), wayA = texel(2 * first + 1), placeB = texel(2 * next), wayB = texel(2 * next + 1);
   vec4 a = camera * vec4(placeA.xyz + wayA.xyz * factor, 1.0), b = camera * vec4(placeB.xyz + wayB.xyz * factor, 1.0);
   float near = 0.1;
-  if (a.w < near && b.w < near) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
+  isRapid = wayA.w < 0.0 || wayB.w < 0.0 ? 1.0 : 0.0;
+  if ((a.w < near && b.w < near) || (isRapid > 0.5 && rapid <= 0.0)) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
   if (a.w < near) a = mix(a, b, (near - a.w) / (b.w - a.w));
   if (b.w < near) b = mix(b, a, (near - b.w) / (a.w - b.w));
   vec2 from = a.xy / a.w * size * 0.5, to = b.xy / b.w * size * 0.5;
@@ -39,7 +35,7 @@ void main() {
   bool second = corner == 2 || corner == 3 || corner == 5;
   float side = corner == 0 || corner == 2 || corner == 3 ? -1.0 : 1.0, end = second ? 1.0 : -1.0;
   vec4 here = second ? b : a;
-  reach = max(halfWidth, radius * pixelsPerMm / here.w);
+  reach = isRapid > 0.5 ? rapid / 2.0 : max(halfWidth, radius * pixelsPerMm / here.w);
   vec2 off = (along * end + vec2(-along.y, along.x) * side) * (reach + 1.0);
   at = vec2((second ? whole : 0.0) + end * (reach + 1.0), side * (reach + 1.0));
   far = whole;
@@ -49,15 +45,17 @@ void main() {
 
 const LINE_FRAGMENT = `#version 300 es
 precision highp float;
-in vec2 facts; in vec2 at; in float far; in float reach;
-uniform sampler2D ramp; uniform vec3 colour, paper; uniform float largest, dash, fade;
+in vec2 facts; in vec2 at; in float far; in float reach; flat in float isRapid;
+uniform sampler2D ramp; uniform vec3 colour, paper, rapidColour; uniform float largest, dash, fade, strength;
 out vec4 pixel;
 void main() {
   float distance = length(vec2(at.x < 0.0 ? at.x : max(at.x - far, 0.0), at.y));
   float cover = clamp(reach - distance + 0.5, 0.0, 1.0);
-  if (cover <= 0.0 || (dash > 0.0 && fract(abs(facts.y) / dash) > 0.6)) discard;
+  // The nearest piece gives a veil its colour: none may be thin there.
+  bool veil = strength < 1.0;
+  if (cover <= (veil ? 0.5 : 0.0) || (dash > 0.0 && fract(abs(facts.y) / dash) > 0.6)) discard;
   vec3 own = largest > 0.0 ? texture(ramp, vec2(clamp(facts.x / largest, 0.0, 1.0) * 0.996 + 0.002, 0.5)).rgb : colour;
-  pixel = vec4(mix(own, paper, max(fade, facts.y < 0.0 ? 0.6 : 0.0)), cover);
+  pixel = vec4(isRapid > 0.5 ? rapidColour : mix(own, paper, fade), veil ? strength : cover);
 }`;
 
 // A tube from z = 0 to 1 of radius 1, narrowed towards its top; lit from over the reader's
@@ -84,9 +82,9 @@ void main() {
 
 const SIDES = 32;
 
-/** Draws on a canvas; `null` where the browser has no WebGL2. */
+/** Draws on a canvas, which is clear until its first picture; `null` where the browser has no WebGL2. */
 export function painterOn(canvas) {
-  const gl = canvas.getContext("webgl2", { antialias: true, alpha: false, powerPreference: "low-power" });
+  const gl = canvas.getContext("webgl2", { antialias: true, stencil: true, powerPreference: "low-power" });
   return gl && new Painter(gl);
 }
 
@@ -158,28 +156,29 @@ class Painter {
   }
 
   /** Begins a picture of `width` by `height` pixels. */
-  begin({ camera, width, height, paper, light, pixelsPerMm }) {
+  begin({ camera, width, height, paper, rapidColour, light, pixelsPerMm }) {
     const gl = this.#gl;
     gl.viewport(0, 0, width, height);
+    gl.colorMask(true, true, true, true);
     gl.clearColor(...paper, 1);
     gl.depthMask(true);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
+    gl.colorMask(true, true, true, false); // what is drawn stays as opaque as the paper
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE); // smooth edges that still hide what is behind them
     gl.useProgram(this.#line.program);
-    this.#line.set({ camera, size: [width, height], paper, pixelsPerMm });
+    this.#line.set({ camera, size: [width, height], paper, rapidColour, pixelsPerMm });
     gl.useProgram(this.#solid.program);
     this.#solid.set({ camera, light });
   }
 
   /**
-   * Draws a line; lengths in pixels but for `radius` and `dash` [mm]. Of points that crowd in a pixel only `every` so many
-   * need to be joined. */
-  draw(
-    line,
-    { factor = 0, width = 2, radius = 0, colour = [0, 0, 0], largest = 0, dash = 0, fade = 0, bias = 0, every = 1 },
-  ) {
+   * Draws a line; lengths in pixels but for `radius` and `dash` [mm]. Rapid moves are `rapid` wide, and left out if that is
+   * 0. Of points that crowd in a pixel only `every` so many need to be joined. */
+  draw(line, style) {
+    const { factor = 0, width = 2, rapid = 0, radius = 0, colour = [0, 0, 0], largest = 0 } = style;
+    const { dash = 0, fade = 0, bias = 0, every = 1, strength = 1 } = style;
     const gl = this.#gl;
     gl.useProgram(this.#line.program);
     const { texture, pairs, count } = line;
@@ -188,11 +187,13 @@ class Painter {
     this.#line.set({
       factor,
       halfWidth: width / 2,
+      rapid,
       radius,
       colour,
       largest,
       dash,
       fade,
+      strength,
       bias,
       stride,
       ahead,
@@ -216,28 +217,21 @@ class Painter {
     gl.depthFunc(gl.LEQUAL);
   }
 
-  /** Draws tubes { model, top, colour } as one body that what is behind it shines through. */
+  /** Draws tubes { model, top, colour, strength } as one body that what is behind it shines through. */
   solids(parts) {
-    const gl = this.#gl;
-    gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
-    // First only how near its surface is, then its colour where it is the surface.
-    gl.colorMask(false, false, false, false);
-    this.#tubes(parts, { plain: 0, strength: 1 });
-    gl.colorMask(true, true, true, true);
-    gl.depthFunc(gl.EQUAL);
-    gl.enable(gl.BLEND);
-    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
-    this.#tubes(parts, { plain: 0, strength: 0.7 });
-    gl.disable(gl.BLEND);
-    gl.depthFunc(gl.LEQUAL);
-    gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);
+    asBody(this.#gl, () => this.#tubes(parts, { plain: 0 }));
+  }
+
+  /** Draws a line as a body that what is behind it shines through. */
+  veil(line, style) {
+    asBody(this.#gl, () => this.draw(line, style));
   }
 
   /** Draws tubes in plain colour that hide nothing. */
   stains(parts) {
     const gl = this.#gl;
     gl.depthMask(false);
-    this.#tubes(parts, { plain: 1, strength: 1 });
+    this.#tubes(parts, { plain: 1 });
     gl.depthMask(true);
   }
 
@@ -246,11 +240,34 @@ class Painter {
     gl.useProgram(this.#solid.program);
     gl.bindVertexArray(this.#tube.array);
     this.#solid.set(style);
-    for (const { model, top, colour } of parts) {
-      this.#solid.set({ model, top, colour });
+    for (const { model, top, colour, strength = 1 } of parts) {
+      this.#solid.set({ model, top, colour, strength });
       gl.drawArrays(gl.TRIANGLES, 0, this.#tube.count);
     }
   }
+}
+
+/**
+ * Draws a translucent body by `draw()`: first only how near its surface is, then its colour where it is the surface, so
+ * that none of its own insides show.
+ */
+export function asBody(gl, draw) {
+  gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
+  gl.colorMask(false, false, false, false);
+  draw();
+  gl.colorMask(true, true, true, false);
+  gl.depthFunc(gl.EQUAL);
+  blended(gl, draw);
+  gl.depthFunc(gl.LEQUAL);
+  gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);
+}
+
+/** Draws by `draw()` over what is there, as opaque as its pixels say. */
+export function blended(gl, draw) {
+  gl.enable(gl.BLEND);
+  gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+  draw();
+  gl.disable(gl.BLEND);
 }
 
 export function parameters(gl, filter) {

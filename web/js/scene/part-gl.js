@@ -1,7 +1,9 @@
 // Draws the part as it is cut: the core's mesh, each place moved by its deviation times a factor, coloured by the
-// deviation along the surface's normal.
+// deviation along the surface's normal. Paths below its surface shine through.
 
-import { parameters, program } from "./gl.js";
+import { asBody, parameters, program } from "./gl.js";
+
+const STRENGTH = 0.8; // of its colour over a path below its surface
 
 const VERTEX = `#version 300 es
 layout(location = 0) in vec3 place; layout(location = 1) in vec4 shift;
@@ -18,7 +20,7 @@ void main() {
 const FRAGMENT = `#version 300 es
 precision highp float;
 in vec3 nominal; in vec3 moved; in vec2 deviation;
-uniform sampler2D scale; uniform vec3 light, eye; uniform float largest;
+uniform sampler2D scale; uniform vec3 light, eye; uniform float largest, strength;
 out vec4 pixel;
 void main() {
   float level = abs(normalize(cross(dFdx(nominal), dFdy(nominal))).z);
@@ -26,7 +28,7 @@ void main() {
   vec3 outward = normalize(cross(dFdx(moved), dFdy(moved)));
   float lit = 0.5 + 0.5 * dot(outward * (dot(outward, eye) < 0.0 ? -1.0 : 1.0), light);
   vec3 own = texture(scale, vec2(0.5 + 0.498 * clamp(excess / largest, -1.0, 1.0), 0.5)).rgb;
-  pixel = vec4(own * (0.52 + 0.5 * lit * lit), 1.0);
+  pixel = vec4(own * (0.52 + 0.5 * lit * lit), strength);
 }`;
 
 /** Draws parts with a painter's WebGL. */
@@ -107,11 +109,11 @@ export class PartPainter {
     const gl = this.#gl;
     if (!this.#count) return;
     gl.useProgram(this.#program.program);
-    this.#program.set(style);
+    this.#program.set({ ...style, strength: STRENGTH });
     gl.bindVertexArray(this.#arrays[side]);
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1, 2);
-    gl.drawElements(gl.TRIANGLES, this.#count, gl.UNSIGNED_INT, 0);
+    asBody(gl, () => gl.drawElements(gl.TRIANGLES, this.#count, gl.UNSIGNED_INT, 0));
     gl.disable(gl.POLYGON_OFFSET_FILL);
     gl.bindVertexArray(null);
   }

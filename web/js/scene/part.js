@@ -9,8 +9,8 @@ import { gradient, texels } from "./diverging.js";
 import { PartPainter } from "./part-gl.js";
 
 const SIDES = [
-  ["before", "Part before"],
-  ["after", "Part after compensation"],
+  ["before", "Before", "The part without compensation"],
+  ["after", "After", "The part after compensation"],
 ];
 
 export class Part {
@@ -28,8 +28,8 @@ export class Part {
   /** `changed(first)` is called when another picture is due; `first` if there was no part before. */
   constructor(changed) {
     this.#changed = changed;
-    this.#buttons = SIDES.map(([side, label]) => {
-      const button = make("button", { type: "button", "data-side": side }, label);
+    this.#buttons = SIDES.map(([side, label, title]) => {
+      const button = make("button", { type: "button", title, "data-side": side }, label);
       button.addEventListener("click", () => this.#choose(side));
       return button;
     });

@@ -1,30 +1,58 @@
 // The paths of a run, as the core hands them out for a picture: made into lines, measured, picked
 // from.
 
-import { length, plus } from "./camera.js";
+import { extent, nowhere, widen } from "./boxes.js";
+import { dot, length, plus } from "./camera.js";
 import { VERTEX, vertex } from "./gl.js";
+import { spacingOf } from "./spacing.js";
 
 const ROW = 17; // numbers in a row of the core's `track`, and where its vectors start
 const [DESIRED, CLOSEST, BEFORE, AFTER, CORRECTION] = [2, 5, 8, 11, 14];
+const AT = { desired: DESIRED, closest: CLOSEST, before: BEFORE, after: AFTER, correction: CORRECTION };
 const WHISKERS = 120;
+const MOST_LEGS = 1500; // of a path when its spacing is measured
 
 export class Paths {
   #track;
   count;
-  largest = 0; // largest deviation before compensation [mm]
+  worst = { before: 0, after: 0 }; // the cutting rows that deviate most before and after compensation
   stride = 0; // largest distance from one row to the next [mm]
-  #size = 0;
+  box = nowhere(); // [low, high] around the desired points
+  cutBox = nowhere(); // the same where the tool cuts
+  #spacing; // see `spacing`
 
   /** `track` is the core's answer. */
   constructor(track) {
     this.#track = track;
     this.count = track.length / ROW;
+    const most = { before: -1, after: -1 };
+    const cutsSomewhere = this.#hasCuts();
     for (let row = 0; row < this.count; row++) {
-      this.largest = Math.max(this.largest, length(this.before(row)));
-      if (row) this.stride = Math.max(this.stride, length(plus(this.desired(row), this.desired(row - 1), -1)));
+      widen(this.box, track, row * ROW + DESIRED);
+      if (row) this.stride = Math.max(this.stride, this.#step(row, DESIRED));
+      if (cutsSomewhere && !this.cuts(row)) continue;
+      widen(this.cutBox, track, row * ROW + DESIRED);
+      const errors = { before: this.#size(row, BEFORE), after: this.#size(row, AFTER) };
+      for (const side of ["before", "after"])
+        if (errors[side] > most[side]) [most[side], this.worst[side]] = [errors[side], row];
     }
-    const [low, high] = this.box(0);
-    this.#size = Math.max(...high.map((v, i) => v - low[i]));
+  }
+
+  // The loops over all rows make no lists: they run while results stream in.
+
+  /** The length of a vector of a row. */
+  #size(row, at) {
+    const [track, i] = [this.#track, row * ROW + at];
+    return Math.sqrt(track[i] * track[i] + track[i + 1] * track[i + 1] + track[i + 2] * track[i + 2]);
+  }
+
+  /** How far a row's point is from that of the row before. */
+  #step(row, at) {
+    const [track, i] = [this.#track, row * ROW + at];
+    const x = track[i] - track[i - ROW];
+    const y = track[i + 1] - track[i + 1 - ROW];
+    const z = track[i + 2] - track[i + 2 - ROW];
+    return Math.sqrt(x * x + y * y + z * z);
   }
 
   #vector(row, at) {
@@ -33,6 +61,56 @@ export class Paths {
 
   sample(row) {
     return this.#track[row * ROW];
+  }
+
+  /** Whether a row cuts; else it is part of a rapid move. */
+  cuts(row) {
+    return this.#track[row * ROW + 1] > 0;
+  }
+
+  #hasCuts() {
+    for (let row = 0; row < this.count; row++) if (this.cuts(row)) return true;
+    return false;
+  }
+
+  /** Largest deviation before compensation where the tool cuts [mm]. */
+  get largest() {
+    return length(this.before(this.worst.before));
+  }
+
+  /** About `count` rows that cut, evenly; of a path that nowhere cuts, all. */
+  cutRows(count) {
+    const step = Math.max(1, Math.ceil(this.count / count));
+    const rows = Array.from({ length: Math.ceil(this.count / step) }, (_, i) => i * step);
+    const cutting = rows.filter((row) => this.cuts(row));
+    return cutting.length ? cutting : rows;
+  }
+
+  /** About `count` desired points where the tool cuts. */
+  cutPoints(count) {
+    return this.cutRows(count).map((row) => [...this.desired(row)]);
+  }
+
+  /** The box around the desired points where the tool cuts, along the axes of another frame. */
+  boxIn({ origin, x, y, z }) {
+    const box = nowhere();
+    const off = [0, 0, 0];
+    const whole = !this.#hasCuts();
+    for (let row = 0; row < this.count; row++) {
+      if (!whole && !this.cuts(row)) continue;
+      for (let axis = 0; axis < 3; axis++) off[axis] = this.#track[row * ROW + DESIRED + axis] - origin[axis];
+      widen(box, [dot(x, off), dot(y, off), dot(z, off)], 0);
+    }
+    return box;
+  }
+
+  /** How far apart neighbouring passes of the path are [mm]; infinite if it has only one. */
+  get spacing() {
+    if (this.#spacing !== undefined) return this.#spacing;
+    const step = Math.max(1, Math.ceil(this.count / MOST_LEGS));
+    const points = [];
+    for (let row = 0; row < this.count; row += step) points.push(this.cuts(row) ? this.desired(row) : null);
+    return (this.#spacing = spacingOf(points));
   }
 
   /**
@@ -44,6 +122,9 @@ export class Paths {
   before = (row) => this.#vector(row, BEFORE);
   after = (row) => this.#vector(row, AFTER);
   correction = (row) => this.#vector(row, CORRECTION);
+
+  /** Where the tip is drawn `before` or `after` compensation, its deviation magnified. */
+  tip = (row, side, factor) => plus(this.closest(row), this[side](row), factor);
 
   /** The row nearest to a sample. */
   rowOf(sample) {
@@ -62,68 +143,44 @@ export class Paths {
    */
   factor() {
     if (this.largest < 1e-6) return 1;
-    const wanted = Math.max(1, (0.1 * this.#size) / this.largest);
+    const wanted = Math.max(1, (0.1 * extent(this.box)) / this.largest);
     const decade = 10 ** Math.floor(Math.log10(wanted));
     return [5, 2, 1].find((step) => step * decade <= wanted) * decade;
   }
 
-  /** The box [low, high] around the desired and the magnified paths. */
-  box(factor) {
-    const [low, high] = [
-      [Infinity, Infinity, Infinity],
-      [-Infinity, -Infinity, -Infinity],
-    ];
-    for (let row = 0; row < this.count; row++) {
-      for (const [place, way] of [
-        [this.desired(row), this.correction(row)],
-        [this.closest(row), this.before(row)],
-      ]) {
-        for (let i = 0; i < 3; i++) {
-          const moved = place[i] + factor * way[i];
-          low[i] = Math.min(low[i], place[i], moved);
-          high[i] = Math.max(high[i], place[i], moved);
-        }
-      }
-    }
-    return [low, high];
-  }
-
-  /** The points of a line for the painter. */
-  points(place, way) {
+  /** The points of a line for the painter: "desired" or "closest" ones, each with a way off it or (null) with none. */
+  line(place, way) {
+    const track = this.#track;
+    const [from, off] = [AT[place], AT[way]];
     const points = new Float32Array(this.count * VERTEX);
     let along = 0;
-    for (let row = 0; row < this.count; row++) {
-      const here = place(row);
-      if (row) along += length(plus(here, place(row - 1), -1));
-      const off = way(row);
-      // As `vertex` would, without a list for each.
-      points.set(here, row * VERTEX);
-      points[row * VERTEX + 3] = length(off);
-      points.set(off, row * VERTEX + 4);
-      points[row * VERTEX + 7] = this.#track[row * ROW + 1] ? along : -1 - along;
+    for (let row = 0, i = 0; row < this.count; row++, i += VERTEX) {
+      if (row) along += this.#step(row, from);
+      for (let axis = 0; axis < 3; axis++) {
+        points[i + axis] = track[row * ROW + from + axis];
+        points[i + 4 + axis] = way ? track[row * ROW + off + axis] : 0;
+      }
+      points[i + 3] = way ? this.#size(row, off) : 0;
+      points[i + 7] = this.cuts(row) ? along : -1 - along;
     }
     return points;
   }
 
   /** Pairs of points from the path to the actual one, evenly over the path's length. */
   whiskers() {
-    const step = (this.#track.length && this.#pathLength()) / WHISKERS;
+    let whole = 0;
+    for (let row = 1; row < this.count; row++) whole += this.#step(row, CLOSEST);
     const points = [];
     let [along, next] = [0, 0];
     for (let row = 0; row < this.count; row++) {
-      if (row) along += length(plus(this.closest(row), this.closest(row - 1), -1));
+      if (row) along += this.#step(row, CLOSEST);
       if (along < next) continue;
-      next += step;
+      next += whole / WHISKERS;
+      if (!this.cuts(row)) continue;
       const [place, way] = [this.closest(row), this.before(row)];
       points.push(...vertex(place, { value: length(way) }), ...vertex(place, { way, value: length(way) }));
     }
     return new Float32Array(points);
-  }
-
-  #pathLength() {
-    let sum = 0;
-    for (let row = 1; row < this.count; row++) sum += length(plus(this.closest(row), this.closest(row - 1), -1));
-    return sum;
   }
 
   /**

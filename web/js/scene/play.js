@@ -19,7 +19,9 @@ export class Player {
     value: "0",
     "aria-label": "Time of the run",
   });
-  #time = make("output", { className: "time" });
+  #now = make("span");
+  #whole = make("span", { className: "whole" });
+  #time = make("output", { className: "time" }, this.#now, this.#whole);
   #speed = make("select", { "aria-label": "Speed of play" });
 
   constructor() {
@@ -88,6 +90,7 @@ export class Player {
     const time = Math.min(this.#duration, cursor() ?? 0);
     this.#slider.value = String(time);
     this.#slider.setAttribute("aria-valuetext", `${time.toFixed(2)} s`);
-    this.#time.textContent = `${time.toFixed(2)} / ${this.#duration.toFixed(2)} s`;
+    this.#now.textContent = `${time.toFixed(2)} s`;
+    this.#whole.textContent = ` of ${this.#duration.toFixed(2)} s`;
   }
 }

@@ -12,7 +12,7 @@ export function tonesOf(node) {
       .map((v) => Number(v) / 255);
   };
   const mixed = (a, b, share) => a.map((v, i) => v + (b[i] - v) * share);
-  const [paper, ink, line, faint, accent, band] = ["surface", "ink", "line", "line-2", "accent", "band"].map(read);
+  const [paper, ink, line, faint, accent, wrong] = ["surface", "ink", "line", "line-2", "accent", "wrong"].map(read);
   const axes = ["vermillion", "green", "blue"].map(read);
   const dark = paper[0] + paper[1] + paper[2] < 1.5;
   const tones = {
@@ -20,13 +20,18 @@ export function tonesOf(node) {
     ink,
     axes,
     dark,
-    band,
-    grid: line,
+    wrong,
+    rapid: mixed(paper, faint, 0.75),
+    outline: mixed(paper, faint, 0.8),
+    glass: faint,
+    tube: faint,
+    grid: mixed(paper, line, 0.75),
     desired: dark ? ink : read("ink-2"),
     command: read("after"),
-    shadow: mixed(paper, dark ? [0, 0, 0] : ink, dark ? 0.35 : 0.07),
+    shadow: mixed(paper, dark ? [0, 0, 0] : ink, dark ? 0.2 : 0.04),
     link: dark ? mixed(paper, ink, 0.55) : mixed(paper, faint, 0.38),
     joint: mixed(mixed(paper, ink, dark ? 0.55 : 0.45), accent, 0.22),
+    beyond: wrong,
     tool: mixed(ink, faint, 0.35),
   };
   probe.remove();

@@ -1,0 +1,28 @@
+// How often the picture takes over results while they stream in: they are not to wait for it.
+
+const SHARE = 4; // it rests so many times as long as it has worked
+
+/**
+ * `action`, which may return a promise, called at once, and then again no sooner than `least` ms and `SHARE` times its
+ * own duration after it ended. The last call is never lost.
+ */
+export function paced(action, least) {
+  let isBusy = false;
+  let isDue = false;
+  return async function take() {
+    isDue = true;
+    if (isBusy) return;
+    isBusy = true;
+    try {
+      while (isDue) {
+        isDue = false;
+        const began = performance.now();
+        await action();
+        const pause = Math.max(least, SHARE * (performance.now() - began));
+        await new Promise((resolve) => setTimeout(resolve, pause));
+      }
+    } finally {
+      isBusy = false;
+    }
+  };
+}

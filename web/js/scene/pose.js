@@ -1,0 +1,42 @@
+// Where the arm stands at the cursor.
+
+import * as core from "../core/client.js";
+import { framesOf } from "./arm.js";
+
+export class Pose {
+  frames; // of base, joints, tip and workpiece
+  excess = []; // of each joint over its range [deg]; empty if no ranges are known
+  #asked = -1; // the sample that was asked for last
+  #asking = false;
+
+  /** Loads the pose at a sample of another result. */
+  async load(sample) {
+    this.#asked = sample;
+    this.#take(await core.pose(sample));
+  }
+
+  /** Follows `sample()`, one question at a time; `changed()` is called after each answer. */
+  async follow(sample, changed) {
+    if (this.#asking) return;
+    this.#asking = true;
+    try {
+      while (this.#asked !== sample()) {
+        this.#asked = sample();
+        this.#take(await core.pose(this.#asked));
+        changed();
+      }
+    } catch {
+      this.#asked = -1; // a newer result brings its own pose
+    }
+    this.#asking = false;
+  }
+
+  #take({ frames, excess }) {
+    [this.frames, this.excess] = [framesOf(frames), excess];
+  }
+
+  /** The numbers of the joints that are out of range. */
+  get beyond() {
+    return [...this.excess].flatMap((angle, i) => (angle > 0 ? [i + 1] : []));
+  }
+}
