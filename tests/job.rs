@@ -516,7 +516,7 @@ fn every_chart_draws() {
 /// A chart shows the values of the columns, in the requested unit; its axes name it.
 #[test]
 fn chart_data_are_the_columns_in_the_unit_asked_for() {
-    use armill::chart::{ChartOptions, ForceUnit, Units, chart, data};
+    use armill::chart::{ChartOptions, ForceUnit, Over, Units, chart, data};
     use armill::path::unit::LengthUnit;
     let report = run(&[]);
     let columns = report.columns();
@@ -532,12 +532,12 @@ fn chart_data_are_the_columns_in_the_unit_asked_for() {
         ("path", 2, "desired_y_mm"),
     ];
     for (name, place, key) in pairs {
-        let data = data(&report, name, Units::default()).unwrap();
+        let data = data(&report, name, Units::default(), Over::Time).unwrap();
         assert_eq!((&data[0].values, data[0].key.as_str()), (column("time_s"), "time_s"), "{name}");
         assert_eq!(&data[place].values, column(key), "{name}");
     }
     let units = Units { length: LengthUnit::Inch, force: ForceUnit::PoundForce };
-    let imperial = |name: &str| data(&report, name, units).unwrap().swap_remove(1);
+    let imperial = |name: &str| data(&report, name, units, Over::Time).unwrap().swap_remove(1);
     // Published: 1 inch = 25.4 mm, 1 lbf = 4.448 221 615 260 5 N, both exact.
     for (name, key, of, size) in [
         ("error-shaping", "shaping_inch", "shaping_contour_error_mm", 25.4),

@@ -134,6 +134,27 @@ fn what_charts_show_comes_as_columns_in_the_units_asked_for() {
 }
 
 #[wasm_bindgen_test]
+fn charts_are_drawn_by_decades_and_over_the_path() {
+    let run = wasm::run(&wasm::default_job(), None).unwrap();
+    let asked = r#"{"width":640,"height":300,"scale":"log","over":"length"}"#;
+    let chart = run.chart("before-after", js_sys::JSON::parse(asked).unwrap()).unwrap();
+    assert_eq!((text(&chart, "x.label").as_str(), text(&chart, "x.unit").as_str()), ("Path length", "mm"));
+    assert!(get(&chart, "y.log").is_truthy());
+    assert_eq!((number(&chart, "y.floor"), number(&chart, "y.min")), (1e-4, 1e-4));
+    let data = run.chart_data("before-after", js_sys::JSON::parse(r#"{"over":"length"}"#).unwrap()).unwrap();
+    let along: Float64Array = get(&data, "0.values").unchecked_into();
+    assert_eq!(along.to_vec(), run.column("arc_length_mm").unwrap().to_vec());
+    // A shape is drawn over two axes, a path in space over none.
+    let charts = run.charts().unwrap();
+    let over = |name: &str| {
+        let all = 0..number(&charts, "length") as u32;
+        let at = all.into_iter().find(|i| text(&charts, &format!("{i}.name")) == name).unwrap();
+        number(&charts, &format!("{at}.over.length"))
+    };
+    assert_eq!((over("before-after"), over("path")), (2.0, 0.0));
+}
+
+#[wasm_bindgen_test]
 fn options_are_refused_with_their_key() {
     let run = wasm::run(&wasm::default_job(), None).unwrap();
     let refused = |options: &str| {
@@ -152,6 +173,9 @@ fn options_are_refused_with_their_key() {
         (r#"{"width":640,"height":300,"hidden":"all"}"#, "invalid", "hidden", "\"all\"; a list"),
         (r#"{"width":640,"height":300,"length":"yard"}"#, "invalid", "length", "mm or inch"),
         (r#"{"width":640,"height":300,"force":[]}"#, "invalid", "force", "N or lbf"),
+        (r#"{"width":640,"height":300,"scale":"ln"}"#, "invalid", "scale", "linear, log or auto"),
+        (r#"{"width":640,"height":300,"over":"distance"}"#, "invalid", "over", "time, length or line"),
+        (r#"{"width":640,"height":300,"over":"line"}"#, "invalid", "over", "\"time\" or \"length\""),
         (r#""wide""#, "invalid", "options", "an object is expected"),
         (r#"{"width":20,"height":300}"#, "invalid", "chart", "between 120 and 8000"),
     ] {
@@ -167,6 +191,8 @@ fn options_are_refused_with_their_key() {
     for odd in ["({ width: undefined, height: 300 })", "({ width: () => 1, height: 300 })", "(() => 1)"] {
         assert!(run.chart("before-after", evaluated(odd)).is_err(), "{odd}");
     }
+    let force = js_sys::JSON::parse(r#"{"width":640,"height":300,"scale":"log"}"#).unwrap();
+    assert_eq!(text(&run.chart("force", force).unwrap_err(), "field"), "scale", "forces may be negative");
     let whole = js_sys::JSON::parse(r#"{"width":640,"height":300,"length":"inch"}"#).unwrap();
     assert!(run.chart_data("before-after", whole).is_ok(), "a chart's options hold its units");
     assert!(run.chart_data("before-after", JsValue::UNDEFINED).is_ok(), "units may be left out");

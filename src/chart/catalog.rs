@@ -4,6 +4,7 @@ use crate::chart::chart::{Chart, ChartOptions};
 use crate::chart::content::Content;
 use crate::chart::cut_in_stock::{ENGAGEMENT, REMOVAL, SURFACE};
 use crate::chart::figures::{BOTH, DEFLECTION, Figures, SHAPING};
+use crate::chart::over::Over;
 use crate::chart::unit::Units;
 use crate::column::Column;
 use crate::deviation::Source;
@@ -24,6 +25,8 @@ pub struct Entry {
     pub figure: &'static str,
     /// `time` for curves over the time of the run, `curve` for others, `space` for paths.
     pub kind: &'static str,
+    /// What it can be drawn over, for curves over the run.
+    pub over: &'static [Over],
 }
 
 const fn entry(
@@ -33,8 +36,11 @@ const fn entry(
     figure: &'static str,
     kind: &'static str,
 ) -> Entry {
-    Entry { name, title, view, figure, kind }
+    Entry { name, title, view, figure, kind, over: &[] }
 }
+
+/// Kind of the charts over the run.
+const RUN: &str = "time";
 
 /// Shown only if the spin is free.
 const SPIN: &str = "spin";
@@ -87,7 +93,9 @@ pub fn charts_of(report: &Report) -> Vec<Entry> {
         ENGAGEMENT | REMOVAL | SURFACE => report.setup().contacts.is_some(),
         _ => true,
     };
-    CATALOG.into_iter().filter(applies).collect()
+    let over =
+        |entry: Entry| Entry { over: if entry.kind == RUN { Over::all(report) } else { &[] }, ..entry };
+    CATALOG.into_iter().filter(applies).map(over).collect()
 }
 
 /// Draws the chart `name` of a report.
@@ -96,23 +104,36 @@ pub fn charts_of(report: &Report) -> Vec<Entry> {
 /// [`Error::Invalid`] for a name that is not in [`CATALOG`], for one that does not apply to the report,
 /// or for options that cannot be drawn.
 pub fn chart(report: &Report, name: &str, options: &ChartOptions) -> Result<Chart, Error> {
-    let content = content(report, name, options.units)?;
+    let content = content(report, name, options.units, options.over)?;
     let title = CATALOG.iter().find(|entry| entry.name == name).map_or("", |entry| entry.title);
-    let refused = |expected| Error::invalid("chart", format!("\"{name}\""), expected);
-    content.draw(name, title, options).map_err(refused)
+    content.draw(name, title, options)
 }
 
 /// All values that the chart `name` shows: those along its first axis (in space, the time), then
 /// each series.
 ///
 /// # Errors
-/// [`Error::Invalid`] for a name that is not in [`CATALOG`], or that does not apply to the report.
-pub fn data(report: &Report, name: &str, units: Units) -> Result<Vec<Column>, Error> {
-    Ok(content(report, name, units)?.columns())
+/// [`Error::Invalid`] for a name that is not in [`CATALOG`], or that does not apply to the report, or
+/// for a first axis that the chart does not have.
+pub fn data(report: &Report, name: &str, units: Units, over: Over) -> Result<Vec<Column>, Error> {
+    Ok(content(report, name, units, over)?.columns())
 }
 
-fn content(report: &Report, name: &str, units: Units) -> Result<Content, Error> {
-    let figures = Figures { report, units };
+/// Refuses a first axis that the chart does not have.
+fn check_over(report: &Report, name: &str, over: Over) -> Result<(), Error> {
+    let of_run = CATALOG.iter().any(|entry| entry.name == name && entry.kind == RUN);
+    let legal = if of_run { Over::all(report) } else { &[Over::Time] };
+    if legal.contains(&over) {
+        return Ok(());
+    }
+    let names: Vec<_> = legal.iter().map(|over| format!("\"{}\"", over.name())).collect();
+    let expected = format!("the chart \"{name}\" of this job can be drawn over {}", names.join(" or "));
+    Err(Error::invalid("over", format!("\"{}\"", over.name()), expected))
+}
+
+fn content(report: &Report, name: &str, units: Units, over: Over) -> Result<Content, Error> {
+    check_over(report, name, over)?;
+    let figures = Figures { report, units, over };
     let (forces, shaping) = (&report.deflection_only, &report.shaping_only);
     let content = match name {
         "before-after" | "after-both" => figures.expected(),

@@ -1,7 +1,8 @@
 //! A chart as values: the input of a drawing, and its output besides the drawing.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
+use super::over::Over;
 use super::unit::Units;
 
 /// Name, title and description of a chart.
@@ -43,8 +44,11 @@ pub struct Axis<'a> {
     pub range: Option<(f64, f64)>,
     /// Whether a range from the data includes zero.
     pub zero: bool,
-    /// Whether the scale is logarithmic; values that are not positive are then left out.
+    /// Whether the scale is logarithmic unless another is asked for.
     pub log: bool,
+    /// Where a logarithmic scale ends at the bottom: nothing less is known. Smaller values are drawn
+    /// there; without it, those that are not positive are left out.
+    pub floor: Option<f64>,
     /// Whether ticks stand at whole numbers only: for counts.
     pub whole: bool,
 }
@@ -54,6 +58,19 @@ impl Axis<'_> {
     pub(super) fn text(&self) -> String {
         if self.unit.is_empty() { self.label.into() } else { format!("{}, {}", self.label, self.unit) }
     }
+}
+
+/// How the second axis is divided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Scaling {
+    /// In even steps.
+    Linear,
+    /// By decades, where no value can be negative.
+    Log,
+    /// By decades if all curves but the highest would otherwise lie on the axis: if they peak below a
+    /// tenth of it.
+    Auto,
 }
 
 /// Options of the page.
@@ -71,12 +88,25 @@ pub struct ChartOptions {
     pub hidden: Vec<String>,
     /// Units of the axes.
     pub units: Units,
+    /// Scale of the second axis; the chart's own if none.
+    pub scaling: Option<Scaling>,
+    /// First axis of a chart over the run.
+    pub over: Over,
 }
 
 impl ChartOptions {
-    /// The whole chart at this size, in mm and N.
+    /// The whole chart at this size over time, in mm and N.
     pub fn sized(width: f64, height: f64) -> Self {
-        Self { width, height, x_range: None, y_range: None, hidden: Vec::new(), units: Units::default() }
+        Self {
+            width,
+            height,
+            x_range: None,
+            y_range: None,
+            hidden: Vec::new(),
+            units: Units::default(),
+            scaling: None,
+            over: Over::Time,
+        }
     }
 
     pub(super) fn shows(&self, key: &str) -> bool {
@@ -164,6 +194,9 @@ pub struct AxisInfo {
     pub max: f64,
     /// Whether the scale between them is logarithmic.
     pub log: bool,
+    /// What smaller values count as on a logarithmic scale; none where there cannot be one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub floor: Option<f64>,
     /// Both ends where nothing is zoomed.
     pub full: (f64, f64),
 }

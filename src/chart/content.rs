@@ -2,10 +2,11 @@
 
 use nalgebra::Vector3;
 
-use crate::chart::chart::{Axis, Band, Caption, Chart, ChartOptions, LinePlot, PlotSeries};
+use crate::chart::chart::{Axis, Band, Caption, Chart, ChartOptions, LinePlot, PlotSeries, Scaling};
 use crate::chart::plot::line_chart;
 use crate::chart::space::{SpaceSeries, View, space_chart};
 use crate::column::Column;
+use crate::error::Error;
 use crate::path::unit::LengthUnit;
 
 /// The values of one chart and their description.
@@ -41,12 +42,17 @@ pub(super) struct SpacePath {
 }
 
 pub(super) const TIME: Axis<'static> =
-    Axis { label: "Time", unit: "s", range: None, zero: false, log: false, whole: false };
+    Axis { label: "Time", unit: "s", range: None, zero: false, log: false, floor: None, whole: false };
 
 impl Content {
-    pub(super) fn draw(&self, name: &str, title: &str, options: &ChartOptions) -> Result<Chart, String> {
+    pub(super) fn draw(&self, name: &str, title: &str, options: &ChartOptions) -> Result<Chart, Error> {
+        if options.scaling == Some(Scaling::Log) && !self.has_decades() {
+            let expected =
+                format!("\"linear\" or \"auto\", for the values of the chart \"{name}\" may be negative");
+            return Err(Error::invalid("scale", "\"log\"", expected));
+        }
         let caption = Caption { name, title, description: &self.description };
-        match &self.shape {
+        let drawn = match &self.shape {
             Shape::Curves { x, y, curves, markers, bands } => {
                 let series: Vec<_> = curves
                     .iter()
@@ -68,6 +74,15 @@ impl Content {
                     .collect();
                 space_chart(caption, &paths, View::default(), options)
             }
+        };
+        drawn.map_err(|expected| Error::invalid("chart", format!("\"{name}\""), expected))
+    }
+
+    /// Whether its values may stand on a logarithmic scale.
+    fn has_decades(&self) -> bool {
+        match &self.shape {
+            Shape::Curves { y, .. } => y.log || y.floor.is_some(),
+            Shape::Paths { .. } => false,
         }
     }
 

@@ -30,7 +30,7 @@ impl Figures<'_> {
             digits(max(&curves[0].values))
         );
         let y = Axis { label: "Angle", unit: "deg", zero: true, ..Axis::default() };
-        Ok(self.over_time(description, y, curves))
+        Ok(self.over_run(description, y, curves))
     }
 
     /// The material removal rate.
@@ -39,7 +39,7 @@ impl Figures<'_> {
         let description = format!("At most {} cm³/min.", digits(max(&values)));
         let curves = vec![Curve { key: "removal", label: "Removal rate", class: "s1", values }];
         let y = Axis { label: "Removal rate", unit: "cm³/min", zero: true, ..Axis::default() };
-        Ok(self.over_time(description, y, curves))
+        Ok(self.over_run(description, y, curves))
     }
 
     /// Excess of the surface that is left: material that should not stand, or below 0 is missing.
@@ -60,7 +60,7 @@ impl Figures<'_> {
             "Too much material above zero, too little below: before up to {before} {unit}, after up to {after} {unit}."
         );
         let y = Axis { label: "Excess", unit, zero: true, ..Axis::default() };
-        Ok(self.over_time(description, y, curves))
+        Ok(self.over_run(description, y, curves))
     }
 
     /// A column of the cut for the chart `name`.

@@ -2,6 +2,7 @@
 
 use crate::chart::chart::{Axis, Band};
 use crate::chart::content::{Content, Curve, Shape, SpacePath, TIME, points};
+use crate::chart::over::Over;
 use crate::chart::unit::Units;
 use crate::math;
 use crate::path::unit::LengthUnit;
@@ -26,6 +27,7 @@ pub(super) const BOTH: Name = ("both", "Both together", "both");
 pub(super) struct Figures<'a> {
     pub(super) report: &'a Report,
     pub(super) units: Units,
+    pub(super) over: Over,
 }
 
 impl Figures<'_> {
@@ -38,14 +40,29 @@ impl Figures<'_> {
         }
     }
 
-    fn time(&self) -> Vec<f64> {
-        let trajectory = &self.report.plan.trajectory;
-        (0..trajectory.len()).map(|k| k as f64 * trajectory.sample_time).collect()
+    /// The least length that is read, in the displayed unit; see [`Figures::read`].
+    fn least(&self) -> f64 {
+        match self.units.length {
+            LengthUnit::Mm => 1e-4,
+            LengthUnit::Inch => 1e-6,
+        }
     }
 
-    pub(super) fn over_time(&self, description: String, y: Axis<'static>, curves: Vec<Curve>) -> Content {
-        let shape = Shape::Curves { x: TIME, y, curves, markers: false, bands: vec![] };
-        Content { description, at: self.time(), shape }
+    /// Curves with a value for each sample.
+    fn over_run_with(
+        &self,
+        description: String,
+        y: Axis<'static>,
+        curves: Vec<Curve>,
+        bands: Vec<Band>,
+    ) -> Content {
+        let x = self.over.axis(self.units);
+        let shape = Shape::Curves { x, y, curves, markers: false, bands };
+        Content { description, at: self.over.values(self.report, self.units), shape }
+    }
+
+    pub(super) fn over_run(&self, description: String, y: Axis<'static>, curves: Vec<Curve>) -> Content {
+        self.over_run_with(description, y, curves, vec![])
     }
 
     fn tolerance(&self) -> (f64, Vec<Band>) {
@@ -71,9 +88,9 @@ impl Figures<'_> {
         }
         let (tolerance, bands) = self.tolerance();
         let description = format!("{}; the tolerance is {} {unit}.", texts.join("; "), self.read(tolerance));
-        let y = Axis { label: "Contour error", unit, zero: true, ..Axis::default() };
-        let shape = Shape::Curves { x: TIME, y, curves, markers: false, bands };
-        Content { description, at: self.time(), shape }
+        let y =
+            Axis { label: "Contour error", unit, zero: true, floor: Some(self.least()), ..Axis::default() };
+        self.over_run_with(description, y, curves, bands)
     }
 
     pub(super) fn before_and_after(&self, before: &[Vector3<f64>], after: &[Vector3<f64>]) -> Content {
@@ -105,8 +122,8 @@ impl Figures<'_> {
         let texts = curves.each_ref().map(|Curve { label, values, .. }| {
             format!("{label}: mean {} deg, max {} deg", digits(mean(values)), digits(max(values)))
         });
-        let y = Axis { label: "Angle", unit: "deg", zero: true, ..Axis::default() };
-        self.over_time(format!("{}.", texts.join("; ")), y, curves.into())
+        let y = Axis { label: "Angle", unit: "deg", zero: true, floor: Some(1e-4), ..Axis::default() };
+        self.over_run(format!("{}.", texts.join("; ")), y, curves.into())
     }
 
     pub(super) fn forces(&self) -> Content {
@@ -134,7 +151,7 @@ impl Figures<'_> {
             format!("{label} from {} to {} {unit}", digits(min(values)), digits(max(values)))
         });
         let description = format!("{label} in the base frame: {}.", texts.join(", "));
-        self.over_time(description, Axis { label, unit, ..Axis::default() }, curves.into())
+        self.over_run(description, Axis { label, unit, ..Axis::default() }, curves.into())
     }
 
     pub(super) fn convergence(&self) -> Content {
@@ -160,7 +177,8 @@ impl Figures<'_> {
         let at: Vec<f64> = (0..texts.len()).map(|pass| pass as f64).collect();
         let last = at.last().map_or(1.0, |pass| pass.max(1.0));
         let x = Axis { label: "Pass", whole: true, range: Some((0.0, last)), ..Axis::default() };
-        let y = Axis { label: "Contour error", unit, log: true, ..Axis::default() };
+        let y =
+            Axis { label: "Contour error", unit, log: true, floor: Some(self.least()), ..Axis::default() };
         Content { description, at, shape: Shape::Curves { x, y, curves, markers: true, bands } }
     }
 
@@ -171,7 +189,8 @@ impl Figures<'_> {
             SpacePath { key, label: format!("{name}{note}"), class, points }
         };
         let paths = paths.into_iter().map(path).collect();
-        Content { description, at: self.time(), shape: Shape::Paths { unit, paths } }
+        let at = Over::Time.values(self.report, self.units);
+        Content { description, at, shape: Shape::Paths { unit, paths } }
     }
 
     fn desired(&self) -> (Name, String, &[Vector3<f64>]) {
@@ -298,7 +317,7 @@ impl Figures<'_> {
             .map(|Curve { key, values, .. }| format!("{key} {:.1} to {:.1}", min(values), max(values)))
             .collect();
         let y = Axis { label: "Joint angle", unit: "deg", ..Axis::default() };
-        self.over_time(format!("Ranges in deg: {}.", texts.join(", ")), y, curves)
+        self.over_run(format!("Ranges in deg: {}.", texts.join(", ")), y, curves)
     }
 
     /// The spin over time, and the fixed angle that a free one is compared with.
@@ -315,7 +334,7 @@ impl Figures<'_> {
             curves.push(Curve { key: "fixed", label: "Fixed", class: "desired", values });
         }
         let y = Axis { label: "Angle", unit: "deg", ..Axis::default() };
-        self.over_time(format!("{description}."), y, curves)
+        self.over_run(format!("{description}."), y, curves)
     }
 
     pub(super) fn shaped_joint(&self, joint: usize) -> Content {
@@ -326,7 +345,7 @@ impl Figures<'_> {
         let description =
             format!("Original and shaped command differ by up to {:.3} deg at the same time.", max(&apart));
         let y = Axis { label: "Joint angle", unit: "deg", ..Axis::default() };
-        self.over_time(description, y, original_and_shaped(original, shaped))
+        self.over_run(description, y, original_and_shaped(original, shaped))
     }
 
     /// A unit step at time 0, original and shaped (Fig. 4.10).

@@ -15,6 +15,8 @@ pub(super) const TOP: f64 = 26.0;
 pub(super) const BOTTOM: f64 = 42.0;
 /// Length of a tick mark; plotters puts its label as far again from its end [SVG units].
 const TICK: f64 = 4.0;
+/// Length of a tick mark without a label [SVG units].
+const MINOR_TICK: f64 = 3.0;
 /// Radius of the dot at a marked point [SVG units].
 const DOT: f64 = 3.5;
 
@@ -86,6 +88,7 @@ impl PlotFrame {
         }
         canvas.layer(Layer::Axis, || {
             self.mesh(&canvas, x, false)?;
+            self.minor_ticks(&canvas)?;
             bands.iter().try_for_each(|band| self.band_name(&canvas, band))?;
             canvas.text(&y.text(), (0.0, 2.0), HPos::Left, VPos::Top)
         })?;
@@ -134,6 +137,15 @@ impl PlotFrame {
         mesh.draw().map_err(|e| e.to_string())
     }
 
+    /// Short ticks between the decades of y, which show that its steps are not even.
+    fn minor_ticks(&self, canvas: &Canvas) -> Result<(), String> {
+        let left = self.area.left;
+        self.y.minor_ticks().into_iter().try_for_each(|value| {
+            let y = self.place(self.x.min, value).1;
+            canvas.line(&[(left - MINOR_TICK, y), (left, y)])
+        })
+    }
+
     /// The part of the plot that a band covers, as its upper and lower edge: at least one unit
     /// high.
     fn covered(&self, band: &Band) -> Option<(f64, f64)> {
@@ -177,6 +189,7 @@ fn info(axis: &Axis, scale: &Scale, full: (f64, f64)) -> AxisInfo {
         min: scale.min,
         max: scale.max,
         log: scale.log,
+        floor: axis.floor,
         full,
     }
 }

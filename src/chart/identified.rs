@@ -27,8 +27,7 @@ impl Fitted<'_> {
             Fitted::Stiffness(_) => ("stiffness", "Displacement of each row, and its residual"),
             Fitted::Response(..) => ("response", "Measured response and fitted vibration"),
         };
-        let drawn = self.content(options.units).draw(name, title, options);
-        drawn.map_err(|expected| Error::invalid("chart", format!("\"{name}\""), expected))
+        self.content(options.units).draw(name, title, options)
     }
 
     /// The values drawn.

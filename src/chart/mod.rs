@@ -12,6 +12,7 @@
 pub mod chart;
 pub mod catalog;
 pub mod identified;
+pub mod over;
 pub mod plot;
 pub mod space;
 pub mod svg;
@@ -24,5 +25,6 @@ mod scale;
 mod trace;
 
 pub use catalog::{CATALOG, Entry, chart, charts_of, data};
-pub use chart::{Chart, ChartOptions};
+pub use chart::{Chart, ChartOptions, Scaling};
+pub use over::Over;
 pub use unit::{ForceUnit, Units};

@@ -1,6 +1,6 @@
 //! Charts over two axes: curves, steps, marked points.
 
-use super::chart::{Axis, Band, Chart, ChartOptions, LinePlot, PlotArea, PlotSeries};
+use super::chart::{Axis, Band, Caption, Chart, ChartOptions, LinePlot, PlotArea, PlotSeries, Scaling};
 use super::frame::{BOTTOM, PlotFrame, TOP, size, valid};
 use super::scale::{Scale, extent, widened};
 use crate::math;
@@ -10,9 +10,10 @@ use crate::math;
 /// # Errors
 /// A sentence if the size, a range or the length of a series cannot be drawn.
 pub fn line_chart(plot: &LinePlot, options: &ChartOptions) -> Result<Chart, String> {
-    let LinePlot { x, y, series, bands, .. } = *plot;
+    let LinePlot { caption, x, series, bands, .. } = *plot;
     let (width, height) = size(options)?;
     check_lengths(series)?;
+    let y = Axis { log: by_decades(plot, options.scaling), ..plot.y };
     let full_x = match x.range {
         Some(range) => valid(&x, range)?,
         None => fitted(&x, series.iter().flat_map(|s| s.x.iter().copied()), 0.0),
@@ -30,14 +31,50 @@ pub fn line_chart(plot: &LinePlot, options: &ChartOptions) -> Result<Chart, Stri
     };
     let y_range = options.y_range.map_or(Ok(full_y), |range| valid(&y, range))?;
     let plot_height = f64::from(height) - TOP - BOTTOM;
-    let y_scale = Scale::new(y_range, y.log).with_ticks(((plot_height / 36.0) as usize).clamp(2, 9), y.whole);
+    let y_scale =
+        Scale::new(y_range, y.log, y.floor).with_ticks(((plot_height / 36.0) as usize).clamp(2, 9), y.whole);
     let left = (y_scale.label_width() + 12.0).ceil();
-    let x_scale =
-        |right: f64| Scale::new(x_range, x.log).with_ticks_across(f64::from(width) - left - right, x.whole);
+    let x_scale = |right: f64| {
+        Scale::new(x_range, x.log, x.floor).with_ticks_across(f64::from(width) - left - right, x.whole)
+    };
     let right = (x_scale(12.0).label_width() / 2.0 + 2.0).max(12.0).ceil();
     let area = PlotArea { left, top: TOP, width: f64::from(width) - left - right, height: plot_height };
     let frame = PlotFrame { width, height, area, x: x_scale(right), y: y_scale, full: [full_x, full_y] };
-    frame.draw(plot, options)
+    let description = format!("{}{}", caption.description, raised(&y, series, options));
+    let caption = Caption { description: &description, ..caption };
+    frame.draw(&LinePlot { caption, y, ..*plot }, options)
+}
+
+/// Whether the second axis is divided by decades.
+fn by_decades(plot: &LinePlot, scaling: Option<Scaling>) -> bool {
+    match scaling {
+        None => plot.y.log,
+        Some(Scaling::Linear) => false,
+        Some(Scaling::Log) => true,
+        Some(Scaling::Auto) => {
+            plot.y.log || plot.y.floor.is_some_and(|floor| others_lie_low(plot.series, floor))
+        }
+    }
+}
+
+/// Whether all curves but the highest peak below a tenth of it, and above `floor`. One that stands out
+/// can be read on an even scale, and the eye compares heights better there.
+fn others_lie_low(series: &[PlotSeries], floor: f64) -> bool {
+    let peaks = series.iter().filter_map(|s| extent(s.y.iter().copied(), true)).map(|(_, peak)| peak);
+    let mut peaks: Vec<f64> = peaks.filter(|peak| *peak > floor).collect();
+    peaks.sort_by(f64::total_cmp);
+    matches!(peaks[..], [.., second, highest] if second < highest / 10.0)
+}
+
+/// A sentence about values that are drawn higher than they are, if there are any.
+fn raised(y: &Axis, series: &[PlotSeries], options: &ChartOptions) -> String {
+    let Some(floor) = y.floor.filter(|_| y.log) else { return String::new() };
+    let mut shown = series.iter().filter(|s| options.shows(s.key));
+    if shown.any(|s| s.y.iter().any(|&value| value < floor)) {
+        format!(" Values below {floor} {} are drawn at {floor}.", y.unit)
+    } else {
+        String::new()
+    }
 }
 
 fn check_lengths(series: &[PlotSeries]) -> Result<(), String> {
@@ -52,9 +89,13 @@ fn check_lengths(series: &[PlotSeries]) -> Result<(), String> {
 fn fitted(axis: &Axis, values: impl IntoIterator<Item = f64>, headroom: f64) -> (f64, f64) {
     let found = extent(values, axis.log);
     if axis.log {
-        let (min, max) = found.unwrap_or((1.0, 1.0));
-        let (low, high) = (math::log10(min).floor(), math::log10(max).ceil());
-        return (math::pow(10.0, low), math::pow(10.0, if high > low { high } else { low + 1.0 }));
+        let least = axis.floor.unwrap_or(0.0);
+        let (min, max) = found.map_or((1.0, 1.0), |(min, max)| (min.max(least), max.max(least)));
+        // The floor is a power of ten but for rounding.
+        let (low, high) = ((math::log10(min) + 1e-9).floor(), (math::log10(max) - 1e-9).ceil());
+        // A curve along the floor must not fall off the axis by a rounding error.
+        let bottom = math::pow(10.0, low).max(least);
+        return (bottom, math::pow(10.0, if high > low { high } else { low + 1.0 }));
     }
     let (mut min, mut max) = found.unwrap_or((0.0, 1.0));
     if axis.zero {
@@ -84,7 +125,7 @@ fn with_bands(axis: &Axis, mut values: Vec<f64>, bands: &[Band]) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::chart::chart::Caption;
-    use crate::chart::{ForceUnit, Units};
+    use crate::chart::{ForceUnit, Over, Units};
     use crate::path::unit::LengthUnit;
 
     const CAPTION: Caption = Caption { name: "n", title: "t", description: "d" };
@@ -95,8 +136,11 @@ mod tests {
         y_range: None,
         hidden: Vec::new(),
         units: Units { length: LengthUnit::Mm, force: ForceUnit::Newton },
+        scaling: None,
+        over: Over::Time,
     };
-    const TIME: Axis = Axis { label: "Time", unit: "s", range: None, zero: false, log: false, whole: false };
+    const TIME: Axis =
+        Axis { label: "Time", unit: "s", range: None, zero: false, log: false, floor: None, whole: false };
     const ERROR: Axis = Axis { label: "Contour error", unit: "mm", zero: true, ..TIME };
 
     fn series<'a>(x: &'a [f64], y: &'a [f64]) -> PlotSeries<'a> {
@@ -180,6 +224,43 @@ mod tests {
         let chart = over_time(y, &[points], &[], &OPTIONS).unwrap();
         assert_eq!((chart.y.min, chart.y.max, chart.y.log), (1e-3, 10.0, true));
         assert!(!chart.svg.contains("NaN"));
+    }
+
+    #[test]
+    fn nothing_is_drawn_below_the_floor_of_a_logarithmic_scale() {
+        let y = Axis { log: true, floor: Some(1e-3), ..ERROR };
+        let over = |values: &[f64; 4]| {
+            over_time(y, &[series(&[0.0, 1.0, 2.0, 3.0], values)], &[], &OPTIONS).unwrap()
+        };
+        let chart = over(&[0.0, 1e-9, 0.5, -1.0]);
+        assert_eq!((chart.y.min, chart.y.max, chart.y.floor), (1e-3, 1.0, Some(1e-3)));
+        assert_eq!(chart.description, "d Values below 0.001 mm are drawn at 0.001.");
+        let low = format!(",{}", chart.plot.top + chart.plot.height);
+        let drawn = chart.svg.split("data-key").nth(1).unwrap().split("</g>").next().unwrap();
+        assert_eq!(drawn.matches(&low).count(), 3, "{drawn}");
+        assert_eq!(over(&[0.1, 0.2, 0.5, 0.001]).description, "d");
+    }
+
+    #[test]
+    fn decades_are_chosen_where_all_but_one_curve_would_lie_on_the_axis() {
+        let x = [0.0, 1.0];
+        let log = |low: f64, scaling: Option<Scaling>, floor: Option<f64>| {
+            let (whole, lower) = ([0.0, 1.0], [low, 0.0]);
+            let least = [1e-3, 1e-3];
+            let both = [
+                series(&x, &whole),
+                PlotSeries { key: "low", ..series(&x, &lower) },
+                PlotSeries { key: "least", ..series(&x, &least) },
+            ];
+            let options = ChartOptions { scaling, ..OPTIONS };
+            over_time(Axis { floor, ..ERROR }, &both, &[], &options).unwrap().y.log
+        };
+        let (auto, floor) = (Some(Scaling::Auto), Some(1e-4));
+        assert!(log(0.09, auto, floor) && !log(0.11, auto, floor));
+        assert!(!log(1e-5, auto, Some(1e-3)), "what is below the floor cannot be read anyway");
+        assert!(!log(0.09, auto, None), "without a floor it may be negative");
+        assert!(!log(0.09, None, floor) && !log(0.09, Some(Scaling::Linear), floor));
+        assert!(log(0.5, Some(Scaling::Log), floor));
     }
 
     #[test]

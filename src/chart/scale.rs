@@ -14,6 +14,7 @@ pub(super) struct Scale {
     pub(super) min: f64,
     pub(super) max: f64,
     pub(super) log: bool,
+    pub(super) floor: Option<f64>,
     pub(super) ticks: Vec<Tick>,
 }
 
@@ -28,9 +29,10 @@ pub(super) struct Tick {
 const FAR: f64 = 1e6;
 
 impl Scale {
-    /// A scale without ticks. The range must be finite and increasing, and above zero if `log`.
-    pub(super) fn new((min, max): (f64, f64), log: bool) -> Self {
-        Self { min, max, log, ticks: Vec::new() }
+    /// A scale without ticks. The range must be finite and increasing, and above zero if `log`, where
+    /// values below `floor` count as that.
+    pub(super) fn new((min, max): (f64, f64), log: bool, floor: Option<f64>) -> Self {
+        Self { min, max, log, floor, ticks: Vec::new() }
     }
 
     /// With at most `most` ticks (two at least); at whole numbers only if `whole`.
@@ -53,10 +55,24 @@ impl Scale {
             .unwrap_or_else(|| self.with_ticks(2, whole))
     }
 
+    /// 2 to 9 times the powers of ten where those alone have labels.
+    pub(super) fn minor_ticks(&self) -> Vec<f64> {
+        let decades = self.ticks.windows(2).all(|pair| (pair[1].value / pair[0].value - 10.0).abs() < 1e-6);
+        if !self.log || self.ticks.len() < 2 || !decades {
+            return Vec::new();
+        }
+        let (low, high) = (math::log10(self.min).floor() as i32, math::log10(self.max).ceil() as i32);
+        (low..high)
+            .flat_map(|exponent| (2..10).map(move |digits| Decimal { digits, exponent }.value()))
+            .filter(|value| (self.min..=self.max).contains(value))
+            .collect()
+    }
+
     /// Position of a value: 0 at the beginning, 1 at the end; NaN where it has none.
     pub(super) fn position(&self, value: f64) -> f64 {
         let place = if self.log {
             let (low, high) = (math::log10(self.min), math::log10(self.max));
+            let value = self.floor.map_or(value, |floor| value.max(floor));
             if value > 0.0 { (math::log10(value) - low) / (high - low) } else { f64::NAN }
         } else {
             (value - self.min) / (self.max - self.min)
@@ -294,6 +310,17 @@ mod tests {
     }
 
     #[test]
+    fn minor_ticks_stand_between_labelled_decades_only() {
+        let minor = |range, log, most| Scale::new(range, log, None).with_ticks(most, false).minor_ticks();
+        let twice = minor((0.1, 10.0), true, 3);
+        assert_eq!(twice.len(), 16);
+        assert!(twice.contains(&0.2) && twice.contains(&9.0) && !twice.contains(&1.0));
+        assert!(minor((0.1, 10.0), true, 9).is_empty(), "2 and 5 have labels");
+        assert!(minor((1e-8, 1.0), true, 5).is_empty(), "every other decade");
+        assert!(minor((0.1, 10.0), false, 5).is_empty());
+    }
+
+    #[test]
     fn degenerate_ranges_are_widened() {
         assert_eq!(widened((0.0, 0.0)), (-1.0, 1.0));
         assert_eq!(widened((5.0, 5.0)), (4.5, 5.5));
@@ -305,9 +332,10 @@ mod tests {
 
     #[test]
     fn positions_far_outside_stay_finite() {
-        let scale = Scale::new((0.0, 1e-300), false);
+        let scale = Scale::new((0.0, 1e-300), false, None);
         assert_eq!(scale.position(1e300), FAR);
         assert!(scale.position(f64::INFINITY).is_nan());
-        assert!(Scale::new((1.0, 10.0), true).position(0.0).is_nan());
+        assert!(Scale::new((1.0, 10.0), true, None).position(0.0).is_nan());
+        assert_eq!(Scale::new((1.0, 10.0), true, Some(1.0)).position(-5.0), 0.0);
     }
 }

@@ -90,8 +90,15 @@ pub fn space_chart(
 
     let canvas = Canvas::new(width, height);
     scene.draw(&canvas, paths, options)?;
-    let info =
-        |(min, max), full| AxisInfo { label: String::new(), unit: unit.into(), min, max, log: false, full };
+    let info = |(min, max), full| AxisInfo {
+        label: String::new(),
+        unit: unit.into(),
+        min,
+        max,
+        log: false,
+        floor: None,
+        full,
+    };
     let legend = |s: &SpaceSeries| Legend { key: s.key.into(), label: s.label.into(), class: s.class.into() };
     Ok(Chart {
         name: caption.name.into(),

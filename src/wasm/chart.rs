@@ -12,11 +12,11 @@ use wasm_bindgen::prelude::wasm_bindgen;
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &'static str = r#"
 export interface ChartEntry {
-  name: string; title: string; view: string; figure: string; kind: "time" | "curve" | "space";
+  name: string; title: string; view: string; figure: string; kind: "time" | "curve" | "space"; over: Over[];
 }
 export interface ChartColumn { key: string; label: string; unit: string; values: Float64Array; }
 export interface Axis {
-  label: string; unit: string; min: number; max: number; log: boolean; full: [number, number];
+  label: string; unit: string; min: number; max: number; log: boolean; floor?: number; full: [number, number];
 }
 export interface Chart {
   name: string; title: string; description: string; svg: string; width: number; height: number;
@@ -72,9 +72,9 @@ impl Run {
     pub fn chart_data(
         &self,
         name: &str,
-        #[wasm_bindgen(unchecked_param_type = "ChartUnits")] units: JsValue,
+        #[wasm_bindgen(unchecked_param_type = "ChartValues")] values: JsValue,
     ) -> Result<JsValue, JsValue> {
-        let units = options::units(units)?;
-        columns(chart::data(&self.report, name, units).map_err(|error| thrown(&error))?)
+        let (units, over) = options::values(values)?;
+        columns(chart::data(&self.report, name, units, over).map_err(|error| thrown(&error))?)
     }
 }

@@ -1,6 +1,6 @@
 //! Options from JavaScript: read into a type, or refused with an error that names the wrong key.
 
-use crate::chart::{self, ForceUnit, Units};
+use crate::chart::{self, ForceUnit, Over, Units};
 use crate::error::Error;
 use crate::path::unit::LengthUnit;
 use crate::wasm::error::thrown;
@@ -13,13 +13,18 @@ use wasm_bindgen::{JsCast, JsValue};
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &'static str = r#"
 export interface ChartUnits { length?: "mm" | "inch"; force?: "N" | "lbf"; }
-export interface ChartOptions extends ChartUnits {
+/** First axis of a chart of kind "time"; a chart's entry lists those that it has. */
+export type Over = "time" | "length" | "line";
+export interface ChartValues extends ChartUnits { over?: Over; }
+/** `scale` "auto" is "log" where all curves but the highest peak below a tenth of it; left out, the chart's own. */
+export interface ChartOptions extends ChartValues {
   width: number; height: number; x_range?: [number, number]; y_range?: [number, number]; hidden?: string[];
+  scale?: "linear" | "log" | "auto";
 }
 "#;
 
 /// The keys of the options, and what each may be.
-const KEYS: [(&str, &str); 7] = [
+const KEYS: [(&str, &str); 9] = [
     ("width", "a number of pixels"),
     ("height", "a number of pixels"),
     ("x_range", "two numbers: the ends of the range"),
@@ -27,6 +32,8 @@ const KEYS: [(&str, &str); 7] = [
     ("hidden", "a list of keys of series"),
     ("length", "mm or inch"),
     ("force", "N or lbf"),
+    ("scale", "linear, log or auto"),
+    ("over", "time, length or line"),
 ];
 
 /// The choices of `length`.
@@ -54,6 +61,15 @@ pub(super) fn units(options: JsValue) -> Result<Units, JsValue> {
     options.units().map_err(|error| thrown(&error))
 }
 
+/// Reads `ChartValues`; a chart's whole options serve as well.
+pub(super) fn values(options: JsValue) -> Result<(Units, Over), JsValue> {
+    let read = |options: JsValue| {
+        let options = Options::of(options)?;
+        Ok((options.units()?, options.get("over")?.unwrap_or_default()))
+    };
+    read(options).map_err(|error: Error| thrown(&error))
+}
+
 /// Reads `ChartOptions`.
 pub(super) fn chart(options: JsValue) -> Result<chart::ChartOptions, JsValue> {
     let read = |options: JsValue| {
@@ -65,6 +81,8 @@ pub(super) fn chart(options: JsValue) -> Result<chart::ChartOptions, JsValue> {
             y_range: options.range("y_range")?,
             hidden: options.get("hidden")?.unwrap_or_default(),
             units: options.units()?,
+            scaling: options.get("scale")?,
+            over: options.get("over")?.unwrap_or_default(),
         })
     };
     read(options).map_err(|error: Error| thrown(&error))

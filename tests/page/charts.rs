@@ -4,7 +4,9 @@
 use crate::browser::{DESKTOP, Key, Result, THESIS, visit};
 use crate::chart::{Chart, column};
 use crate::common::run;
-use crate::current;
+use crate::{current, shows};
+use armill::Report;
+use armill::chart::{ChartOptions, Scaling};
 use serde_json::json;
 
 #[test]
@@ -111,6 +113,7 @@ fn units_are_chosen_for_axes_values_and_files() -> Result {
             &run(&[]),
             "force",
             armill::chart::Units { force: armill::chart::ForceUnit::PoundForce, ..Default::default() },
+            armill::chart::Over::Time,
         )?;
         page.with_module(
             "page/settings",
@@ -202,5 +205,127 @@ fn a_table_stands_for_the_chart() -> Result {
                 .await?;
         }
         Ok(())
+    })
+}
+
+/// The chart as the native core draws it, at the size it has on the page.
+async fn native(
+    chart: &Chart<'_>,
+    report: &Report,
+    name: &str,
+    how: ChartOptions,
+) -> Result<armill::chart::Chart> {
+    let size = chart
+        .js("const plot = chart.querySelector('svg.plot'); \
+             return [Number(plot.getAttribute('width')), Number(plot.getAttribute('height'))]")
+        .await?;
+    let [width, height]: [f64; 2] = serde_json::from_value(size)?;
+    Ok(armill::chart::chart(report, name, &ChartOptions { width, height, ..how })?)
+}
+
+#[test]
+fn a_chart_is_read_by_decades_or_in_even_steps() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        let report = run(&[]);
+        let chart = Chart::open(page, "error", "after-shaping").await?;
+        let pressed = "chart.querySelector('[aria-label=\"Logarithmic scale\"]').ariaPressed";
+        // After is far below before, so it starts by decades, the same as natively.
+        chart.wait_for(&format!("{pressed} === 'true'")).await?;
+        let auto = ChartOptions { scaling: Some(Scaling::Auto), ..ChartOptions::sized(700.0, 300.0) };
+        let drawn = native(&chart, &report, "after-shaping", auto).await?;
+        let points =
+            |svg: &str| svg.split("data-key=\"after\"").nth(1).unwrap().split('"').nth(9).map(String::from);
+        let shown = chart.js("return chart.querySelector('svg.plot').outerHTML").await?;
+        assert!(points(&drawn.svg).is_some_and(|points| shown.as_str().unwrap().contains(&points)));
+        let caption = "return chart.querySelector('figcaption').textContent";
+        let caption: String = serde_json::from_value(chart.js(caption).await?)?;
+        assert!(caption.contains("drawn at 0.0001"), "{caption}");
+        // The cursor's marks stand on the curves, also where an error is zero.
+        chart.hover(0.001).await?;
+        chart.wait_for("chart.querySelectorAll('.marks circle').length === 2").await?;
+        chart.tool("Logarithmic scale").await?;
+        chart.wait_for("[...chart.querySelectorAll('.axis text')].some(t => t.textContent === '0')").await?;
+        // It is remembered for each chart, and for no other with the same curves.
+        let overview = Chart::open(page, "overview", "before-after").await?;
+        overview.wait_for(&format!("{pressed} === 'false'")).await?;
+        overview.tool("Logarithmic scale").await?;
+        page.reload().await?;
+        current(page).await?;
+        let overview = Chart::open(page, "overview", "before-after").await?;
+        overview.wait_for(&format!("{pressed} === 'true'")).await?;
+        let chart = Chart::open(page, "error", "after-shaping").await?;
+        chart.wait_for(&format!("{pressed} === 'false'")).await?;
+        let other = Chart { page, css: "#chart-after-both".into() };
+        other.wait_for(&format!("{pressed} === 'false'")).await?;
+        // What can be negative has no such scale.
+        let force = Chart::open(page, "forces", "force").await?;
+        let hidden = "return chart.querySelector('[aria-label=\"Logarithmic scale\"]').hidden";
+        assert_eq!(force.js(hidden).await?, true);
+        Ok(())
+    })
+}
+
+/// Chooses what the charts are drawn over.
+async fn over(chart: &Chart<'_>, axis: &str) -> Result {
+    chart
+        .js(&format!(
+            "chart.querySelector('[aria-label^=\"Drawn over\"]').click(); \
+         [...chart.querySelectorAll('.menu button')].find(b => b.textContent.startsWith('{axis}')).click()"
+        ))
+        .await
+        .map(|_| ())
+}
+
+#[test]
+fn charts_are_drawn_over_time_length_or_line() -> Result {
+    visit("/", DESKTOP, async |page| {
+        let text = "G21 G90\nG0 X600 Y-60 Z100\nG1 Y20 F1200\nG4 P0.5\nG1 X640 Y60\nM30";
+        page.choose("#path-kind", "gcode").await?;
+        page.type_into("#path-text", text).await?;
+        current(page).await?;
+        let report = run(&[("path", json!({ "kind": "gcode", "text": text }))]);
+        shows(page, &report).await?;
+        let chart = Chart::open(page, "error", "combined").await?;
+        // Zoom and cursor in time ...
+        chart.drag((0.25, 0.5), (0.5, 0.52)).await?;
+        chart.wait_for("chart.classList.contains('zoomed')").await?;
+        chart.hover(0.5).await?;
+        page.js("return new Promise(done => setTimeout(done, 300))").await?;
+        let place = chart.at(0.5, 0.5).await?;
+        chart.mouse("mousePressed", place, json!({ "button": "left", "clickCount": 1 })).await?;
+        chart.mouse("mouseReleased", place, json!({ "button": "left", "clickCount": 1 })).await?;
+        chart.wait_for("chart.querySelector('.readout b')").await?;
+        let time = chart.values().await?[0];
+        let sample = column(&report, "time_s").iter().position(|t| t.to_bits() == time.to_bits()).unwrap();
+        // ... are the same samples over the path, in every chart.
+        over(&chart, "Length").await?;
+        chart.wait_for("chart.querySelector('svg.plot').textContent.includes('Path length, mm')").await?;
+        let at = column(&report, "arc_length_mm")[sample];
+        let there = format!("chart.querySelector('.readout b')?.dataset.value === '{at}'");
+        chart.wait_for(&there).await?;
+        let other = Chart { page, css: "#chart-error-shaping".into() };
+        other.wait_for(&there).await?;
+        other.wait_for("chart.classList.contains('zoomed')").await?;
+        let ends = "const d = chart.querySelector('.drawing'); return [Number(d.ariaValueMin), Number(d.ariaValueMax)]";
+        let [from, to]: [f64; 2] = serde_json::from_value(other.js(ends).await?)?;
+        let length = column(&report, "arc_length_mm");
+        let duration = report.duration();
+        let near = |share: f64| length[(share * duration / 0.001).round() as usize];
+        // A drag ends within a pixel or two, of about 400.
+        assert!((from - near(0.25)).abs() < 1.0 && (to - near(0.5)).abs() < 1.0, "{from} to {to}");
+        // Lines have whole numbers, read as those.
+        over(&chart, "Line").await?;
+        chart.tool("Show all").await?;
+        chart.wait_for("chart.querySelector('svg.plot').textContent.includes('Program line')").await?;
+        chart.wait_for("!chart.classList.contains('zoomed')").await?;
+        assert!(chart.ticks().await?.iter().all(|tick| tick.fract() == 0.0));
+        let read = "return chart.querySelector('.readout b').textContent";
+        chart.hover(0.9).await?;
+        assert_eq!(chart.js(read).await?, "5");
+        // A shape has no lines: the charts are over time again, as nothing else was asked of them.
+        page.choose("#path-kind", "circle").await?;
+        current(page).await?;
+        chart.wait_for("chart.querySelector('svg.plot').textContent.includes('Time, s')").await
     })
 }

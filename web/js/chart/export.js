@@ -1,6 +1,7 @@
 // A chart as a file: a drawing or picture that needs no style sheet, or its values.
 
 import { make, makeSvg } from "../page/dom.js";
+import { sample } from "./legend.js";
 
 const LOOK = [
   "fill",
@@ -17,10 +18,31 @@ const TITLE = 28; // height of the title's line
 const LINE = 20; // and of one of the legend
 
 /**
+ * A chart as a file "svg", "png" or "csv", { type, content }: of what is shown, { chart, data, times,
+ * hidden }, the drawing `svg` and the legend on the page.
+ */
+export async function fileOf(format, { chart, data, times, hidden }, svg, legend) {
+  if (format === "csv") {
+    const timed = times === data[0].values;
+    return { type: "text/csv", content: csvText(timed ? data : [{ key: "time_s", values: times }, ...data]) };
+  }
+  const entries = chart.series
+    .filter(({ key }) => !hidden.includes(key))
+    .map((series) => ({
+      label: series.label,
+      sample: legend.querySelector(`[data-key="${CSS.escape(series.key)}"] .sample`) ?? sample(series),
+    }));
+  const text = svgText(chart, svg, entries);
+  return format === "svg"
+    ? { type: "image/svg+xml", content: text }
+    : { type: "image/png", content: await pngOf(text) };
+}
+
+/**
  * The chart as SVG text with title and legend, looking as it does now. `legend` is [{ label, sample
  * }].
  */
-export function svgText(chart, plot, legend) {
+function svgText(chart, plot, legend) {
   const style = getComputedStyle(plot);
   const family = style.fontFamily.replaceAll('"', "'");
   const ink = getComputedStyle(plot.closest("figure")).color;
@@ -83,7 +105,7 @@ function dressed(element) {
 }
 
 /** The drawing as a PNG of twice its size. */
-export async function pngOf(svg) {
+async function pngOf(svg) {
   const address = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
   try {
     const image = new Image();
@@ -98,7 +120,7 @@ export async function pngOf(svg) {
 }
 
 /** Every sample of the chart's columns; the units stand in the header. */
-export function csvText(data) {
+function csvText(data) {
   const rows = [data.map(({ key }) => key).join(",")];
   for (let k = 0; k < data[0].values.length; k++) rows.push(data.map(({ values }) => values[k]).join(","));
   return `${rows.join("\n")}\n`;

@@ -6,15 +6,17 @@ import { make } from "../page/dom.js";
 import { download } from "../page/download.js";
 import { showLine } from "../form/program-tools.js";
 import { lineAt } from "../page/program-lines.js";
-import { setting } from "../page/settings.js";
+import { choose, setting } from "../page/settings.js";
+import { chooseOver, overIn } from "./along.js";
 import { drawingOf, layBelow, moveDrawing } from "./drawing.js";
-import { csvText, pngOf, svgText } from "./export.js";
+import { fileOf } from "./export.js";
 import { listen } from "./gestures.js";
-import { Legend, sample } from "./legend.js";
+import { Legend } from "./legend.js";
 import { Marks, Readout, nearestInSpace } from "./readout.js";
 import { tableOf } from "./table.js";
+import { Samples } from "./samples.js";
 import { toolbar } from "./toolbar.js";
-import { between, fractionOf, nearest, ranged, scaled, shifted, valueAt } from "./view.js";
+import { between, ends, fractionOf, nearest, ranged, scaled, scan, shifted, valueAt } from "./view.js";
 
 const LOWEST_PX = 120; // of a chart that fills its place
 const REACH_PX = 60; // a path in space is read off from no further away
@@ -29,12 +31,12 @@ export class Figure {
   #marks = new Marks();
   #legend;
   #title;
+  #tools;
   #link;
   #values;
   #svg = null;
   #chart = null; // as drawn last
-  #data = null; // its values, fetched when first needed
-  #fetching = null;
+  #samples;
   #view = { x: null, y: null }; // ranges asked for; null: all
   #index = null; // the sample at the cursor
   #local = null; // that of a chart that is not over the run
@@ -48,8 +50,9 @@ export class Figure {
    * `link(figure, range)` is called when the range of time changes, to take the other charts along.
    * `values` draws it and has its values: the shown result.
    */
-  constructor({ name, title, figure, kind }, link, values = core) {
+  constructor({ name, title, figure, kind, over = [] }, link, values = core) {
     this.#values = values;
+    this.#samples = new Samples(() => this.#ask());
     this.name = name;
     this.kind = kind;
     this.overRun = kind !== "curve";
@@ -58,12 +61,14 @@ export class Figure {
     this.#title = make("h3", {}, title);
     this.#legend = new Legend(title, () => this.#changed());
     const source = make("span", { className: "source" }, figure ? `Thesis fig. ${figure}` : "");
-    const tools = toolbar(title, {
+    this.#tools = toolbar(title, {
       zoomIn: () => this.scale([0.5, this.plane ? 0.5 : 1]),
       zoomOut: () => this.scale([2, this.plane ? 2 : 1]),
       reset: () => this.reset(),
       table: (on) => this.#tabulate(on),
       save: (format) => this.#save(format),
+      log: (on) => this.#rescale(on),
+      over: chooseOver,
     });
     this.#plot.setAttribute("aria-label", title);
     this.#plot.setAttribute("aria-valuenow", "0");
@@ -72,7 +77,7 @@ export class Figure {
       "figure",
       { className: "chart-figure", id: `chart-${name}` },
       make("header", {}, this.#title, source),
-      make("div", { className: "chart-head" }, this.#legend.node, tools),
+      make("div", { className: "chart-head" }, this.#legend.node, this.#tools.node),
       this.#plot,
       this.#table,
       make("div", { className: "below" }, this.#readout.node, this.#caption),
@@ -97,7 +102,8 @@ export class Figure {
       const { x, y } = this.#view;
       const options = {
         ...size,
-        ...units(),
+        ...this.#request,
+        ...(!this.plane && { scale: setting(`scale-${this.name}`) }),
         hidden: this.#legend.hidden,
         ...(x && { x_range: x }),
         ...(y && { y_range: y }),
@@ -117,10 +123,11 @@ export class Figure {
   async #drawn(options) {
     const { beside } = this; // it may be unpinned while it draws
     const own = await this.#values.chart(this.name, options);
-    const other = this.plane ? null : await beside?.chart(this.name, options).catch(() => null);
+    const alike = { ...options, ...(own.y.floor !== undefined && { scale: own.y.log ? "log" : "linear" }) };
+    const other = this.plane ? null : await beside?.chart(this.name, alike).catch(() => null);
     if (!other) return { own };
     const [x, y] = ["x", "y"].map((axis) => joined(own[axis].full, other[axis].full));
-    const both = { ...options, x_range: this.#view.x ?? x, y_range: this.#view.y ?? y };
+    const both = { ...alike, x_range: this.#view.x ?? x, y_range: this.#view.y ?? y };
     const drawn = await Promise.all([
       this.#values.chart(this.name, both),
       beside.chart(this.name, both).catch(() => null),
@@ -132,7 +139,7 @@ export class Figure {
 
   /** Forgets the values: those of another result, in other units, or not looked at. */
   forget() {
-    this.#data = this.#fetching = null;
+    this.#samples.forget();
     this.#index = null;
   }
 
@@ -163,6 +170,7 @@ export class Figure {
     this.#title.textContent = chart.title;
     this.#caption.textContent = chart.description;
     this.#legend.show(chart.series, Boolean(other));
+    this.#tools.show(chart, this.over, this.axes);
     this.#move();
     this.#fill();
     this.follow(cursor());
@@ -203,6 +211,22 @@ export class Figure {
     this.#view = { x, y };
     this.#changed();
     if (moved && !linked && this.kind === "time") this.#link(this, x);
+  }
+
+  /** Draws by decades or in even steps from now on; a range of values chosen on the other scale goes. */
+  #rescale(log) {
+    choose(`scale-${this.name}`, log ? "log" : "linear");
+    this.zoom(undefined, null);
+  }
+
+  /** What it is drawn over. */
+  get over() {
+    return overIn(this.axes);
+  }
+
+  /** What drawings and values are asked for with. */
+  get #request() {
+    return { ...units(), ...(this.axes.length && { over: this.over }) };
   }
 
   #changed() {
@@ -279,10 +303,10 @@ export class Figure {
 
   async point(place) {
     if (this.#before === undefined) this.#before = this.overRun ? cursor() : this.#local;
-    if (!this.#data && !(await this.#fetch())) return;
+    if (!this.#data && !(await this.#samples.fetch())) return;
     if (this.#before === undefined) return; // the pointer has left meanwhile
     const axes = this.#axes;
-    if (!this.plane) return this.#set(nearest(this.#data[0].values, valueAt(axes.x, place[0])));
+    if (!this.plane) return this.#set(scan(this.#data[0].values, valueAt(axes.x, place[0])));
     const { index, distance } = nearestInSpace(this.#content, axes, place);
     if (distance <= REACH_PX) this.#set(index);
   }
@@ -313,10 +337,10 @@ export class Figure {
 
   /** Moves by pixels, at least by one sample, or by a share of what is seen. */
   async step(pixels, share) {
-    if (!this.#data && !(await this.#fetch())) return;
+    if (!this.#data && !(await this.#samples.fetch())) return;
     const { values } = this.#data[0];
     const { x } = this.#axes;
-    const [from, to] = this.plane ? [0, values.length - 1] : [nearest(values, x.min), nearest(values, x.max)];
+    const [from, to] = this.#ends(values, x);
     const now = this.#index ?? from;
     const by = pixels ? Math.max(1, (to - from) / this.area.width) * pixels : (to - from) * share;
     const rounded = Math.sign(by) * Math.max(1, Math.round(Math.abs(by)));
@@ -324,11 +348,16 @@ export class Figure {
   }
 
   async ends(last) {
-    if (!this.#data && !(await this.#fetch())) return;
+    if (!this.#data && !(await this.#samples.fetch())) return;
     const { values } = this.#data[0];
     const { x } = this.#axes;
-    const [from, to] = this.plane ? [0, values.length - 1] : [nearest(values, x.min), nearest(values, x.max)];
+    const [from, to] = this.#ends(values, x);
     this.#keep(last ? to : from);
+  }
+
+  /** The first and the last sample that are seen. */
+  #ends(values, x) {
+    return this.plane ? [0, values.length - 1] : ends(values, x);
   }
 
   /** Sets the cursor to stay, and brings it into view. */
@@ -342,7 +371,7 @@ export class Figure {
 
   #set(index) {
     if (this.overRun) {
-      const time = index === null ? null : this.#data[0].values[index];
+      const time = index === null ? null : this.#times[index];
       this.#at(index);
       return setCursor(time, this);
     }
@@ -354,9 +383,9 @@ export class Figure {
   async follow(time) {
     if (!this.#chart || this.node.closest("[hidden]")) return; // it follows when it is shown
     if ((this.overRun ? time : this.#local) === null) return this.#at(null);
-    if (!this.#data && !(await this.#fetch())) return;
+    if (!this.#data && !(await this.#samples.fetch())) return;
     if (!this.overRun) this.#at(this.#local);
-    else if (time === cursor()) this.#at(nearest(this.#data[0].values, time));
+    else if (time === cursor()) this.#at(nearest(this.#times, time));
   }
 
   #at(index) {
@@ -364,7 +393,8 @@ export class Figure {
     this.#index = beyond ? null : index;
     this.#mark();
     const line = this.#line;
-    this.#readout.show(this.#content, this.#index, line, () => showLine(line));
+    const time = this.#times !== this.#data?.[0].values ? this.#times : null; // beside what it is drawn over
+    this.#readout.show({ ...this.#content, time }, this.#index, line, () => showLine(line));
     this.#tell();
   }
 
@@ -381,7 +411,7 @@ export class Figure {
   }
 
   get #line() {
-    return this.overRun && this.#index !== null ? lineAt(this.#data[0].values[this.#index]) : undefined;
+    return this.overRun && this.#index !== null ? lineAt(this.#times[this.#index]) : undefined;
   }
 
   /** Leads to the line of the program that runs at the cursor. */
@@ -393,16 +423,20 @@ export class Figure {
     this.#marks.show(this.#content, this.#axes, this.#data ? this.#index : null);
   }
 
-  /** Fetches the values; resolves to whether they are there, and still those of what is shown. */
-  #fetch() {
-    this.#fetching ??= this.#values.chartData(this.name, units()).catch(() => null);
-    const mine = this.#fetching;
-    return mine.then((data) => {
-      if (mine !== this.#fetching) return false;
-      if (data) this.#data = data;
-      else this.#fetching = null;
-      return Boolean(data);
-    });
+  get #data() {
+    return this.#samples.data;
+  }
+
+  get #times() {
+    return this.#samples.times;
+  }
+
+  /** The values, and the time of each sample. */
+  async #ask() {
+    const timed = !this.axes.length || this.over === "time";
+    const times = timed ? null : this.#values.column("time_s");
+    const data = await this.#values.chartData(this.name, this.#request);
+    return [data, (await times) ?? data[0].values];
   }
 
   // -- Table and files --
@@ -416,35 +450,25 @@ export class Figure {
   }
 
   async #fill() {
-    if (this.#table.hidden || (!this.#data && !(await this.#fetch()))) return;
+    if (this.#table.hidden || (!this.#data && !(await this.#samples.fetch()))) return;
     this.#table.replaceChildren(tableOf(this.#content, this.#axes));
   }
 
   async #save(format) {
-    const file = (type, content) => download(`armill-${this.name}.${format}`, type, content);
-    if (!this.#chart) return;
-    if (format === "csv") {
-      if (this.#data || (await this.#fetch())) file("text/csv", csvText(this.#data));
-      return;
-    }
-    const svg = this.#svgText();
-    file(format === "svg" ? "image/svg+xml" : "image/png", format === "svg" ? svg : await pngOf(svg));
+    if (!this.#chart || (format === "csv" && !this.#data && !(await this.#samples.fetch()))) return;
+    const { type, content } = await this.#file(format);
+    download(`armill-${this.name}.${format}`, type, content);
   }
 
   /** The drawing as an SVG file and all its values as CSV. */
   async texts() {
-    if (!this.#data) await this.#fetch();
-    return { svg: this.#svgText(), csv: csvText(this.#data) };
+    if (!this.#data) await this.#samples.fetch();
+    const [svg, csv] = await Promise.all(["svg", "csv"].map((format) => this.#file(format)));
+    return { svg: svg.content, csv: csv.content };
   }
 
-  #svgText() {
-    const hidden = this.#legend.hidden;
-    const shown = this.#chart.series.filter(({ key }) => !hidden.includes(key));
-    const legend = shown.map((series) => ({
-      label: series.label,
-      sample: this.#legend.node.querySelector(`[data-key="${CSS.escape(series.key)}"] .sample`) ?? sample(series),
-    }));
-    return svgText(this.#chart, this.#svg, legend);
+  #file(format) {
+    return fileOf(format, { ...this.#content, times: this.#times }, this.#svg, this.#legend.node);
   }
 }
 

@@ -1,6 +1,7 @@
 // Draws the charts of one panel and one that is always in sight, and keeps them together: one cursor, one range of time, one set of
 // units.
 
+import { carried, overIn } from "./along.js";
 import { Figure } from "./figure.js";
 import { onCursor } from "../page/cursor.js";
 import { debounced, make } from "../page/dom.js";
@@ -11,13 +12,15 @@ let panel = null;
 let fixed = null; // { place, name }: the chart that is always in sight
 let turn = 0; // drawing that is no longer the latest one stops
 let beside = null; // the core's answers about the pinned result
-let range = null; // of time, in all charts over the run [s]
+let over = "time"; // what all charts over the run are drawn over
+let range = null; // of that
 const figures = new Map(); // chart name -> Figure
 
 /** Takes over the charts of a new result. */
 export function setCharts(list) {
   available = list;
   for (const figure of figures.values()) figure.forget();
+  followOver();
   draw();
 }
 
@@ -67,13 +70,32 @@ onCursor((time, from) => {
 });
 
 onSetting((key) => {
+  if (key === "over") followOver();
   if (key !== "length" && key !== "force") return;
+  if (over === "length") range = null;
   for (const figure of figures.values()) {
     figure.forget();
-    figure.zoom(figure.plane ? null : undefined, null, true); // ranges of lengths and forces no longer hold
+    const inLengths = figure.plane || (figure.kind === "time" && over === "length");
+    figure.zoom(inLengths ? null : undefined, null, true); // ranges of lengths and forces no longer hold
   }
   draw();
 });
+
+/** Draws over another axis if that has changed: the charts show the same samples of the run as before. */
+async function followOver() {
+  const [before, now] = [over, overIn(available.find(({ kind }) => kind === "time")?.over ?? [])];
+  if (now === before) return;
+  over = now;
+  const same = await carried(range, before, now);
+  if (over !== now) return;
+  range = same;
+  for (const figure of figures.values()) {
+    if (figure.kind !== "time") continue;
+    figure.forget();
+    figure.zoom(range, undefined, true);
+  }
+  draw();
+}
 
 /** Zooming one chart over time takes the others along. */
 function link(from, x) {
@@ -89,7 +111,9 @@ function figureOf(entry) {
     if (figure.kind === "time") figure.zoom(range, null, true);
     figures.set(entry.name, figure);
   }
-  return figures.get(entry.name);
+  const figure = figures.get(entry.name);
+  figure.axes = entry.over ?? [];
+  return figure;
 }
 
 const redraw = debounced(() => draw(), 120);

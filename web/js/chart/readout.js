@@ -12,8 +12,9 @@ export function read(value, unit, places = PLACES[unit] ?? 4) {
   return value !== 0 && Number(text) === 0 ? formatNumber(value, 2) : text.replace("-", "\u2212");
 }
 
-/** A value of the first axis with the digits that tell it from its neighbours. */
-export function readAlong(values, index) {
+/** A value of the first axis with the digits that tell it from its neighbours; of a line, its number. */
+export function readAlong({ key, values }, index) {
+  if (key === "program_line") return String(Math.floor(values[index]));
   const step = values.length > 2 ? (values.at(-1) - values[0]) / (values.length - 1) : 1;
   return read(values[index], "", Math.min(6, Math.max(0, Math.ceil(-Math.log10(step) - 1e-6))));
 }
@@ -26,13 +27,17 @@ export const columnsOf = (chart, data) =>
 export class Readout {
   node = make("p", { className: "readout" });
 
-  /** Shows a sample, or none if `index` is null. `line` is the program's, `go` leads there. */
-  show({ chart, data, hidden }, index, line, go) {
+  /**
+   * Shows a sample, or none if `index` is null: also its time, if `time` has them. `line` is the
+   * program's, `go` leads there.
+   */
+  show({ chart, data, hidden, time }, index, line, go) {
     if (index === null) return this.node.replaceChildren();
     const [first] = data;
-    const at = make("b", {}, readAlong(first.values, index));
+    const at = make("b", {}, readAlong(first, index));
     at.dataset.value = first.values[index];
     const parts = [make("span", {}, `${first.label} `, at, first.unit && ` ${first.unit}`)];
+    if (time) parts.push(make("span", {}, `Time ${readAlong({ values: time }, index)} s`));
     columnsOf(chart, data).forEach((columns, i) => {
       const { key, label } = chart.series[i];
       if (hidden.includes(key)) return;

@@ -2,7 +2,7 @@
 
 import { make } from "../page/dom.js";
 import { columnsOf, read, readAlong } from "./readout.js";
-import { nearest } from "./view.js";
+import { ends } from "./view.js";
 
 const ROWS = 16; // besides the extremes
 
@@ -10,9 +10,7 @@ const ROWS = 16; // besides the extremes
 export function tableOf({ chart, data, hidden }, { x }) {
   const [first] = data;
   const columns = columnsOf(chart, data).flatMap((group, i) => (hidden.includes(chart.series[i].key) ? [] : group));
-  const [from, to] = chart.camera
-    ? [0, first.values.length - 1]
-    : [nearest(first.values, x.min), nearest(first.values, x.max)];
+  const [from, to] = chart.camera ? [0, first.values.length - 1] : ends(first.values, x);
   const extremes = columns.map(({ values }) => extremesOf(values, from, to));
   const even = Array.from({ length: Math.min(ROWS, to - from + 1) }, (_, k, n = Math.min(ROWS, to - from + 1)) =>
     Math.round(from + (k * (to - from)) / Math.max(1, n - 1)),
@@ -40,7 +38,7 @@ export function tableOf({ chart, data, hidden }, { x }) {
         make(
           "tr",
           {},
-          make("th", { scope: "row" }, readAlong(first.values, index)),
+          make("th", { scope: "row" }, readAlong(first, index)),
           ...columns.map((column, k) => cell(column, k, index)),
         ),
       ),

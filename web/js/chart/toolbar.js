@@ -9,62 +9,102 @@ const ICONS = {
   table: "M3 4H17V16H3ZM3 8H17M3 12H17M9 8V16",
   save: "M10 3V12M6 9L10 13L14 9M4 16H16",
 };
+const OVER = { time: ["Time", "since the start"], length: ["Length", "of the path"], line: ["Line", "of the program"] };
 
 const icon = (name) =>
   makeSvg("svg", { viewBox: "0 0 20 20", class: "icon", "aria-hidden": "true" }, makeSvg("path", { d: ICONS[name] }));
 
 /**
- * The toolbar; `act` has what its buttons do: `zoomIn`, `zoomOut`, `reset`, `table(on)`,
- * `save(format)`.
+ * The toolbar as `{ node, show }`; `act` has what its buttons do: `zoomIn`, `zoomOut`, `reset`,
+ * `table(on)`, `save(format)`, `log(on)`, `over(axis)`.
  */
 export function toolbar(title, act) {
-  const button = (name, label, action) => {
-    const made = make("button", { type: "button", title: label, "aria-label": label }, icon(name));
+  const button = (label, face, action) => {
+    const made = make("button", { type: "button", title: label, "aria-label": label }, face);
     made.addEventListener("click", () => action(made));
     return made;
   };
-  const save = button("save", "Save the chart", () => open(menu.hidden));
-  const menu = make("div", { className: "menu", hidden: true });
-  for (const [format, note] of [
-    ["SVG", "drawing"],
-    ["PNG", "picture"],
-    ["CSV", "all samples"],
-  ]) {
-    const item = make("button", { type: "button" }, format, make("span", { className: "unit" }, ` ${note}`));
-    item.addEventListener("click", () => (open(false), save.focus(), act.save(format.toLowerCase())));
-    menu.append(item);
-  }
-  const open = (on) => {
-    menu.hidden = !on;
-    save.setAttribute("aria-expanded", String(on));
-    if (on) menu.firstChild.focus();
+  const press = (made, on) => made.setAttribute("aria-pressed", String(on));
+  const toggle = (label, face, action) => {
+    const made = button(label, face, () => {
+      press(made, made.getAttribute("aria-pressed") !== "true");
+      action(made.getAttribute("aria-pressed") === "true");
+    });
+    press(made, false);
+    return made;
   };
-  const table = button("table", "Table", () => {
-    const on = table.getAttribute("aria-pressed") !== "true";
-    table.setAttribute("aria-pressed", String(on));
-    act.table(on);
-  });
-  table.setAttribute("aria-pressed", "false");
-  save.setAttribute("aria-expanded", "false");
+  const log = toggle("Logarithmic scale", "log", act.log);
+  const along = menuButton(
+    button("Drawn over", "Time", () => {}),
+    act.over,
+  );
+  const save = menuButton(
+    button("Save the chart", icon("save"), () => {}),
+    act.save,
+  );
+  save.offer({ svg: ["SVG", "drawing"], png: ["PNG", "picture"], csv: ["CSV", "all samples"] });
   const bar = make(
     "div",
     { role: "toolbar", className: "chart-tools", "aria-label": `Chart tools: ${title}` },
-    button("in", "Zoom in", act.zoomIn),
-    button("out", "Zoom out", act.zoomOut),
-    button("reset", "Show all", act.reset),
-    table,
-    make("span", { className: "save" }, save, menu),
+    button("Zoom in", icon("in"), act.zoomIn),
+    button("Zoom out", icon("out"), act.zoomOut),
+    button("Show all", icon("reset"), act.reset),
+    toggle("Table", icon("table"), act.table),
+    log,
+    along.node,
+    save.node,
   );
-  bar.addEventListener(
-    "focusout",
-    ({ relatedTarget }) => menu.contains(relatedTarget) || relatedTarget === save || open(false),
-  );
-  bar.addEventListener("keydown", (event) => {
+
+  /** Shows a drawing's scale, where there are two to choose from, and what it is drawn over of `list`. */
+  function show({ y }, over, list) {
+    log.hidden = !y.log && y.floor === undefined;
+    press(log, y.log);
+    along.node.hidden = list.length < 2;
+    if (along.node.hidden) return;
+    along.offer(Object.fromEntries(list.map((axis) => [axis, OVER[axis]])), over);
+    along.button.textContent = OVER[over][0];
+    along.button.setAttribute("aria-label", `Drawn over: ${OVER[over][0].toLowerCase()}`);
+  }
+
+  rove(bar);
+  show({ y: { log: false } }, "time", []);
+  return { node: bar, show };
+}
+
+/** A button that opens a menu of choices; `choose(key)` is called with the one that is taken. */
+function menuButton(button, choose) {
+  const menu = make("div", { className: "menu", hidden: true });
+  const node = make("span", { className: "has-menu" }, button, menu);
+  const open = (on) => {
+    menu.hidden = !on;
+    button.setAttribute("aria-expanded", String(on));
+    if (on) (menu.querySelector("[aria-current]") ?? menu.firstChild).focus();
+  };
+  button.setAttribute("aria-expanded", "false");
+  button.addEventListener("click", () => open(menu.hidden));
+  node.addEventListener("focusout", ({ relatedTarget }) => node.contains(relatedTarget) || open(false));
+  node.addEventListener("keydown", (event) => {
     if (event.key !== "Escape" || menu.hidden) return;
     event.stopPropagation();
     open(false);
-    save.focus();
+    button.focus();
   });
-  rove(bar);
-  return bar;
+
+  /** Offers `choices`, key: [name, note]; `current` is marked. */
+  function offer(choices, current) {
+    const items = Object.entries(choices).map(([key, [name, note]]) => {
+      const item = make(
+        "button",
+        { type: "button", tabIndex: -1 },
+        name,
+        make("span", { className: "unit" }, ` ${note}`),
+      );
+      if (key === current) item.setAttribute("aria-current", "true");
+      item.addEventListener("click", () => (open(false), button.focus(), choose(key)));
+      return item;
+    });
+    menu.replaceChildren(...items);
+  }
+
+  return { node, button, offer };
 }

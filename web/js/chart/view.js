@@ -1,5 +1,5 @@
-// The part of an axis that is shown. An axis is { min, max, log, full: [low, high] }; a fraction
-// counts from 0 at min to 1 at max.
+// The part of an axis that is shown. An axis is { min, max, log, floor, full: [low, high] }; a fraction
+// counts from 0 at min to 1 at max. Below its floor a logarithmic axis shows nothing.
 
 const FINEST = 1e-6; // the least part of the whole that can be shown
 const DIGITS = 1e-8; // and of the values themselves: what a double still tells apart
@@ -7,8 +7,8 @@ const DIGITS = 1e-8; // and of the values themselves: what a double still tells 
 export const valueAt = ({ min, max, log }, fraction) =>
   log ? min * (max / min) ** fraction : min + fraction * (max - min);
 
-export const fractionOf = ({ min, max, log }, value) =>
-  log ? Math.log(value / min) / Math.log(max / min) : (value - min) / (max - min);
+export const fractionOf = ({ min, max, log, floor = 0 }, value) =>
+  log ? Math.log(Math.max(value, floor) / min) / Math.log(max / min) : (value - min) / (max - min);
 
 /**
  * The range between two fractions of what is shown, moved and grown to lie inside the whole; null
@@ -16,7 +16,7 @@ export const fractionOf = ({ min, max, log }, value) =>
  */
 export function between(axis, from, to) {
   const [low, high] = axis.full;
-  const whole = { min: low, max: high, log: axis.log };
+  const whole = { ...axis, min: low, max: high };
   const a = fractionOf(whole, valueAt(axis, from));
   const b = fractionOf(whole, valueAt(axis, to));
   const finest = axis.log
@@ -48,3 +48,16 @@ export function nearest(values, value) {
   }
   return low > 0 && value - values[low - 1] < values[low] - value ? low - 1 : low;
 }
+
+/** The same among values in any order: of equals the first, or the last. */
+export function scan(values, value, last = false) {
+  let [best, least] = [0, Infinity];
+  for (let k = 0; k < values.length; k++) {
+    const away = Math.abs(values[k] - value);
+    if (away < least || (last && away === least)) [best, least] = [k, away];
+  }
+  return best;
+}
+
+/** The indices at the ends of a range, with all that stand there. */
+export const ends = (values, { min, max }) => [scan(values, min), scan(values, max, true)];

@@ -32,7 +32,7 @@ export function rove(group) {
   const stop = (chosen) => buttons().forEach((button) => (button.tabIndex = button === chosen ? 0 : -1));
   group.addEventListener("focusin", ({ target }) => stop(target));
   group.addEventListener("keydown", (event) => {
-    const all = buttons();
+    const all = buttons().filter((button) => button.checkVisibility());
     const at = all.indexOf(document.activeElement);
     const to = { ArrowRight: at + 1, ArrowLeft: at - 1 + all.length, Home: 0, End: all.length - 1 }[event.key];
     if (at < 0 || to === undefined) return;

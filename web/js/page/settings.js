@@ -6,30 +6,38 @@ const CHOICES = {
   length: ["mm", "inch"],
   force: ["N", "lbf"],
   theme: ["auto", "light", "dark"],
+  over: ["auto", "time", "length", "line"],
 };
+const SCALES = ["auto", "linear", "log"]; // of each chart: `scale-` and its name
 const followers = new Set();
-const values = { ...Object.fromEntries(Object.entries(CHOICES).map(([key, [first]]) => [key, first])), ...read() };
+const values = read();
+let borrowed = false;
 
 /** The value of a setting. */
-export const setting = (key) => values[key];
+export const setting = (key) => values[key] ?? choices(key)[0];
 
 /** The values that a setting can have; the first is what holds until one is chosen. */
-export const choices = (key) => CHOICES[key];
+export function choices(key) {
+  return CHOICES[key] ?? (key.startsWith("scale-") ? SCALES : undefined);
+}
 
 /** Chooses a value and remembers it. */
 export function choose(key, value) {
-  if (!CHOICES[key]?.includes(value) || values[key] === value) return;
+  if (!choices(key)?.includes(value) || setting(key) === value) return;
   values[key] = value;
   try {
-    localStorage.setItem(KEY, JSON.stringify(values));
+    if (!borrowed) localStorage.setItem(KEY, JSON.stringify(values));
   } catch {
     // Storage is denied or full: the choice holds for this visit.
   }
   for (const follow of followers) follow(key, value);
 }
 
-/** Takes over values for this visit, and remembers nothing. */
-export const lend = (lent) => void Object.assign(values, lent);
+/** Takes over values for this visit, which remembers nothing. */
+export function lend(lent) {
+  borrowed = true;
+  Object.assign(values, lent);
+}
 
 /** Calls `follow(key, value)` whenever a setting changes; returns a function that ends it. */
 export function onSetting(follow) {
@@ -40,7 +48,7 @@ export function onSetting(follow) {
 function read() {
   try {
     const stored = Object.entries(JSON.parse(localStorage.getItem(KEY)) ?? {});
-    return Object.fromEntries(stored.filter(([key, value]) => CHOICES[key]?.includes(value)));
+    return Object.fromEntries(stored.filter(([key, value]) => choices(key)?.includes(value)));
   } catch {
     return {}; // denied, or not ours
   }

@@ -1,0 +1,32 @@
+// The values of a chart, fetched when they are first needed.
+
+export class Samples {
+  /** As columns, the first axis first; null until they are there. */
+  data = null;
+  /** The time of each sample [s], of a chart over the run. */
+  times = null;
+  #ask;
+  #fetching = null;
+
+  /** `ask()` resolves with `[data, times]`. */
+  constructor(ask) {
+    this.#ask = ask;
+  }
+
+  /** Those of another result, in other units, or of a chart that is not looked at go. */
+  forget() {
+    this.data = this.times = this.#fetching = null;
+  }
+
+  /** Resolves to whether they are there, and still those of what is shown. */
+  async fetch() {
+    if (this.data) return true;
+    this.#fetching ??= this.#ask().catch(() => null);
+    const mine = this.#fetching;
+    const found = await mine;
+    if (mine !== this.#fetching) return false;
+    if (found) [this.data, this.times] = found;
+    else this.#fetching = null;
+    return Boolean(found);
+  }
+}
