@@ -21,7 +21,7 @@ import * as status from "./page/status.js";
 import { makeTabs, viewIn } from "./page/tabs.js";
 import { followTheme } from "./page/theme.js";
 import { makePlacement } from "./placement/panel.js";
-import { pin, pinnedResult, restorePin, showCompared, unpin } from "./result/compare.js";
+import { makeCompare } from "./result/compare.js";
 import { judgeTakeAway, makeTakeAway } from "./result/export.js";
 import { showProgram } from "./result/program.js";
 import { shareDialog } from "./result/share.js";
@@ -48,6 +48,7 @@ const placement = makePlacement(byId("placement"), present);
 const identify = makeIdentify(byId("identify"), present);
 const armView = makeArmView((text) => core.armAtZero(text));
 const calculator = new Calculator(core, { ...status, become, show, progress, remedyFor });
+const compare = makeCompare({ shown: () => calculator.shown, load: (changed) => session.load(changed) });
 const opening = makeOpening({
   core,
   job: () => job,
@@ -75,7 +76,7 @@ function show(shown) {
   if (first) {
     performance.mark("first result"); // for whoever measures
     byId("fingerprint").dataset.seen = "yes";
-    restorePin(() => calculator.shown);
+    compare.restore();
   }
   scene.show(shown.summary);
   judgeTakeAway(shown);
@@ -90,7 +91,7 @@ function showFigures() {
   if (!shown) return;
   showSummary(shown.summary, (patch) => session.load(merged(job.data, patch)));
   showProgram(shown.summary.program, shown.summary.duration_s);
-  showCompared(shown);
+  compare.show();
 }
 
 /** Charts name the line of the program that runs at a time. */
@@ -213,9 +214,6 @@ function wireResultTools() {
   byId("share").addEventListener("click", () =>
     share({ ...calculator.shown, job: calculator.shown.job, standard: examples.job }),
   );
-  byId("pin").addEventListener("click", () => pin(calculator.shown));
-  byId("unpin").addEventListener("click", () => (unpin(calculator.shown), byId("pin").focus()));
-  byId("back-to-a").addEventListener("click", () => session.load(JSON.parse(pinnedResult().text)));
   settingsPanel(byId("settings"));
   followTheme();
   onSetting((key) => key !== "theme" && showFigures());

@@ -5,14 +5,21 @@ import * as core from "../core/client.js";
 import { choose, setting } from "../page/settings.js";
 import { ends } from "./view.js";
 
+let apart = false; // whether a result of another duration is drawn with the shown one
+
+/** Takes over whether results of different durations are compared: those line up by length only. */
+export const setApart = (whether) => void (apart = whether);
+
+const automatic = () => (apart ? "length" : "time");
+
 /** What holds for a chart that has the axes `list`. */
 export function overIn(list) {
-  const chosen = setting("over");
+  const chosen = setting("over") === "auto" ? automatic() : setting("over");
   return list.includes(chosen) ? chosen : "time";
 }
 
-/** Chooses an axis for all charts. */
-export const chooseOver = (over) => choose("over", over);
+/** Chooses an axis for all charts. What would hold anyway is no choice: it may change again. */
+export const chooseOver = (over) => choose("over", over === automatic() ? "auto" : over);
 
 /** The range of one axis as the range of another that shows the same samples; null for all. */
 export async function carried(range, from, to) {

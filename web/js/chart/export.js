@@ -32,6 +32,8 @@ export async function fileOf(format, { chart, data, times, hidden }, svg, legend
       label: series.label,
       sample: legend.querySelector(`[data-key="${CSS.escape(series.key)}"] .sample`) ?? sample(series),
     }));
+  for (const entry of legend.querySelectorAll(".pinned"))
+    entries.push({ label: entry.textContent, sample: entry.querySelector(".sample") });
   const text = svgText(chart, svg, entries);
   return format === "svg"
     ? { type: "image/svg+xml", content: text }

@@ -15,6 +15,7 @@ import { Legend } from "./legend.js";
 import { Marks, Readout, nearestInSpace } from "./readout.js";
 import { tableOf } from "./table.js";
 import { Samples } from "./samples.js";
+import { drawnTogether } from "./together.js";
 import { toolbar } from "./toolbar.js";
 import { between, ends, fractionOf, nearest, ranged, scaled, scan, shifted, valueAt } from "./view.js";
 
@@ -23,7 +24,7 @@ const REACH_PX = 60; // a path in space is read off from no further away
 
 export class Figure {
   fills = false; // whether it is as high as its place instead of as suits its width
-  beside = null; // draws the same chart of another result and has its values, like the constructor's `values`
+  beside = []; // pinned results, { letter, name, chart(name, options) }, that are drawn with it
   #plot = make("div", { className: "drawing", tabIndex: 0, role: "slider", "aria-describedby": "chart-keys" });
   #table = make("div", { className: "chart-table", tabIndex: 0, role: "region", hidden: true });
   #caption = make("figcaption");
@@ -109,32 +110,13 @@ export class Figure {
         ...(y && { y_range: y }),
       };
       try {
-        this.#show(await this.#drawn(options));
+        // Pictures of space magnify too differently to be drawn together.
+        const pins = this.plane ? [] : this.beside;
+        this.#show(await drawnTogether(this.name, options, this.#view, this.#values, pins));
       } catch (error) {
         if (!this.#waiting) throw error; // what was asked for meanwhile is drawn all the same
       }
     }
-  }
-
-  /**
-   * The core's drawing, and the other result's on the same axes, which then hold both. Pictures of
-   * space magnify too differently for that.
-   */
-  async #drawn(options) {
-    const { beside } = this; // it may be unpinned while it draws
-    const own = await this.#values.chart(this.name, options);
-    const alike = { ...options, ...(own.y.floor !== undefined && { scale: own.y.log ? "log" : "linear" }) };
-    const other = this.plane ? null : await beside?.chart(this.name, alike).catch(() => null);
-    if (!other) return { own };
-    const [x, y] = ["x", "y"].map((axis) => joined(own[axis].full, other[axis].full));
-    const both = { ...alike, x_range: this.#view.x ?? x, y_range: this.#view.y ?? y };
-    const drawn = await Promise.all([
-      this.#values.chart(this.name, both),
-      beside.chart(this.name, both).catch(() => null),
-    ]);
-    if (!drawn[1]) return { own };
-    [drawn[0].x.full, drawn[0].y.full] = [x, y];
-    return { own: drawn[0], other: drawn[1] };
   }
 
   /** Forgets the values: those of another result, in other units, or not looked at. */
@@ -159,17 +141,20 @@ export class Figure {
     return { width, height: Math.round(height) };
   }
 
-  #show({ own: chart, other }) {
+  #show({ own: chart, others }) {
     this.#chart = chart;
     this.#svg = drawingOf(chart);
-    if (other) layBelow(this.#svg, drawingOf(other));
+    for (const { pin, chart: other } of others) layBelow(this.#svg, drawingOf(other), pin.letter, chart.plot);
     this.#plot.replaceChildren(this.#svg, this.#marks.node);
     const { width, height } = chart;
     for (const [name, value] of Object.entries({ width, height, viewBox: `0 0 ${width} ${height}` }))
       this.#marks.node.setAttribute(name, value);
     this.#title.textContent = chart.title;
     this.#caption.textContent = chart.description;
-    this.#legend.show(chart.series, Boolean(other));
+    this.#legend.show(
+      chart.series,
+      others.map(({ pin: { letter, name } }) => ({ letter, name })),
+    );
     this.#tools.show(chart, this.over, this.axes);
     this.#move();
     this.#fill();
@@ -471,9 +456,6 @@ export class Figure {
     return fileOf(format, { ...this.#content, times: this.#times }, this.#svg, this.#legend.node);
   }
 }
-
-/** The range that holds both. */
-const joined = (a, b) => [Math.min(a[0], b[0]), Math.max(a[1], b[1])];
 
 const roomIn = ({ clientWidth, clientHeight }) => ({ width: clientWidth, height: clientHeight });
 

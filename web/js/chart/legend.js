@@ -21,22 +21,14 @@ export class Legend {
     return this.#keys.filter((key) => this.#hidden.has(key));
   }
 
-  /** Takes over the series of a drawing, and says whether a pinned result's are below them. */
+  /** Takes over the series of a drawing, and the pinned results, { letter, name }, whose curves are below. */
   show(series, pinned) {
     const said = JSON.stringify([series, pinned]);
     if (this.node.dataset.series === said) return; // buttons keep the focus
     this.node.dataset.series = said;
     this.#keys = series.map(({ key }) => key);
     this.node.replaceChildren(...series.map(entry));
-    if (pinned)
-      this.node.append(
-        make(
-          "li",
-          { className: "pinned", title: "The pinned result: thin lines" },
-          sample({ key: "", class: "" }),
-          "A",
-        ),
-      );
+    this.node.append(...pinned.map(pinnedEntry));
     rove(this.node);
     this.#mark();
   }
@@ -78,3 +70,15 @@ function entry(series) {
   button.dataset.key = series.key;
   return make("li", {}, button);
 }
+
+/** A pinned result has one colour in all its curves, and the dashes of theirs. */
+const pinnedEntry = ({ letter, name }) =>
+  make(
+    "li",
+    {
+      className: `pinned pin-${letter.toLowerCase()}`,
+      title: `Pinned as ${letter}: thin lines, dashed like the others`,
+    },
+    sample({ key: "", class: "" }),
+    name ? `${letter}, ${name}` : letter,
+  );

@@ -1,7 +1,7 @@
 // Draws the charts of one panel and one that is always in sight, and keeps them together: one cursor, one range of time, one set of
 // units.
 
-import { carried, overIn } from "./along.js";
+import { carried, overIn, setApart } from "./along.js";
 import { Figure } from "./figure.js";
 import { onCursor } from "../page/cursor.js";
 import { debounced, make } from "../page/dom.js";
@@ -11,7 +11,7 @@ let available = []; // { name, title, view, figure, kind } of the shown result
 let panel = null;
 let fixed = null; // { place, name }: the chart that is always in sight
 let turn = 0; // drawing that is no longer the latest one stops
-let beside = null; // the core's answers about the pinned result
+let beside = []; // pinned results that are drawn with the shown one
 let over = "time"; // what all charts over the run are drawn over
 let range = null; // of that
 const figures = new Map(); // chart name -> Figure
@@ -24,11 +24,17 @@ export function setCharts(list) {
   draw();
 }
 
-/** Draws another result's curves with those of the shown one, or none if `values` is null. */
-export function setBeside(values) {
-  if (values === beside) return;
-  beside = values;
-  for (const figure of figures.values()) figure.beside = values;
+/**
+ * Draws the curves of pinned results, { letter, name, chart(name, options) }, with those of the shown
+ * one; `apart` if they take longer or shorter.
+ */
+export function setBeside(pins, apart) {
+  setApart(apart);
+  followOver();
+  const state = (pin) => `${pin.letter} ${pin.name} ${pin.text}`;
+  if (pins.map(state).join() === beside.map(state).join()) return;
+  beside = pins.map((pin) => ({ ...pin, chart: (...how) => pin.chart(...how) }));
+  for (const figure of figures.values()) figure.beside = beside;
   draw();
 }
 

@@ -1,6 +1,8 @@
 // The Worker's side of core.js: owns one Run of the WebAssembly core and answers questions about
 // it.
 
+import { heldRuns } from "./held-runs.js";
+
 const PROGRESS_MS = 40;
 const ROWS = 20_000; // of a file written at a time
 
@@ -64,6 +66,7 @@ const answers = {
   extent: (json) => surveyOf(json).extent(),
   survey: (json, places) => surveyOf(json).places(places),
   trap: () => armill.trap(),
+  ...heldRuns(() => armill),
 };
 
 /**

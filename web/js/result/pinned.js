@@ -1,35 +1,141 @@
-// The pinned result's own Worker: it computes the job again when a chart first asks for its curves,
-// or after a reload.
+// Pinned results, A to E: each a job with its figures and a name. One Worker computes them again, in
+// turn, when their curves are first asked for or the page was loaded again.
 
 import { helper } from "../core/client.js";
 
-export class Pinned {
-  #json;
-  #worker;
-  #run;
+/** The letters that there are. */
+export const LETTERS = ["A", "B", "C", "D", "E"];
 
-  constructor(json) {
-    this.#json = json;
+const KEY = "armill-pins";
+
+let worker = null;
+let pins = []; // in the order of their letters
+let reference = null; // letter of the one that the others are compared with
+
+/** One pinned result. */
+class Pin {
+  #held = null; // promise of its summary, once the Worker holds it
+
+  constructor({ letter, text, name = "", summary = null }) {
+    this.letter = letter;
+    this.text = text; // of its job
+    this.name = name; // as the user calls it
+    this.summary = summary;
   }
 
-  /** Its figures, as the core gives them with a result. */
-  summary() {
-    this.#worker ??= helper();
-    this.#run ??= this.#worker.ask("run", this.#json);
-    return this.#run.then(({ summary }) => summary);
+  /** Has the Worker compute it, and resolves with its summary. */
+  hold() {
+    worker ??= helper();
+    this.#held ??= ask("hold", this.letter, this.text).catch((error) => {
+      this.#held = null;
+      throw error;
+    });
+    return this.#held;
   }
 
+  /** One of its charts, as the core draws it. */
   async chart(name, options) {
-    await this.summary();
-    return this.#worker.ask("chart", name, options);
+    await this.hold();
+    return ask("held_chart", this.letter, name, options);
   }
 
-  async chartData(name, units) {
-    await this.summary();
-    return this.#worker.ask("data", name, units);
+  /** Forgets the Worker, which is gone. */
+  lose() {
+    this.#held = null;
   }
+}
 
-  stop() {
-    this.#worker?.stop({ code: "cancelled", message: "Cancelled." });
+/** Asks the Worker; one that has died is replaced at the next question. */
+async function ask(...question) {
+  const asked = worker;
+  try {
+    return await asked.ask(...question);
+  } catch (error) {
+    if (error.fatal && worker === asked) {
+      worker = null;
+      for (const pin of pins) pin.lose();
+    }
+    throw error;
+  }
+}
+
+/** The pinned results. */
+export const pinned = () => pins;
+
+/** The one that the others are compared with, or undefined. */
+export const referencePin = () => pins.find(({ letter }) => letter === reference) ?? pins[0];
+
+/** Chooses the one that the others are compared with. */
+export function compareWith(letter) {
+  reference = letter;
+  keep();
+}
+
+/** The letter that the next result gets, or undefined if all are given. */
+export const nextLetter = () => LETTERS.find((letter) => !pins.some((pin) => pin.letter === letter));
+
+/** Pins a result under the next letter. */
+export function addPin({ text, summary }) {
+  insert(new Pin({ letter: nextLetter(), text, summary }));
+  keep();
+}
+
+/** Unpins the result with a letter; without one, all. */
+export function removePin(letter) {
+  const gone = pins.filter((pin) => !letter || pin.letter === letter);
+  pins = pins.filter((pin) => !gone.includes(pin));
+  if (pins.length) for (const pin of gone) worker?.ask("drop", pin.letter).catch(() => {});
+  else stop();
+  keep();
+}
+
+export function renamePin(letter, name) {
+  pins.find((pin) => pin.letter === letter).name = name;
+  keep();
+}
+
+/** Pins again what was pinned before a reload, and calls `added()` after each. */
+export async function restorePins(added) {
+  const kept = read();
+  reference = kept.reference ?? null;
+  for (const saved of kept.pins ?? []) {
+    const pin = new Pin(saved);
+    try {
+      pin.summary = await pin.hold();
+    } catch {
+      continue; // an older Armill's job, perhaps
+    }
+    if (pins.some(({ letter }) => letter === pin.letter)) continue; // given anew meanwhile
+    insert(pin);
+    added();
+  }
+  if (pins.length) keep();
+}
+
+function insert(pin) {
+  pins = [...pins, pin].sort((a, b) => (a.letter < b.letter ? -1 : 1));
+}
+
+function stop() {
+  worker?.stop({ code: "cancelled", message: "Cancelled." });
+  worker = null;
+  reference = null;
+}
+
+function read() {
+  try {
+    return JSON.parse(sessionStorage.getItem(KEY)) ?? {};
+  } catch {
+    return {}; // denied, or not ours
+  }
+}
+
+function keep() {
+  try {
+    if (!pins.length) return sessionStorage.removeItem(KEY);
+    const saved = pins.map(({ letter, text, name }) => ({ letter, text, name }));
+    sessionStorage.setItem(KEY, JSON.stringify({ reference, pins: saved }));
+  } catch {
+    // Denied or full: they are pinned until the page is left.
   }
 }

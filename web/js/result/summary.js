@@ -76,11 +76,17 @@ const TOLERANCE = {
   "not-met": "✗ over",
 };
 
+/** The verdict in two words, with the tolerance. */
+export function toleranceLine(summary) {
+  const { verdict_state: state } = summary;
+  const tolerance = state === "cannot-run" ? "" : ` ${toleranceText(summary)} ${lengthUnit()}`;
+  return TOLERANCE[state] + tolerance;
+}
+
 function showTolerance(summary) {
   const { converged, verdict_state: state } = summary;
   const line = byId("tolerance-met");
-  const tolerance = state === "cannot-run" ? "" : ` ${toleranceText(summary)} ${lengthUnit()}`;
-  line.textContent = TOLERANCE[state] + tolerance;
+  line.textContent = toleranceLine(summary);
   line.classList.toggle("bad", state !== "met");
   line.dataset.state = state;
   line.dataset.converged = String(converged);
