@@ -329,3 +329,59 @@ fn charts_are_drawn_over_time_length_or_line() -> Result {
         chart.wait_for("chart.querySelector('svg.plot').textContent.includes('Time, s')").await
     })
 }
+
+#[test]
+fn a_stretch_is_selected_and_read() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        let report = run(&[]);
+        let chart = Chart::open(page, "error", "after-both").await?;
+        chart.tool("Select a stretch by dragging").await?;
+        chart.drag((0.2, 0.5), (0.6, 0.5)).await?;
+        chart.wait_for("chart.querySelectorAll('.stretch tbody tr').length === 3").await?;
+        let range = page.with_module("page/stretch", "({ stretch }) => stretch()").await?;
+        let [from, to]: [f64; 2] = serde_json::from_value(range)?;
+        let time = column(&report, "time_s");
+        let at = |end: f64| time.iter().position(|t| t.to_bits() == end.to_bits()).unwrap();
+        let cells = chart
+            .js("return [...chart.querySelectorAll('.stretch tbody td')].map(td => Number(td.dataset.value))")
+            .await?;
+        let cells: Vec<f64> = serde_json::from_value(cells)?;
+        for (k, key) in ["contour_error_mm", "after_contour_error_mm", "after_p95_mm"].into_iter().enumerate()
+        {
+            let values = &column(&report, key)[at(from)..=at(to)];
+            let [mean, max, rms, p95] = cells[4 * k..4 * k + 4] else { panic!("{cells:?}") };
+            let near = |a: f64, b: f64| (a - b).abs() <= 1e-12 * b.abs(); // sums in another order
+            let count = values.len() as f64;
+            assert!(near(mean, values.iter().sum::<f64>() / count), "{key}");
+            assert_eq!(max, values.iter().copied().fold(f64::MIN, f64::max), "{key}");
+            assert!(near(rms * rms, values.iter().map(|v| v * v).sum::<f64>() / count), "{key}");
+            // By counting: 95 % are at most that, but for the one it lies between.
+            let below = values.iter().filter(|v| **v <= p95).count() as f64;
+            assert!((below - 0.95 * count).abs() <= 1.0, "{key}: {below} of {count}");
+        }
+        let lengths = column(&report, "arc_length_mm");
+        let along = lengths[at(to)] - lengths[at(from)];
+        let said: String =
+            serde_json::from_value(chart.js("return chart.querySelector('.stretch p').textContent").await?)?;
+        assert!(said.contains(&format!("{along:.1} mm of the path")), "{said}, {along}");
+        // The other charts mark the same stretch, and a plain drag does not zoom meanwhile.
+        let other = Chart { page, css: "#chart-combined".into() };
+        other.wait_for("chart.querySelector('.marks .selected.on')").await?;
+        assert_eq!(chart.js("return chart.classList.contains('zoomed')").await?, false);
+        chart.js("chart.querySelector('.stretch header button:last-child').click()").await?;
+        other.wait_for("!chart.querySelector('.marks .selected.on')").await?;
+        // By keys: S at both ends.
+        chart.js("chart.querySelector('.drawing').focus()").await?;
+        page.press(char::from(Key::Home)).await?;
+        chart.wait_for("chart.querySelector('.readout b').dataset.value === '0'").await?;
+        page.press("s").await?;
+        page.press(char::from(Key::End)).await?;
+        page.press("s").await?;
+        chart.wait_for("chart.querySelectorAll('.stretch tbody tr').length === 3 && !chart.querySelector('.stretch').hidden").await?;
+        let all = page.with_module("page/stretch", "({ stretch }) => stretch()").await?;
+        assert_eq!(all, json!([0.0, time.last()]));
+        page.press(char::from(Key::Escape)).await?;
+        chart.wait_for("chart.querySelector('.stretch').hidden").await
+    })
+}

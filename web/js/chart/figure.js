@@ -7,6 +7,7 @@ import { download } from "../page/download.js";
 import { showLine } from "../form/program-tools.js";
 import { lineAt } from "../page/program-lines.js";
 import { choose, setting } from "../page/settings.js";
+import { setStretch, stretch } from "../page/stretch.js";
 import { chooseOver, overIn } from "./along.js";
 import { drawingOf, layBelow, moveDrawing } from "./drawing.js";
 import { fileOf } from "./export.js";
@@ -15,6 +16,7 @@ import { Legend } from "./legend.js";
 import { Marks, Readout, nearestInSpace } from "./readout.js";
 import { tableOf } from "./table.js";
 import { Samples } from "./samples.js";
+import { Picker } from "./select.js";
 import { drawnTogether } from "./together.js";
 import { toolbar } from "./toolbar.js";
 import { between, ends, fractionOf, nearest, ranged, scaled, scan, shifted, valueAt } from "./view.js";
@@ -37,6 +39,8 @@ export class Figure {
   #values;
   #svg = null;
   #chart = null; // as drawn last
+  selecting = false; // whether a drag selects
+  #picker;
   #samples;
   #view = { x: null, y: null }; // ranges asked for; null: all
   #index = null; // the sample at the cursor
@@ -54,6 +58,14 @@ export class Figure {
   constructor({ name, title, figure, kind, over = [] }, link, values = core) {
     this.#values = values;
     this.#samples = new Samples(() => this.#ask());
+    this.#picker = new Picker(this, {
+      axis: () => this.#axes.x,
+      content: () => this.#content,
+      samples: this.#samples,
+      lengths: () => values.column("arc_length_mm"),
+      mark: () => this.#chart && this.#mark(),
+    });
+    this.axes = over; // what it can be drawn over
     this.name = name;
     this.kind = kind;
     this.overRun = kind !== "curve";
@@ -70,6 +82,7 @@ export class Figure {
       save: (format) => this.#save(format),
       log: (on) => this.#rescale(on),
       over: chooseOver,
+      select: (on) => (this.selecting = on),
     });
     this.#plot.setAttribute("aria-label", title);
     this.#plot.setAttribute("aria-valuenow", "0");
@@ -82,6 +95,7 @@ export class Figure {
       this.#plot,
       this.#table,
       make("div", { className: "below" }, this.#readout.node, this.#caption),
+      this.#picker.node,
     );
     listen(this.#plot, this);
   }
@@ -159,6 +173,7 @@ export class Figure {
     this.#move();
     this.#fill();
     this.follow(cursor());
+    if (stretch() && this.kind === "time") this.followStretch(true);
   }
 
   /** The axes as they are to be seen, which may be ahead of the drawing. */
@@ -318,6 +333,7 @@ export class Figure {
   clear() {
     this.#before = undefined;
     this.#set(null);
+    if (stretch()) setStretch(null);
   }
 
   /** Moves by pixels, at least by one sample, or by a share of what is seen. */
@@ -374,6 +390,7 @@ export class Figure {
   }
 
   #at(index) {
+    this.#picker.extend(index);
     const beyond = index !== null && (!this.#data || index >= this.#data[0].values.length);
     this.#index = beyond ? null : index;
     this.#mark();
@@ -406,6 +423,7 @@ export class Figure {
 
   #mark() {
     this.#marks.show(this.#content, this.#axes, this.#data ? this.#index : null);
+    this.#marks.stretch(this.#content, this.#axes, this.#picker.samples());
   }
 
   get #data() {
@@ -422,6 +440,20 @@ export class Figure {
     const times = timed ? null : this.#values.column("time_s");
     const data = await this.#values.chartData(this.name, this.#request);
     return [data, (await times) ?? data[0].values];
+  }
+
+  // -- Selection of a stretch, see select.js --
+
+  select(a, b, complete) {
+    return this.#picker.drag(a[0], b[0], complete);
+  }
+
+  markEnd() {
+    if (this.kind === "time") return this.#picker.markEnd(this.#index);
+  }
+
+  followStretch(complete) {
+    return this.#picker.follow(complete);
   }
 
   // -- Table and files --

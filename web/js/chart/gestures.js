@@ -3,7 +3,8 @@
 // `chart` has: `place(event)` -> fractions [across, up] of the plot, `enter()`, `point(place)`,
 // `leave()`, `pin(place)`, `scale([fx, fy], place)`, `shift(dx, dy)` (fractions), `zoomBox(a, b)`,
 // `box(corners)`, `reset()`, `step(samples, share)`, `ends(last)`, `clear()`, `go()`, `grab()` ->
-// token and `drag(token, dx, dy, scale, place)`: the view as it was when grabbed, moved; `zoomed`.
+// token and `drag(token, dx, dy, scale, place)`: the view as it was when grabbed, moved; `zoomed`;
+// `select(a, b, complete)` and `markEnd()` for a stretch, by dragging if `selecting`.
 
 const CLICK_PX = 4; // a press that moves less is a click
 const THIN_PX = 12; // a box thinner than this zooms one axis only
@@ -24,9 +25,10 @@ export function listen(plot, chart) {
     pressed.set(event.pointerId, event);
     plot.setPointerCapture(event.pointerId);
     if (pressed.size === 2) held = pinch();
-    else if (event.pointerType === "touch") held = { kind: "scrub" };
+    else if (event.pointerType === "touch" && !chart.selecting) held = { kind: "scrub" };
     else {
-      const kind = event.shiftKey || event.button === 1 ? "pan" : "box";
+      const selects = chart.kind === "time" && (event.shiftKey || chart.selecting);
+      const kind = event.button === 1 ? "pan" : selects ? "select" : event.shiftKey ? "pan" : "box";
       held = { kind, start: event, from: local(event), grip: chart.grab(), moved: false };
       if (event.button === 1) event.preventDefault();
     }
@@ -46,6 +48,8 @@ export function listen(plot, chart) {
     held.moved ||= Math.hypot(dx, dy) > CLICK_PX;
     if (!held.moved) return;
     if (held.kind === "pan") return chart.drag(held.grip, dx, dy);
+    if (held.kind === "select")
+      return void chart.select(chart.place(held.start, true), chart.place(event, true), false);
     held.corners = boxed(held.from, local(event));
     chart.box(held.corners);
   });
@@ -55,6 +59,9 @@ export function listen(plot, chart) {
     release(event);
     if (before?.kind === "scrub" || (before?.kind === "box" && !before.moved)) chart.pin(chart.place(event, true));
     else if (before?.corners) chart.zoomBox(...before.corners);
+    else if (before?.kind === "select" && before.moved)
+      chart.select(chart.place(before.start, true), chart.place(event, true), true);
+    else if (before?.kind === "select") chart.pin(chart.place(event, true));
   });
   plot.addEventListener("pointercancel", (event) => release(event));
   plot.addEventListener("pointerleave", (event) => event.pointerType !== "touch" && !pressed.size && chart.leave());
@@ -142,6 +149,7 @@ export function listen(plot, chart) {
     0: () => chart.reset(),
     Escape: () => (release({}), pressed.clear(), chart.clear()),
     Enter: () => chart.go(),
+    s: () => chart.markEnd(),
   };
   plot.addEventListener("keydown", (event) => {
     const vertical = event.shiftKey && { ArrowUp: 0.1, ArrowDown: -0.1 }[event.key];

@@ -6,6 +6,7 @@ import { Figure } from "./figure.js";
 import { onCursor } from "../page/cursor.js";
 import { debounced, make } from "../page/dom.js";
 import { onSetting } from "../page/settings.js";
+import { onStretch } from "../page/stretch.js";
 
 let available = []; // { name, title, view, figure, kind } of the shown result
 let panel = null;
@@ -73,6 +74,10 @@ export function showPanel(shown) {
 
 onCursor((time, from) => {
   for (const figure of figures.values()) if (figure !== from && figure.overRun) figure.follow(time);
+});
+
+onStretch((from, complete) => {
+  for (const figure of figures.values()) if (figure.kind === "time") figure.followStretch(complete);
 });
 
 onSetting((key) => {
@@ -156,7 +161,7 @@ document.body.append(
     "p",
     { id: "chart-keys", className: "hidden-text" },
     "Left and right arrows move the cursor, Page Up and Page Down by a tenth, Home and End to the ends of what is " +
-      "shown. Plus and minus zoom, zero shows all, Shift and arrows pan. Enter leads to the line of the program, " +
+      "shown. Plus and minus zoom, zero shows all, Shift and arrows pan. S selects a stretch: press it at both ends. Enter leads to the line of the program, " +
       "Escape takes the cursor away. The button Table shows the values as a table.",
   ),
 );

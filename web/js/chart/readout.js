@@ -70,9 +70,10 @@ export class Marks {
   #line = makeSvg("line", { class: "mark" });
   #dots = makeSvg("g");
   #box = makeSvg("rect", { class: "box" });
+  #stretch = makeSvg("rect", { class: "selected" });
 
   constructor() {
-    this.node.append(this.#line, this.#dots, this.#box);
+    this.node.append(this.#stretch, this.#line, this.#dots, this.#box);
     this.box(null);
   }
 
@@ -98,6 +99,17 @@ export class Marks {
             return [makeSvg("g", { class: `series ${series.class}`, "data-key": series.key }, dot)];
           });
     this.#dots.replaceChildren(...dots);
+  }
+
+  /** Marks the samples between two, or none. */
+  stretch({ chart, data }, { x }, samples) {
+    this.#stretch.classList.toggle("on", Boolean(samples));
+    if (!samples) return;
+    const { left, top, width, height } = chart.plot;
+    const [from, to] = samples
+      .map((index) => Math.min(1, Math.max(0, fractionOf(x, data[0].values[index]))))
+      .sort((a, b) => a - b);
+    set(this.#stretch, { x: left + from * width, y: top, width: Math.max(1, (to - from) * width), height });
   }
 
   /** Draws the box from one corner to another [px], or none. */

@@ -7,6 +7,7 @@ const ICONS = {
   out: "M4 10H16",
   reset: "M4 8V4H8M12 4H16V8M16 12V16H12M8 16H4V12",
   table: "M3 4H17V16H3ZM3 8H17M3 12H17M9 8V16",
+  select: "M6 3V17M14 3V17M6 10H14M8.5 7.5L6 10L8.5 12.5M11.5 7.5L14 10L11.5 12.5",
   save: "M10 3V12M6 9L10 13L14 9M4 16H16",
 };
 const OVER = { time: ["Time", "since the start"], length: ["Length", "of the path"], line: ["Line", "of the program"] };
@@ -16,7 +17,7 @@ const icon = (name) =>
 
 /**
  * The toolbar as `{ node, show }`; `act` has what its buttons do: `zoomIn`, `zoomOut`, `reset`,
- * `table(on)`, `save(format)`, `log(on)`, `over(axis)`.
+ * `table(on)`, `save(format)`, `log(on)`, `over(axis)`, `select(on)`.
  */
 export function toolbar(title, act) {
   const button = (label, face, action) => {
@@ -33,6 +34,7 @@ export function toolbar(title, act) {
     press(made, false);
     return made;
   };
+  const select = toggle("Select a stretch by dragging", icon("select"), act.select);
   const log = toggle("Logarithmic scale", "log", act.log);
   const along = menuButton(
     button("Drawn over", "Time", () => {}),
@@ -50,6 +52,7 @@ export function toolbar(title, act) {
     button("Zoom out", icon("out"), act.zoomOut),
     button("Show all", icon("reset"), act.reset),
     toggle("Table", icon("table"), act.table),
+    select,
     log,
     along.node,
     save.node,
@@ -60,6 +63,7 @@ export function toolbar(title, act) {
     log.hidden = !y.log && y.floor === undefined;
     press(log, y.log);
     along.node.hidden = list.length < 2;
+    select.hidden = !list.length;
     if (along.node.hidden) return;
     along.offer(Object.fromEntries(list.map((axis) => [axis, OVER[axis]])), over);
     along.button.textContent = OVER[over][0];
