@@ -6,7 +6,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::chart::{Axis, AxisInfo, Band, Chart, ChartOptions, Legend, LinePlot, PlotArea, PlotSeries};
 use super::scale::{Scale, widened};
-use super::svg::{Canvas, FONT_SIZE, Layer, TENTHS};
+use super::svg::{Canvas, FONT_SIZE, Layer, TENTHS, text_width};
 use super::trace::{SheetPoint, Window, lines};
 
 /// Room above the plot area, for the name of the y axis [SVG units].
@@ -17,6 +17,8 @@ pub(super) const BOTTOM: f64 = 42.0;
 const TICK: f64 = 4.0;
 /// Length of a tick mark without a label [SVG units].
 const MINOR_TICK: f64 = 3.0;
+/// Places along a band at which its name may stand, besides the first.
+const NAME_PLACES: u32 = 12;
 /// Radius of the dot at a marked point [SVG units].
 const DOT: f64 = 3.5;
 
@@ -83,13 +85,17 @@ impl PlotFrame {
             canvas.layer(Layer::Band, || self.band(&canvas, band))?;
         }
         canvas.layer(Layer::Grid, || self.mesh(&canvas, x, true))?;
-        for one in series.iter().filter(|one| options.shows(one.key)) {
-            canvas.layer(Layer::Series { class: one.class, key: one.key }, || self.series(&canvas, one))?;
+        let shown = series.iter().filter(|one| options.shows(one.key));
+        let drawn: Vec<_> = shown.map(|one| (one, self.lines(one))).collect();
+        for (one, lines) in &drawn {
+            let layer = Layer::Series { class: one.class, key: one.key };
+            canvas.layer(layer, || self.series(&canvas, one, lines))?;
         }
+        let curves: Vec<&Vec<SheetPoint>> = drawn.iter().flat_map(|(_, lines)| lines).collect();
         canvas.layer(Layer::Axis, || {
             self.mesh(&canvas, x, false)?;
             self.minor_ticks(&canvas)?;
-            bands.iter().try_for_each(|band| self.band_name(&canvas, band))?;
+            bands.iter().try_for_each(|band| self.band_name(&canvas, band, &curves))?;
             canvas.text(&y.text(), (0.0, 2.0), HPos::Left, VPos::Top)
         })?;
         let legend =
@@ -163,20 +169,36 @@ impl PlotFrame {
         self.covered(band).map_or(Ok(()), |(high, low)| canvas.rectangle((left, high), (right, low)))
     }
 
-    /// A band's name at the left: inside if the band is high enough, otherwise above it.
-    fn band_name(&self, canvas: &Canvas, band: &Band) -> Result<(), String> {
+    /// A band's name, inside if the band is high enough, otherwise above it: as far left as no curve
+    /// runs through it, or where the fewest do.
+    fn band_name(&self, canvas: &Canvas, band: &Band, curves: &[&Vec<SheetPoint>]) -> Result<(), String> {
         let Some((high, low)) = self.covered(band) else { return Ok(()) };
         let inside = low - high > 1.5 * FONT_SIZE;
         let (anchor, gap) = if inside { (VPos::Top, 4.0) } else { (VPos::Bottom, -1.0) };
-        canvas.text(band.label, (self.area.left + 6.0, high + gap), HPos::Left, anchor)
+        let top = if inside { high + gap } else { high + gap - FONT_SIZE };
+        let (width, first) = (text_width(band.label), self.area.left + 6.0);
+        let step = (self.area.width - width - 12.0).max(0.0) / f64::from(NAME_PLACES);
+        let crossed = |left: f64| -> usize {
+            let label = Window { left, top, right: left + width, bottom: top + FONT_SIZE };
+            curves.iter().map(|line| label.pieces(line)).sum()
+        };
+        let places = (0..=NAME_PLACES).map(|k| (first + f64::from(k) * step).round());
+        let left = places.min_by_key(|&left| crossed(left)).unwrap_or(first);
+        canvas.text(band.label, (left, high + gap), HPos::Left, anchor)
     }
 
-    fn series(&self, canvas: &Canvas, series: &PlotSeries) -> Result<(), String> {
-        let window = window(&self.area);
-        let points = || series.x.iter().zip(series.y).map(|(&x, &y)| self.place(x, y));
-        lines(points(), window).iter().try_for_each(|line| canvas.line(line))?;
+    /// The curve as it is drawn.
+    fn lines(&self, series: &PlotSeries) -> Vec<Vec<SheetPoint>> {
+        let points = series.x.iter().zip(series.y).map(|(&x, &y)| self.place(x, y));
+        lines(points, window(&self.area))
+    }
+
+    fn series(&self, canvas: &Canvas, series: &PlotSeries, lines: &[Vec<SheetPoint>]) -> Result<(), String> {
+        lines.iter().try_for_each(|line| canvas.line(line))?;
         if series.markers {
-            points().filter(|&p| window.contains(p)).try_for_each(|p| canvas.dot(p, DOT))?;
+            let window = window(&self.area);
+            let points = series.x.iter().zip(series.y).map(|(&x, &y)| self.place(x, y));
+            points.filter(|&p| window.contains(p)).try_for_each(|p| canvas.dot(p, DOT))?;
         }
         Ok(())
     }

@@ -34,8 +34,12 @@ pub fn line_chart(plot: &LinePlot, options: &ChartOptions) -> Result<Chart, Stri
     let y_scale =
         Scale::new(y_range, y.log, y.floor).with_ticks(((plot_height / 36.0) as usize).clamp(2, 9), y.whole);
     let left = (y_scale.label_width() + 12.0).ceil();
+    // A part of the axis ends anywhere; only the whole has an end worth reading.
+    let ended = options.x_range.is_none() && !x.whole;
     let x_scale = |right: f64| {
-        Scale::new(x_range, x.log, x.floor).with_ticks_across(f64::from(width) - left - right, x.whole)
+        let length = f64::from(width) - left - right;
+        let scale = Scale::new(x_range, x.log, x.floor).with_ticks_across(length, x.whole);
+        if ended { scale.with_end(length) } else { scale }
     };
     let right = (x_scale(12.0).label_width() / 2.0 + 2.0).max(12.0).ceil();
     let area = PlotArea { left, top: TOP, width: f64::from(width) - left - right, height: plot_height };
@@ -215,6 +219,18 @@ mod tests {
             over_time(ERROR, &[series(&[0.0, 1.0], &[0.0, 1.0])], &bands, &OPTIONS).unwrap().y.max
         };
         assert!(shown(2.0) > 2.0 && shown(100.0) < 2.0);
+    }
+
+    #[test]
+    fn a_band_s_name_stands_where_no_curve_is() {
+        let x: Vec<f64> = (0..=100).map(f64::from).collect();
+        let y: Vec<f64> = x.iter().map(|x| if *x < 50.0 { 0.2 } else { 5.0 }).collect();
+        let bands = [Band { from: 0.0, to: 0.1, label: "tolerance" }];
+        let chart = over_time(ERROR, &[series(&x, &y)], &bands, &OPTIONS).unwrap();
+        let before = chart.svg.split(">tolerance</text>").next().unwrap();
+        let left: f64 = before.rsplit("x=\"").next().unwrap().split('"').next().unwrap().parse().unwrap();
+        let middle = chart.plot.left + chart.plot.width / 2.0;
+        assert!(left > middle, "{left} is under the curve, which is low up to {middle}");
     }
 
     #[test]

@@ -68,6 +68,29 @@ impl Scale {
             .collect()
     }
 
+    /// With a tick at the end as well, so that the whole length can be read; a tick too near to it on
+    /// `length` SVG units goes.
+    pub(super) fn with_end(mut self, length: f64) -> Self {
+        let [.., before, last] = &self.ticks[..] else { return self };
+        // One digit finer than the steps.
+        let exponent = (math::log10(last.value - before.value) + 1e-9).floor() as i32 - 1;
+        if self.log || !(-4..6).contains(&exponent) {
+            return self;
+        }
+        let unit = math::pow(10.0, f64::from(exponent.abs()));
+        let digits = if exponent < 0 { self.max * unit } else { self.max / unit };
+        let end = Tick { value: self.max, label: Decimal::rounded(digits, exponent).text(false) };
+        let apart = (self.max - last.value) / (self.max - self.min) * length;
+        if end.label == last.label {
+            return self;
+        }
+        if apart < (text_width(&end.label) + text_width(&last.label)) / 2.0 + 8.0 {
+            self.ticks.pop();
+        }
+        self.ticks.push(end);
+        self
+    }
+
     /// Position of a value: 0 at the beginning, 1 at the end; NaN where it has none.
     pub(super) fn position(&self, value: f64) -> f64 {
         let place = if self.log {
@@ -147,6 +170,15 @@ struct Decimal {
 }
 
 impl Decimal {
+    /// The nearest to `digits` times the power of ten, without zeros after the point.
+    fn rounded(digits: f64, exponent: i32) -> Self {
+        let mut decimal = Self { digits: digits.round() as i64, exponent };
+        while decimal.exponent < 0 && decimal.digits % 10 == 0 {
+            decimal = Self { digits: decimal.digits / 10, exponent: decimal.exponent + 1 };
+        }
+        decimal
+    }
+
     fn value(self) -> f64 {
         let power = math::pow(10.0, f64::from(self.exponent.abs()));
         if self.exponent < 0 { self.digits as f64 / power } else { self.digits as f64 * power }
@@ -307,6 +339,20 @@ mod tests {
         assert_eq!(labels(&decade_ticks(1e-8, 1.0, 5)), ["10⁻⁸", "10⁻⁶", "10⁻⁴", "10⁻²", "1"]);
         assert_eq!(labels(&decade_ticks(1.0, 10.0, 6)), ["1", "2", "5", "10"]);
         assert_eq!(labels(&decade_ticks(3.1, 3.9, 5)), ["3.2", "3.4", "3.6", "3.8"]);
+    }
+
+    #[test]
+    fn the_end_has_a_tick_and_nothing_touches_its_label() {
+        let ended = |max: f64, most: usize, length: f64| {
+            let scale = Scale::new((0.0, max), false, None).with_ticks(most, false).with_end(length);
+            labels(&scale.ticks).into_iter().map(String::from).collect::<Vec<_>>()
+        };
+        assert_eq!(ended(19.702, 5, 600.0), ["0", "5", "10", "15", "19.7"]);
+        assert_eq!(ended(20.001, 5, 600.0), ["0", "5", "10", "15", "20"]);
+        assert_eq!(ended(15.4, 5, 600.0), ["0", "5", "10", "15.4"], "15 would touch it");
+        assert_eq!(ended(20.0, 5, 600.0), ["0", "5", "10", "15", "20"]);
+        assert_eq!(ended(0.3721, 4, 600.0), ["0", "0.1", "0.2", "0.3", "0.37"]);
+        assert_eq!(ended(12_345.0, 4, 600.0), ["0", "5000", "10\u{2009}000", "12\u{2009}300"]);
     }
 
     #[test]

@@ -32,6 +32,11 @@ impl Window {
         Self { left: left - by, top: top - by, right: right + by, bottom: bottom + by }
     }
 
+    /// How many pieces of a line come into the window.
+    pub(super) fn pieces(&self, line: &[SheetPoint]) -> usize {
+        line.windows(2).filter(|pair| self.clip(pair[0], pair[1]).is_some()).count()
+    }
+
     /// The part of a segment that lies inside, after Liang and Barsky (ACM Transactions on Graphics
     /// 3(1), 1984).
     fn clip(&self, a: SheetPoint, b: SheetPoint) -> Option<(SheetPoint, SheetPoint)> {
