@@ -31,6 +31,8 @@ pub struct PlotSeries<'a> {
     pub y: &'a [f64],
     /// Whether every point gets a dot: for few points.
     pub markers: bool,
+    /// Whether the range from the axis up to it is shaded: it bounds what can be.
+    pub bound: bool,
 }
 
 /// Quantity, unit and range of an axis.

@@ -41,6 +41,9 @@ pub(super) struct SpacePath {
     pub(super) points: Vec<[f64; 3]>,
 }
 
+/// Class of a curve that bounds what can be.
+pub(super) const BOUND: &str = "p95";
+
 pub(super) const TIME: Axis<'static> =
     Axis { label: "Time", unit: "s", range: None, zero: false, log: false, floor: None, whole: false };
 
@@ -63,6 +66,7 @@ impl Content {
                         x: &self.at,
                         y: values,
                         markers: *markers,
+                        bound: class == BOUND,
                     })
                     .collect();
                 line_chart(&LinePlot { caption, x: *x, y: *y, series: &series, bands }, options)

@@ -1,7 +1,7 @@
 //! The content of each chart in the catalogue.
 
 use crate::chart::chart::{Axis, Band};
-use crate::chart::content::{Content, Curve, Shape, SpacePath, TIME, points};
+use crate::chart::content::{BOUND, Content, Curve, Shape, SpacePath, TIME, points};
 use crate::chart::over::Over;
 use crate::chart::unit::Units;
 use crate::math;
@@ -18,7 +18,7 @@ type Name = (&'static str, &'static str, &'static str);
 
 const BEFORE: Name = ("before", "Before", "before");
 const AFTER: Name = ("after", "After", "after");
-const P95: Name = ("after-p95", "95 %", "p95");
+const P95: Name = ("after-p95", "95 %", BOUND);
 pub(super) const DEFLECTION: Name = ("deflection", "Forces alone", "deflection");
 pub(super) const SHAPING: Name = ("shaping", "Shaping alone", "shaping");
 pub(super) const BOTH: Name = ("both", "Both together", "both");

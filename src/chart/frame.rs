@@ -87,6 +87,9 @@ impl PlotFrame {
         canvas.layer(Layer::Grid, || self.mesh(&canvas, x, true))?;
         let shown = series.iter().filter(|one| options.shows(one.key));
         let drawn: Vec<_> = shown.map(|one| (one, self.lines(one))).collect();
+        for (one, lines) in drawn.iter().filter(|(one, _)| one.bound) {
+            canvas.layer(Layer::Bound { class: one.class }, || self.below(&canvas, lines))?;
+        }
         for (one, lines) in &drawn {
             let layer = Layer::Series { class: one.class, key: one.key };
             canvas.layer(layer, || self.series(&canvas, one, lines))?;
@@ -185,6 +188,16 @@ impl PlotFrame {
         let places = (0..=NAME_PLACES).map(|k| (first + f64::from(k) * step).round());
         let left = places.min_by_key(|&left| crossed(left)).unwrap_or(first);
         canvas.text(band.label, (left, high + gap), HPos::Left, anchor)
+    }
+
+    /// Fills what lies between curves and the axis.
+    fn below(&self, canvas: &Canvas, lines: &[Vec<SheetPoint>]) -> Result<(), String> {
+        let bottom = window(&self.area).bottom;
+        lines.iter().try_for_each(|line| {
+            let ends = [line.last(), line.first()].into_iter().flatten();
+            let feet = ends.map(|&(x, _)| (x, bottom));
+            canvas.polygon(&line.iter().copied().chain(feet).collect::<Vec<_>>())
+        })
     }
 
     /// The curve as it is drawn.

@@ -148,7 +148,7 @@ mod tests {
     const ERROR: Axis = Axis { label: "Contour error", unit: "mm", zero: true, ..TIME };
 
     fn series<'a>(x: &'a [f64], y: &'a [f64]) -> PlotSeries<'a> {
-        PlotSeries { key: "e", label: "E", class: "before", x, y, markers: false }
+        PlotSeries { key: "e", label: "E", class: "before", x, y, markers: false, bound: false }
     }
 
     fn over_time(
@@ -219,6 +219,19 @@ mod tests {
             over_time(ERROR, &[series(&[0.0, 1.0], &[0.0, 1.0])], &bands, &OPTIONS).unwrap().y.max
         };
         assert!(shown(2.0) > 2.0 && shown(100.0) < 2.0);
+    }
+
+    #[test]
+    fn what_a_bound_encloses_is_shaded_down_to_the_axis() {
+        let one = PlotSeries { bound: true, ..series(&[0.0, 1.0], &[1.0, 1.0]) };
+        let chart =
+            over_time(ERROR, &[one], &[], &ChartOptions { y_range: Some((0.0, 1.0)), ..OPTIONS }).unwrap();
+        let PlotArea { left, top, width, height } = chart.plot;
+        let (right, bottom) = (left + width, top + height);
+        let corners = format!(r#"points="{left},{top} {right},{top} {right},{bottom} {left},{bottom}""#);
+        assert!(chart.svg.contains(&corners), "{corners} is not in {}", chart.svg);
+        let hidden = ChartOptions { hidden: vec!["e".into()], ..OPTIONS };
+        assert!(!over_time(ERROR, &[one], &[], &hidden).unwrap().svg.contains("polygon"));
     }
 
     #[test]

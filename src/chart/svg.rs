@@ -30,6 +30,8 @@ pub(super) const FONT_SIZE: f64 = 12.0;
 pub(super) enum Layer<'a> {
     /// A range of values worth comparing with, such as a tolerance.
     Band,
+    /// The area below a curve that bounds what can be.
+    Bound { class: &'a str },
     /// Fine lines that lead the eye to the scale.
     Grid,
     /// Grid lines in space, where they run at an angle.
@@ -49,6 +51,7 @@ impl Layer<'_> {
         const INK: &str = r#"fill="none" stroke="currentColor""#;
         match self {
             Self::Band => r#"<g class="band" fill="currentColor" fill-opacity="0.12">"#.into(),
+            Self::Bound { class } => format!(r#"<g class="bound {}" fill-opacity="0.1">"#, escaped(class)),
             Self::Grid => {
                 format!(r#"<g class="grid" {INK} stroke-opacity="0.15" shape-rendering="crispEdges">"#)
             }
