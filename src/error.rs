@@ -280,6 +280,12 @@ impl Serialize for Error {
             object.serialize_entry("line", &line)?;
             object.serialize_entry("column", &column)?;
         }
+        if let Error::OutOfRange { value, min, max, unit, .. } = self {
+            object.serialize_entry("value", value)?;
+            object.serialize_entry("min", min)?;
+            object.serialize_entry("max", max)?;
+            object.serialize_entry("unit", unit)?;
+        }
         object.end()
     }
 }

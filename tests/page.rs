@@ -24,6 +24,8 @@ mod embed;
 mod hostile;
 #[path = "page/identify.rs"]
 mod identify;
+#[path = "page/inputs.rs"]
+mod inputs;
 #[path = "page/loading.rs"]
 mod loading;
 #[path = "page/part.rs"]

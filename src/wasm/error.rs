@@ -7,7 +7,10 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &'static str = r#"
-export interface ArmillError extends Error { code: string; field?: string; line?: number; column?: number; }
+export interface ArmillError extends Error {
+  code: string; field?: string; line?: number; column?: number;
+  value?: number; min?: number; max?: number; unit?: string; // of a number out of range
+}
 "#;
 
 /// The value to throw for an error: an `Error` with its code and, where they apply, field and place.

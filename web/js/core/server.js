@@ -125,13 +125,14 @@ function arraysIn(value) {
 
 /** An error as data: Errors lose their extra properties on the way through postMessage. */
 function plain(error) {
-  const { code, message, field, line, column } = error;
+  const { code, message, field, line, column, value, min, max, unit } = error;
   return {
     code,
     message: message ?? String(error),
     field,
     line,
     column,
+    ...(code === "out-of-range" && { value, min, max, unit }),
     fatal: error instanceof WebAssembly.RuntimeError,
   };
 }

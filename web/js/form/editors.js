@@ -1,30 +1,45 @@
 // One editor per kind of field. An editor is { node, inputs, read(), write(value), at(rest),
-// mark(line), show(line), step(count) } of which mark and show are for texts and step for numbers alone. read() gives the
-// value or throws a Mistake; at(rest) gives the input that an error path such as "[1].a_mm" means.
+// mark(line), show(line), step(count), understood(), relabel() } of which mark and show are for texts and the last three
+// for numbers alone. read() gives the value or throws a Mistake; at(rest) gives the input that an error path such as
+// "[1].a_mm" means; understood() is what was read of typed expressions; relabel() writes the units of the settings.
 
 import { make } from "../page/dom.js";
+import { allUnderstood, numberCell } from "./number-cell.js";
 import { listing } from "./program-text.js";
-import { parseNumber, plainNumber, stepped } from "../page/number.js";
-
-/** What is wrong with what was typed, and in which input. */
-export class Mistake extends Error {
-  constructor(message, input) {
-    super(message);
-    this.input = input;
-  }
-}
+import { rowsEditor } from "./rows.js";
+import { shownUnit } from "./shown.js";
 
 /** The order in which tables of the field print a row. */
 const DH_ORDER = ["alpha_deg", "a_mm", "d_mm", "theta_offset_deg", "joint_sign", "offset_deg"];
 
+const RANGE = ["lowest", "highest"];
+const XYZ = ["x", "y", "z"].map((name) => [name, "mm"]);
+
+/** Tables of any length: the end of their path, and name and unit of each column. */
+const ROWS = {
+  "stock.points_mm": [
+    ["x", "mm"],
+    ["y", "mm"],
+  ],
+  points_mm: XYZ,
+  work_offsets_mm: XYZ,
+  length_offsets_mm: [
+    ["H", ""],
+    ["length", "mm"],
+  ],
+  springs_nm_arcmin: [
+    ["joint", ""],
+    ["torque", "N m"],
+    ["turn", "arcmin"],
+  ],
+  loads_kg_mm: [["link", ""], ["mass", "kg"], ...XYZ],
+};
+
 export const idOf = (path) => path.replaceAll(".", "-");
 
 export function editorFor(field) {
-  if (field.path === "stock.points_mm") return rows(field, ["x", "y"]);
-  if (field.path.endsWith("points_mm") || field.path.endsWith("work_offsets_mm")) return rows(field, ["x", "y", "z"]);
-  if (field.path.endsWith("length_offsets_mm")) return rows(field, ["H", "length"]);
-  if (field.path.endsWith("springs_nm_arcmin")) return rows(field, ["joint", "torque", "turn"]);
-  if (field.path.endsWith("loads_kg_mm")) return rows(field, ["link", "mass", "x", "y", "z"]);
+  const columns = Object.keys(ROWS).find((ending) => field.path.endsWith(ending));
+  if (columns) return rowsEditor(idOf(field.path), ROWS[columns], { lines: field.default.length ? 8 : 2 });
   if (field.kind === "number" && field.choices) return numberOrWord(field, field.choices[0]);
   if (field.kind === "choice") return choice(field);
   if (field.kind === "set") return checkboxes(field);
@@ -42,51 +57,14 @@ function single(field, input, read, write) {
 }
 
 function number(field) {
-  const whole = field.kind === "integer";
-  const input = numberInput(idOf(field.path), whole);
-  const editor = single(
-    field,
-    input,
-    () => typedNumber(input, whole),
-    (value) => (input.value = plainNumber(value)),
-  );
-  return { ...editor, step: (count) => step(input, count, whole) };
-}
-
-function numberInput(id, whole = false) {
-  const input = make("input", { id, type: "text", inputMode: whole ? "numeric" : "decimal", className: "value" });
-  input.addEventListener("keydown", (event) => {
-    const direction = { ArrowUp: 1, ArrowDown: -1 }[event.key];
-    if (!direction || event.altKey || event.ctrlKey || event.metaKey || Number.isNaN(parseNumber(input.value))) return;
-    event.preventDefault();
-    step(input, direction, whole);
-  });
-  return input;
-}
-
-/**
- * Changes a number by some steps at once: an "input" whose detail says that nothing is being typed.
- */
-function step(input, count, whole) {
-  let value = parseNumber(input.value);
-  if (Number.isNaN(value)) return;
-  for (let i = 0; i < Math.abs(count); i++) value = stepped(value, Math.sign(count), whole);
-  input.value = plainNumber(value);
-  input.dispatchEvent(new CustomEvent("input", { bubbles: true, detail: "stepped" }));
-}
-
-function typedNumber(input, whole = false) {
-  const value = parseNumber(input.value);
-  if (input.value.trim() === "") throw new Mistake("A number is needed here.", input);
-  if (Number.isNaN(value)) throw new Mistake(`“${input.value.trim()}” is not a number.`, input);
-  if (!Number.isFinite(value)) throw new Mistake(`“${input.value.trim()}” is too large.`, input);
-  if (whole && !Number.isInteger(value)) throw new Mistake("A whole number is needed here.", input);
-  return value;
+  const cell = numberCell(idOf(field.path), field.unit, field.kind === "integer");
+  return { ...cell, node: cell.input, inputs: [cell.input], at: () => cell.input };
 }
 
 /** A number, or a word that a checkbox stands for. */
 function numberOrWord(field, { value: word, label }) {
-  const input = numberInput(idOf(field.path));
+  const cell = numberCell(idOf(field.path), field.unit);
+  const { input } = cell;
   const box = make("input", { type: "checkbox", id: `${idOf(field.path)}-${word}` });
   const node = make(
     "div",
@@ -97,18 +75,19 @@ function numberOrWord(field, { value: word, label }) {
   box.addEventListener("input", () => {
     input.disabled = box.checked;
     if (!box.checked && input.value === "")
-      input.value = plainNumber(typeof field.default === "number" ? field.default : (field.min ?? 0));
+      cell.write(typeof field.default === "number" ? field.default : (field.min ?? 0));
   });
   return {
     node,
     inputs: [input, box],
-    read: () => (box.checked ? word : typedNumber(input)),
+    read: () => (box.checked ? word : cell.read()),
     write(value) {
       box.checked = value === word;
       input.disabled = box.checked;
-      if (!box.checked) input.value = plainNumber(value);
+      if (!box.checked) cell.write(value);
     },
     at: () => input,
+    understood: cell.understood,
   };
 }
 
@@ -153,16 +132,18 @@ function vector(field) {
       ? ["roll", "pitch", "yaw"]
       : ["x", "y", "z"];
   const id = idOf(field.path);
-  const inputs = names.map((name) => numberInput(`${id}-${name}`));
+  const cells = names.map((name) => numberCell(`${id}-${name}`, field.unit));
+  const inputs = cells.map(({ input }) => input);
   const parts = names.map((name, i) =>
     make("label", { className: "part", for: inputs[i].id }, make("span", {}, name), inputs[i]),
   );
   return {
     node: make("div", { id, className: "vector", role: "group" }, ...parts),
     inputs,
-    read: () => inputs.map((input) => typedNumber(input)),
-    write: (values) => inputs.forEach((input, i) => (input.value = plainNumber(values[i]))),
+    read: () => cells.map((cell) => cell.read()),
+    write: (values) => cells.forEach((cell, i) => cell.write(values[i])),
     at: (rest) => inputs[indexIn(rest)] ?? inputs[0],
+    understood: () => allUnderstood(cells),
   };
 }
 
@@ -192,6 +173,7 @@ function wordOrVector(field) {
       reveal();
     },
     at: (rest) => (rest ? own.at(rest) : select),
+    understood: () => (select.value === "" ? own.understood() : ""),
   };
 }
 
@@ -203,42 +185,47 @@ function table(field) {
   const sample = field.default[0];
   const columns =
     typeof sample !== "object" ? [null] : Object.keys(sample).sort((a, b) => DH_ORDER.indexOf(a) - DH_ORDER.indexOf(b));
-  const heads = columns[0] === null ? [""] : Array.isArray(sample) ? ["lowest", "highest"] : columns.map(heading);
+  const named = columns[0] !== null && !Array.isArray(sample);
   const rowName = (row) => (field.path.startsWith("robot.") ? `J${row + 1}` : `${row + 1}`);
   const cells = field.default.map((_, row) =>
-    columns.map((key, column) => {
-      const input = numberInput(`${id}-${row}${key === null ? "" : `-${key}`}`);
-      input.setAttribute("aria-label", [rowName(row), heads[column]].filter(Boolean).join(", "));
-      return input;
-    }),
+    columns.map((key) => numberCell(`${id}-${row}${key === null ? "" : `-${key}`}`, named ? unitIn(key) : field.unit)),
   );
   const body = cells.map((row, i) =>
-    make("tr", {}, make("th", { scope: "row" }, rowName(i)), ...row.map((input) => make("td", {}, input))),
+    make("tr", {}, make("th", { scope: "row" }, rowName(i)), ...row.map(({ input }) => make("td", {}, input))),
   );
-  const head =
-    columns[0] === null
-      ? ""
-      : make("thead", {}, make("tr", {}, make("td"), ...heads.map((name) => make("th", { scope: "col" }, name))));
+  const heads = columns.map(() => make("th", { scope: "col" }));
+  const head = columns[0] === null ? "" : make("thead", {}, make("tr", {}, make("td"), ...heads));
+  const relabel = () =>
+    columns.forEach((key, column) => {
+      const name = key === null ? "" : named ? heading(key) : sample.length === 2 ? RANGE[column] : rowName(column);
+      heads[column].textContent = name;
+      cells.forEach((row, i) =>
+        row[column].input.setAttribute("aria-label", [rowName(i), name].filter(Boolean).join(", ")),
+      );
+    });
+  relabel();
   return {
     node: make("table", { id, className: "cells" }, head, make("tbody", {}, ...body)),
-    inputs: cells.flat(),
+    inputs: cells.flat().map(({ input }) => input),
     read: () =>
       cells.map((row) => {
-        const values = row.map((input) => typedNumber(input));
+        const values = row.map((cell) => cell.read());
         if (columns[0] === null) return values[0];
         return Array.isArray(sample) ? values : Object.fromEntries(columns.map((key, i) => [key, values[i]]));
       }),
     write: (rows) =>
       cells.forEach((row, i) =>
-        row.forEach((input, c) => (input.value = plainNumber(columns[c] === null ? rows[i] : rows[i]?.[columns[c]]))),
+        row.forEach((cell, c) => cell.write(columns[c] === null ? rows[i] : rows[i]?.[columns[c]])),
       ),
     at(rest) {
       const row = cells[indexIn(rest)] ?? cells[0];
       const column = columns.findIndex(
         (key) => key !== null && (rest.endsWith(`.${key}`) || rest.endsWith(`][${key}]`)),
       );
-      return row[Math.max(0, column)];
+      return row[Math.max(0, column)].input;
     },
+    understood: () => allUnderstood(cells.flat()),
+    relabel,
   };
 }
 
@@ -246,7 +233,8 @@ function table(field) {
 function lengths(field) {
   const id = idOf(field.path);
   const scalars = Object.keys(field.default).filter((key) => key.endsWith("_mm"));
-  const inputs = scalars.map((key) => numberInput(`${id}-${key}`));
+  const cells = scalars.map((key) => numberCell(`${id}-${key}`, "mm"));
+  const inputs = cells.map(({ input }) => input);
   const parts = scalars.map((key, i) =>
     make("label", { className: "part", for: inputs[i].id }, make("span", {}, key.replace("_mm", "")), inputs[i]),
   );
@@ -267,7 +255,7 @@ function lengths(field) {
     inputs: [...inputs, ...joints.inputs],
     read() {
       const rows = joints.read();
-      const values = scalars.map((key, i) => [key, typedNumber(inputs[i])]);
+      const values = scalars.map((key, i) => [key, cells[i].read()]);
       return {
         ...Object.fromEntries(values),
         joint_sign: rows.map((row) => row.joint_sign),
@@ -275,7 +263,7 @@ function lengths(field) {
       };
     },
     write(value) {
-      scalars.forEach((key, i) => (inputs[i].value = plainNumber(value[key])));
+      scalars.forEach((key, i) => cells[i].write(value[key]));
       joints.write(value.joint_sign.map((sign, i) => ({ joint_sign: sign, offset_deg: value.joint_offset_deg[i] })));
     },
     at(rest) {
@@ -290,6 +278,8 @@ function lengths(field) {
         )
       );
     },
+    understood: () => [allUnderstood(cells), joints.understood()].filter(Boolean).join(", "),
+    relabel: joints.relabel,
   };
 }
 
@@ -316,35 +306,14 @@ function program() {
   };
 }
 
-/** Rows of as many numbers as `names`, a line each. */
-function rows(field, names) {
-  const input = make("textarea", {
-    id: idOf(field.path),
-    rows: field.default.length ? 8 : 2,
-    spellcheck: false,
-    placeholder: names.join(", "),
-  });
-  const read = () => {
-    const lines = input.value
-      .split("\n")
-      .map((line, i) => ({ line: line.trim(), number: i + 1 }))
-      .filter(({ line }) => line);
-    return lines.map(({ line, number }) => {
-      const values = line.split(line.includes(";") ? ";" : /[,\s]+/).map((part) => parseNumber(part));
-      if (values.length !== names.length || values.some(Number.isNaN)) {
-        throw new Mistake(`Line ${number}: the numbers ${names.join(", ")} are needed.`, input);
-      }
-      return values;
-    });
-  };
-  return single(field, input, read, (rows) => (input.value = rows.map((row) => row.join(", ")).join("\n")));
-}
-
 const indexIn = (rest) => Number(/^\[(\d+)\]/.exec(rest)?.[1] ?? 0);
+
+/** The unit that a key such as "a_mm" ends in, if it has one. */
+const unitIn = (key) => /_(mm|deg)$/.exec(key)?.[1] ?? "";
 
 /** "theta_offset_deg" as a column heading: "theta offset, deg". */
 function heading(key) {
   if (key === "joint_sign") return "sign";
   const at = key.lastIndexOf("_");
-  return `${key.slice(0, at).replaceAll("_", " ")}, ${key.slice(at + 1)}`;
+  return `${key.slice(0, at).replaceAll("_", " ")}, ${shownUnit(key.slice(at + 1))}`;
 }

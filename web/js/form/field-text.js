@@ -2,6 +2,7 @@
 
 import { KIENZLE, OWN } from "../job/job.js";
 import { plainNumber } from "../page/number.js";
+import { shownUnit, shownUnits, shownValue } from "./shown.js";
 
 /** A preset choice that also offers one's own numbers. */
 export function withOwn(field) {
@@ -20,23 +21,42 @@ export function withOwn(field) {
 
 const choiceLabel = (field, value) => field.choices.find((choice) => choice.value === value)?.label ?? String(value);
 
+const numberIn = (unit) => (value) => plainNumber(shownValue(value, unit));
+
+const quantity = (value, unit) => [numberIn(unit)(value), shownUnit(unit)].filter(Boolean).join(" ");
+
+const saved = (value, unit) => [plainNumber(value), unit].filter(Boolean).join(" ");
+
 /** A value in a few words, with its unit or name; nothing for tables and texts. */
 export function brief(field, value) {
   if (field.kind === "set") return value.map((one) => choiceLabel(field, one)).join(" + ");
   if (field.choices && typeof value === "string") return choiceLabel(field, value);
   if (typeof value !== "number") return "";
-  return field.unit ? `${plainNumber(value)} ${field.unit}` : `${plainNumber(value)} ${field.label.toLowerCase()}`;
+  return field.unit ? quantity(value, field.unit) : `${plainNumber(value)} ${field.label.toLowerCase()}`;
 }
 
-/** A value in words: numbers with their unit, of tables and texts only how long they are. */
-export function inWords(field, value) {
+/**
+ * A value in words: numbers with their unit, of tables and texts only how long they are. `asSaved` keeps the units of
+ * the job.
+ */
+export function inWords(field, value, { asSaved = false } = {}) {
   if (value === undefined) return "–";
   if (field.kind === "set") return value.map((one) => choiceLabel(field, one)).join(" + ") || "none";
   if (field.choices && typeof value === "string") return choiceLabel(field, value);
-  if (typeof value === "number") return [plainNumber(value), field.unit].filter(Boolean).join(" ");
-  if (field.kind === "vector") return [value.join(", "), field.unit].filter(Boolean).join(" ");
+  if (typeof value === "number") return (asSaved ? saved : quantity)(value, field.unit);
+  if (field.kind === "vector") {
+    const [number, unit] = asSaved ? [plainNumber, field.unit] : [numberIn(field.unit), shownUnit(field.unit)];
+    return [value.map(number).join(", "), unit].filter(Boolean).join(" ");
+  }
   if (typeof value !== "string") return `${value.length} rows`;
   return value.includes("\n") ? `${value.trimEnd().split("\n").length} lines` : value;
+}
+
+/** The core's error about a number out of range, where another unit is shown than it names. */
+export function outOfRange({ code, field: path, value, min, max, unit }) {
+  if (code !== "out-of-range" || shownUnit(unit) === unit) return undefined;
+  const [is, low, high] = [value, min, max].map((number) => quantity(number, unit));
+  return `${path} is ${is}; legal is ${low} to ${high}, nearest ${value < min ? low : high}`;
 }
 
 /** The default in words. */
@@ -46,16 +66,19 @@ export const asText = (field) =>
 /** What a field is, its range and default. */
 export function helpText(field) {
   const { min, max, kind } = field;
+  const mixed = field.unit.includes(", "); // a table whose range holds in the job's own units
+  const number = numberIn(mixed ? "" : field.unit);
   const boundless = min <= -1e6 && max >= 1e6; // only there to keep arithmetic finite
-  const range = boundless
-    ? ""
-    : min != null && max != null
-      ? `${plainNumber(min)} to ${plainNumber(max)}`
-      : min != null
-        ? `At least ${plainNumber(min)}`
-        : max != null
-          ? `At most ${plainNumber(max)}`
-          : "";
+  const range =
+    boundless || (mixed && shownUnits(field.unit) !== field.unit)
+      ? ""
+      : min != null && max != null
+        ? `${number(min)} to ${number(max)}`
+        : min != null
+          ? `At least ${number(min)}`
+          : max != null
+            ? `At most ${number(max)}`
+            : "";
   const standard = ["table", "text"].includes(kind) ? "" : `default ${inWords(field, field.default)}`;
   const hint = [range, standard].filter(Boolean).join(", ");
   return [field.help, hint && `${hint[0].toUpperCase()}${hint.slice(1)}.`].filter(Boolean).join(" ");

@@ -1,10 +1,13 @@
 // Builds the inputs from the core's list of fields and keeps them and the job in step.
 
 import { byId, make, sentence } from "../page/dom.js";
-import { editorFor, idOf, Mistake } from "./editors.js";
+import { onSetting } from "../page/settings.js";
+import { editorFor, idOf } from "./editors.js";
 import { FROM_STOCK } from "../job/job.js";
 import { scrub } from "./drag-number.js";
-import { asText, brief, helpText, withOwn } from "./field-text.js";
+import { asText, brief, helpText, outOfRange, withOwn } from "./field-text.js";
+import { Mistake } from "./number-cell.js";
+import { shownUnits } from "./shown.js";
 
 const GROUPS = {
   robot: "Robot",
@@ -45,6 +48,7 @@ export class Form {
       this.#rows.push(row);
     }
     this.refresh();
+    onSetting((key) => key !== "theme" && this.#relabel());
   }
 
   /** Whether something typed is not a value. */
@@ -54,9 +58,9 @@ export class Form {
 
   /** The first message beside a field, and the way there; undefined if there is none. */
   get problem() {
-    const row = this.#rows.find((candidate) => candidate.error.textContent);
+    const row = this.#rows.find((candidate) => candidate.message);
     if (!row) return undefined;
-    const message = row.error.textContent;
+    const { message } = row;
     const named = message.startsWith(row.field.label) ? message : `${row.field.label}: ${message}`;
     return { message: named, go: () => this.#go(row) };
   }
@@ -100,16 +104,22 @@ export class Form {
         row.editor.write(this.#job.get(row.field));
       this.#decorate(row);
     }
+    for (const row of this.#rows) {
+      const read = row.mistake ? "" : row.editor.understood?.();
+      row.understood.textContent = read ? `= ${read}` : "";
+    }
     this.#digest();
   }
 
   /** Puts an error of the core beside its field. False if it has none here. */
-  showError({ field: path, message, line, column }) {
+  showError(error) {
+    const { field: path, message, line, column } = error;
     this.clearErrors();
     const row = path && this.#rows.find(({ field, node }) => !node.hidden && belongs(path, field.path));
     if (!row) return false;
     const where = line && !/\bline\b/i.test(message) ? `Line ${line}${column ? `, column ${column}` : ""}: ` : "";
-    const text = message.startsWith(path) ? row.field.label + message.slice(path.length) : sentence(message);
+    const own = outOfRange(error) ?? message;
+    const text = own.startsWith(path) ? row.field.label + own.slice(path.length) : sentence(own);
     this.#setError(row, where + text, row.editor.at(path.slice(row.field.path.length)));
     row.line = line;
     if (line) row.editor.mark?.(line);
@@ -140,18 +150,28 @@ export class Form {
     const title = make(grouped ? "span" : "label", { className: "label", id: `${id}-label` }, field.label);
     if (grouped) editor.node.setAttribute("aria-labelledby", title.id);
     else title.htmlFor = id;
-    const unit = this.#job.otherUnit(field) ? this.#unitButton(field) : make("span", { className: "unit" }, field.unit);
+    const unit = this.#job.otherUnit(field) ? this.#unitButton(field) : make("span", { className: "unit" });
     if (field.unit) title.append(" ", unit);
-    const reset = make("button", { type: "button", className: "reset", title: `Back to ${asText(field)}` }, "↺");
-    reset.setAttribute("aria-label", `Reset ${field.label} to ${asText(field)}`);
-    const help = make("p", { className: "help", id: `${id}-help`, hidden: true }, helpText(field));
+    const reset = make("button", { type: "button", className: "reset" }, "↺");
+    const help = make("p", { className: "help", id: `${id}-help`, hidden: true });
+    const understood = make("output", { className: "understood", htmlFor: id });
     const note = make("p", { className: "note", id: `${id}-note` });
     const error = make("p", { className: "error", id: `${id}-error` });
     for (const input of editor.inputs) input.setAttribute("aria-describedby", `${id}-error ${id}-help`);
     const wide = grouped || editor.inputs[0].tagName === "TEXTAREA" || field.kind === "text";
     const head = make("div", { className: "head" }, title, helpButton(field, help), reset);
-    const node = make("div", { className: wide ? "field wide" : "field" }, head, editor.node, error, help, note);
-    const row = { field, editor, node, reset, error, note, notes, mistake: false };
+    const node = make(
+      "div",
+      { className: wide ? "field wide" : "field" },
+      head,
+      editor.node,
+      understood,
+      error,
+      help,
+      note,
+    );
+    const row = { field, editor, node, reset, unit, help, understood, error, note, notes, mistake: false, message: "" };
+    label(row);
     // Some assistive tools and drivers choose an option with "change" alone.
     const kind = editor.inputs[0].tagName === "SELECT" ? "change" : "input";
     node.addEventListener(kind, ({ target, detail }) =>
@@ -165,6 +185,16 @@ export class Form {
       editor.inputs[0].focus();
     });
     return row;
+  }
+
+  /** Writes every number and text in the units of the settings. What is typed and wrong stays as it is. */
+  #relabel() {
+    for (const row of this.#rows) {
+      label(row);
+      row.editor.relabel?.();
+      if (!row.mistake) row.editor.write(this.#job.get(row.field));
+    }
+    this.refresh();
   }
 
   #unitButton(field) {
@@ -193,7 +223,19 @@ export class Form {
       if (!(error instanceof Mistake)) throw error;
       this.#setError(row, error.message, error.input);
       row.mistake = true;
+      row.error.append(...error.readings.map((reading) => this.#readingButton(error.input, reading)));
     }
+  }
+
+  /** One of the things that an ambiguous number may mean. */
+  #readingButton(input, reading) {
+    const button = make("button", { type: "button", className: "reading" }, reading);
+    button.addEventListener("click", () => {
+      input.value = reading;
+      input.dispatchEvent(new Event("input", { bubbles: true }));
+      input.focus();
+    });
+    return button;
   }
 
   #retype(row, texts) {
@@ -222,7 +264,7 @@ export class Form {
   #setError(row, message, input) {
     row.line = undefined;
     row.mistake = false;
-    row.error.textContent = message;
+    row.error.textContent = row.message = message;
     for (const each of row.editor.inputs) {
       if (message && (each === input || !input)) each.setAttribute("aria-invalid", "true");
       else each.removeAttribute("aria-invalid");
@@ -269,7 +311,7 @@ export class Form {
   #digest() {
     for (const [name, { details, digest }] of this.#groups) {
       const rows = this.#rows.filter(({ field, node }) => field.group === name && !node.hidden);
-      const broken = rows.some((row) => row.error.textContent);
+      const broken = rows.some((row) => row.message);
       details.classList.toggle("broken", broken);
       const telling = rows.filter(
         ({ field }, i) => i === 0 || (i === 1 && !field.choices) || (i === 2 && rows[1].field.kind === "vector"),
@@ -290,6 +332,14 @@ export class Form {
     input.scrollIntoView({ block: "center" });
     if (row.line) row.editor.show?.(row.line);
   }
+}
+
+/** Writes what a row says of itself, in the units of the settings. */
+function label({ field, unit, reset, help }) {
+  if (unit.tagName !== "BUTTON") unit.textContent = shownUnits(field.unit);
+  reset.title = `Back to ${asText(field)}`;
+  reset.setAttribute("aria-label", `Reset ${field.label} to ${asText(field)}`);
+  help.textContent = helpText(field);
 }
 
 /** Shows and hides a field's help. Screen readers have it with the field in either case. */

@@ -2,17 +2,15 @@
 
 import { make, sentence } from "../page/dom.js";
 import { notify } from "../page/toast.js";
-import { formatNumber, parseNumber } from "../page/number.js";
+import { numberCell } from "../form/number-cell.js";
+import { formatNumber } from "../page/number.js";
 import { Outcome, remarks } from "./result.js";
 import { Source } from "./input.js";
 
 export function makeResponse({ ask, job, use }) {
-  const from = make("input", {
-    id: "identify-from",
-    className: "value",
-    inputMode: "decimal",
-    placeholder: "largest peak",
-  });
+  const cell = numberCell("identify-from", "s");
+  const from = cell.input;
+  from.placeholder = "largest peak";
   const source = new Source({
     id: "identify-response",
     label: "Measured response",
@@ -34,12 +32,16 @@ export function makeResponse({ ask, job, use }) {
   from.addEventListener("change", () => look());
 
   function look() {
-    const start = from.value.trim() ? parseNumber(from.value) : undefined;
-    from.setAttribute("aria-invalid", String(Number.isNaN(start)));
-    if (Number.isNaN(start))
+    let start;
+    try {
+      start = from.value.trim() ? cell.read() : undefined;
+      from.removeAttribute("aria-invalid");
+    } catch ({ message }) {
+      from.setAttribute("aria-invalid", "true");
       return source.fail({
-        message: "The free decay starts at a number of seconds, such as 0.25; empty: at the largest peak.",
+        message: `The free decay starts at a number of seconds, such as 0.25; empty: at the largest peak. ${message}`,
       });
+    }
     outcome.compute(start);
   }
 

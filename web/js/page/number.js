@@ -1,16 +1,6 @@
-// Numbers as people type and read them.
+// Numbers as people read them; form/quantity.js has how they are typed.
 
 const GROUP = "\u202f"; // narrow no-break space between thousands
-
-/**
- * The number that `text` stands for: "1.5", "1,5" and "1.5e3" are numbers, "1,000.5" is not. NaN if
- * it is none.
- */
-export function parseNumber(text) {
-  const plain = text.replace(/[\s\u00a0\u2009\u202f]/g, "").replace(/\u2212/g, "-");
-  const dotted = plain.includes(".") ? plain : plain.replace(",", ".");
-  return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(dotted) ? Number(dotted) : NaN;
-}
 
 /** `value` to `digits` significant digits, never fewer than its whole digits. */
 export function formatNumber(value, digits = 3) {

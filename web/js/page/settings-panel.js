@@ -5,6 +5,7 @@ import { choices, choose, setting } from "./settings.js";
 
 const ROWS = [
   { key: "length", title: "Lengths", labels: { mm: "mm", inch: "inch" } },
+  { key: "feed", title: "Feeds", labels: { second: "per second", minute: "per minute" } },
   { key: "force", title: "Forces", labels: { N: "N", lbf: "lbf" } },
   { key: "theme", title: "Colours", labels: { auto: "system", light: "light", dark: "dark" } },
 ];
@@ -17,7 +18,7 @@ export function settingsPanel(box) {
     make(
       "p",
       { className: "note" },
-      "Units are those of figures, charts and tables. Inputs, sentences and files stay in mm and N.",
+      "For inputs, figures, charts and tables. Sentences, jobs and programs stay in mm and N.",
     ),
   );
 }

@@ -1,9 +1,9 @@
 // What the page remembers of how it is looked at: units and theme, kept in this browser only.
-// Inputs are none of its business.
 
 const KEY = "armill-settings";
 const CHOICES = {
   length: ["mm", "inch"],
+  feed: ["second", "minute"],
   force: ["N", "lbf"],
   theme: ["auto", "light", "dark"],
   over: ["auto", "time", "length", "line"],

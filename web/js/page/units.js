@@ -1,4 +1,4 @@
-// Lengths and forces as the settings want them read. Everything is computed, typed and saved in
+// Lengths and forces of results as the settings want them read. Everything is computed and saved in
 // millimetres and newtons.
 
 import { formatError, formatLength, formatNumber } from "./number.js";

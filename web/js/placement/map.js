@@ -1,7 +1,9 @@
 // The map as a drawing: a cell a place, coloured by its error; hatched, dotted or empty where
 // something is the matter.
 
+import { convert } from "../form/quantity.js";
 import { makeSvg } from "../page/dom.js";
+import { inLength, lengthUnit } from "../page/units.js";
 import { colour, gradient } from "../scene/ramp.js";
 
 const SIZE = 600; // of the plot's longer side, in units of the drawing
@@ -43,19 +45,19 @@ export function draw(svg, map, limit) {
   }
   const frame = makeSvg("rect", { class: "frame", x: EDGE.left, y: EDGE.top, width, height });
   const ticks = [
-    ...ticksOf(map.columns).map((v) => label(x(v), EDGE.top + height + 16, v, "middle")),
-    ...ticksOf(map.rows).map((v) => label(EDGE.left - 6, y(v) + 4, v, "end")),
+    ...ticksOf(map.columns.map(inLength)).map((v) => label(x(mm(v)), EDGE.top + height + 16, v, "middle")),
+    ...ticksOf(map.rows.map(inLength)).map((v) => label(EDGE.left - 6, y(mm(v)) + 4, v, "end")),
   ];
   const names = [
     makeSvg(
       "text",
       { x: EDGE.left + width / 2, y: EDGE.top + height + 36, "text-anchor": "middle" },
-      `${map.names[0]}, mm`,
+      `${map.names[0]}, ${lengthUnit()}`,
     ),
     makeSvg(
       "text",
       { x: 0, y: 0, "text-anchor": "middle", transform: `translate(13 ${EDGE.top + height / 2}) rotate(-90)` },
-      `${map.names[1]}, mm`,
+      `${map.names[1]}, ${lengthUnit()}`,
     ),
   ];
   const inside = ([a, b]) =>
@@ -86,6 +88,8 @@ export function draw(svg, map, limit) {
 
 const step = (values) => (values.length > 1 ? values[1] - values[0] : 1);
 const span = (values) => step(values) * values.length;
+
+const mm = (length) => convert(length, lengthUnit(), "mm");
 
 function ticksOf(values) {
   const [low, high] = [values[0], values.at(-1)];

@@ -2,7 +2,9 @@
 
 import { extent } from "../core/client.js";
 import { byId, debounced, make, makeSvg } from "../page/dom.js";
-import { formatNumber, parseNumber, plainNumber } from "../page/number.js";
+import { numberCell } from "../form/number-cell.js";
+import { shownUnit, shownValue } from "../form/shown.js";
+import { formatNumber, plainNumber } from "../page/number.js";
 import { onSetting } from "../page/settings.js";
 import { lengthText, lengthUnit } from "../page/units.js";
 import { MARKS, draw, scaleGradient } from "./map.js";
@@ -28,10 +30,10 @@ export function makePlacement(node, { job, use }) {
   const plane = select("placement-plane", { xy: "x and y", xz: "x and z", yz: "y and z" });
   const steps = select("placement-steps", Object.fromEntries(STEPS.map((n) => [n, `${n} × ${n}`])));
   steps.value = "21";
-  const numbers = ["a-from", "a-to", "b-from", "b-to", "at"].map((id) =>
-    make("input", { id: `placement-${id}`, type: "text", inputMode: "decimal", className: "value" }),
-  );
+  const cells = ["a-from", "a-to", "b-from", "b-to", "at"].map((id) => numberCell(`placement-${id}`, "mm"));
+  const numbers = cells.map(({ input }) => input);
   const labels = numbers.map((input) => make("label", { for: input.id }));
+  const understood = numbers.map((input) => make("output", { className: "understood", htmlFor: input.id }));
   const fields = make(
     "div",
     { className: "placement-fields" },
@@ -39,7 +41,7 @@ export function makePlacement(node, { job, use }) {
       ["Plane", plane],
       ["Steps", steps],
     ].map(([text, input]) => make("div", {}, make("label", { for: input.id }, text), input)),
-    ...numbers.map((input, i) => make("div", {}, labels[i], input)),
+    ...numbers.map((input, i) => make("div", {}, labels[i], input, understood[i])),
   );
   const again = make("button", { type: "button", id: "placement-compute" }, "Compute the map");
   const cancel = make("button", { type: "button", id: "placement-cancel", disabled: true }, "Cancel");
@@ -102,11 +104,11 @@ export function makePlacement(node, { job, use }) {
   function fill() {
     const [a, b, fixed] = axes().map((axis) => AXES[axis]);
     [`${a} from`, `${a} to`, `${b} from`, `${b} to`, `At ${fixed}`].forEach((text, i) =>
-      labels[i].replaceChildren(text, " ", make("span", { className: "unit" }, "mm")),
+      labels[i].replaceChildren(text, " ", make("span", { className: "unit" }, shownUnit("mm"))),
     );
     if (typed || !ranges) return;
     const [i, k, rest] = axes();
-    [...ranges[i], ...ranges[k], place()[rest]].forEach((value, n) => (numbers[n].value = plainNumber(value)));
+    [...ranges[i], ...ranges[k], place()[rest]].forEach((value, n) => cells[n].write(value));
   }
 
   async function look() {
@@ -121,14 +123,29 @@ export function makePlacement(node, { job, use }) {
     compute();
   }
 
+  /** What the five fields hold [mm], and what is wrong with each. */
+  function readCells() {
+    const [values, mistakes] = [[], []];
+    cells.forEach((cell, i) => {
+      try {
+        values[i] = cell.read();
+      } catch ({ message }) {
+        mistakes[i] = message;
+      }
+      const read = mistakes[i] ? "" : cell.understood();
+      understood[i].textContent = read && `= ${read}`;
+    });
+    return { values, mistakes: Array.from(mistakes) };
+  }
+
   async function compute(always = false) {
-    const values = numbers.map((input) => parseNumber(input.value));
-    const wrong = numbers.findIndex((_, i) => !Number.isFinite(values[i]));
+    const { values, mistakes } = readCells();
     const turned = values[0] >= values[1] ? 1 : values[2] >= values[3] ? 3 : -1;
     numbers.forEach((input, i) =>
-      i === wrong || i === turned ? input.setAttribute("aria-invalid", "true") : input.removeAttribute("aria-invalid"),
+      mistakes[i] || i === turned ? input.setAttribute("aria-invalid", "true") : input.removeAttribute("aria-invalid"),
     );
-    if (wrong >= 0) return say(`${labels[wrong].textContent}: enter a number.`);
+    const wrong = mistakes.findIndex(Boolean);
+    if (wrong >= 0) return say(`${labels[wrong].textContent}: ${mistakes[wrong]}`);
     if (turned >= 0) return say(`${labels[turned].textContent}: enter more than the start.`);
     const { workpiece_frame: frame, ...others } = job();
     const xyz = frame.xyz_mm;
@@ -222,9 +239,14 @@ export function makePlacement(node, { job, use }) {
     if (details.open) fillTable();
   }
 
+  /** A coordinate to a tenth of a millimetre or a hundredth of an inch. */
+  const coordinate = (mm) => {
+    const places = shownUnit("mm") === "mm" ? 10 : 100;
+    return plainNumber(Math.round(shownValue(mm, "mm") * places) / places);
+  };
+
   const spot = (i, k) =>
-    `${AXES[map.axes[0]]} ${plainNumber(Math.round(map.columns[i] * 10) / 10)}, ${AXES[map.axes[1]]} ` +
-    `${plainNumber(Math.round(map.rows[k] * 10) / 10)} mm`;
+    `${AXES[map.axes[0]]} ${coordinate(map.columns[i])}, ${AXES[map.axes[1]]} ${coordinate(map.rows[k])} ${shownUnit("mm")}`;
 
   function tell() {
     const at = cursor && map.at(...cursor);
@@ -251,15 +273,15 @@ export function makePlacement(node, { job, use }) {
     const head = make(
       "tr",
       {},
-      make("th", { scope: "col" }, `${map.names?.[1] ?? ""} \\ ${map.names?.[0] ?? ""}, mm`),
-      ...map.columns.map((v) => make("th", { scope: "col" }, plainNumber(Math.round(v)))),
+      make("th", { scope: "col" }, `${map.names?.[1] ?? ""} \\ ${map.names?.[0] ?? ""}, ${shownUnit("mm")}`),
+      ...map.columns.map((v) => make("th", { scope: "col" }, coordinate(v))),
     );
     const short = ["", " ·", " ⁄", "–"];
     const body = map.rows.map((row, k) =>
       make(
         "tr",
         {},
-        make("th", { scope: "row" }, plainNumber(Math.round(row))),
+        make("th", { scope: "row" }, coordinate(row)),
         ...map.columns.map((_, i) => {
           const at = map.at(i, k);
           return make(
@@ -313,7 +335,11 @@ export function makePlacement(node, { job, use }) {
   whole.addEventListener("click", () => ((typed = false), fill(), compute()));
   cancel.addEventListener("click", () => running?.abort());
   details.addEventListener("toggle", () => details.open && fillTable());
-  onSetting(() => map && show());
+  onSetting(() => {
+    for (const cell of cells) cell.relabel();
+    fill();
+    if (map) show();
+  });
   return { look };
 }
 

@@ -36,7 +36,7 @@ export function markdown({ summary, job, standard, link }) {
     changed.length ? "Inputs that differ from the default job:" : "Inputs: the default job.",
     ...changed.map(
       ({ field, own, other }) =>
-        `- ${field.label}: ${escaped(inWords(field, own))} (default ${escaped(inWords(field, other))})`,
+        `- ${field.label}: ${escaped(inWords(field, own, { asSaved: true }))} (default ${escaped(inWords(field, other, { asSaved: true }))})`,
     ),
     "",
     `${link ? `[Open in Armill](${link}), ` : ""}fingerprint \`${summary.fingerprint}\`, model ${summary.model}`,

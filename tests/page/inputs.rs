@@ -1,0 +1,152 @@
+//! Inputs as people have them: numbers with units and sums, in mm or inch, frames as a brand counts
+//! them, robots by search, a job with a name.
+
+use crate::browser::{DESKTOP, Key, Page, Result, visit};
+use crate::common::run;
+use crate::{current, shows, stale, text, unfold};
+use serde_json::{Value, json};
+
+/// What the field of `input` says it has understood.
+async fn understood(page: &Page, input: &str) -> Result<String> {
+    let said = page
+        .js(&format!(
+            "return document.querySelector('{input}').closest('.field').querySelector('.understood').textContent"
+        ))
+        .await?;
+    Ok(said.as_str().unwrap_or_default().to_owned())
+}
+
+/// The job that the page has.
+async fn job(page: &Page) -> Result<Value> {
+    page.js("dispatchEvent(new Event('pagehide')); \
+             return JSON.parse(sessionStorage.getItem('armill-inputs')).state.job")
+        .await
+}
+
+/// Chooses a unit in the settings.
+async fn set(page: &Page, setting: &str) -> Result {
+    page.js(&format!("document.querySelector('#setting-{setting}').click()")).await.map(|_| ())
+}
+
+#[test]
+fn numbers_take_units_and_sums_and_a_doubtful_comma_is_asked_about() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        for (typed, said, feed) in [
+            ("4800 mm/min", "= 80 mm/s", 80.0),
+            ("2*(30+5)", "= 70 mm/s", 70.0),
+            ("1 1/2 in/s", "= 38.1 mm/s", 38.1),
+            ("62,5", "= 62.5 mm/s", 62.5),
+            ("90", "", 90.0),
+        ] {
+            page.type_into("#motion-feed_mm_s", typed).await?;
+            shows(page, &run(&[("motion.feed_mm_s", json!(feed))])).await?;
+            assert_eq!(understood(page, "#motion-feed_mm_s").await?, said, "{typed}");
+        }
+        // Once it is left, an expression is its number.
+        page.type_into("#motion-feed_mm_s", "160/2").await?;
+        page.press(char::from(Key::Tab)).await?;
+        assert_eq!(page.value("#motion-feed_mm_s").await?, "80");
+
+        // One thousand, or one? Each answer is a button.
+        for (answer, value) in [(1, 1000.0), (2, 1.0)] {
+            page.type_into("#motion-acceleration_mm_s2", "1,000").await?;
+            stale(page).await?;
+            let error = "#motion-acceleration_mm_s2-error";
+            assert!(page.text(error).await?.contains("Did you mean 1000 or 1.000?"));
+            assert!(text(page, "alert").await?.contains("Did you mean 1000 or 1.000?"));
+            page.click(&format!("{error} button:nth-of-type({answer})")).await?;
+            shows(
+                page,
+                &run(&[("motion.feed_mm_s", json!(80)), ("motion.acceleration_mm_s2", json!(value))]),
+            )
+            .await?;
+            assert_eq!(text(page, &error[1..]).await?, "");
+        }
+
+        // A unit of another kind is refused with those that fit.
+        page.type_into("#motion-acceleration_mm_s2", "5 N").await?;
+        stale(page).await?;
+        let error = text(page, "motion-acceleration_mm_s2-error").await?;
+        assert!(error.contains("“5 N” is a force") && error.contains("in mm/s², m/s² or in/s²"), "{error}");
+        page.type_into("#motion-acceleration_mm_s2", "0.2 m/s²").await?;
+
+        // In vectors and tables as well.
+        page.type_into("#path-center_mm-x", "1 in").await?;
+        shows(page, &run(&[("motion.feed_mm_s", json!(80)), ("path.center_mm", json!([25.4, 0, 0]))]))
+            .await?;
+        page.choose("#path-kind", "polyline").await?;
+        page.type_into("#path-points_mm", "60 cm, -200, 4 in\n700 0 100\n600; 200; 100").await?;
+        current(page).await?;
+        assert_eq!(
+            job(page).await?["path"]["points_mm"],
+            json!([[600, -200, 101.6], [700, 0, 100], [600, 200, 100]])
+        );
+        page.type_into("#path-points_mm", "1,000 5\n700 0 100").await?;
+        stale(page).await?;
+        assert!(text(page, "path-points_mm-error").await?.contains("Line 1: commas or spaces"));
+        Ok(())
+    })
+}
+
+#[test]
+fn inches_are_shown_and_typed_and_the_job_stays_what_it_is() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        // Numbers that no short text in inches has.
+        page.type_into("#path-radius_mm", "251.7").await?;
+        page.type_into("#path-center_mm-y", "33.3").await?;
+        let before = run(&[("path.radius_mm", json!(251.7)), ("path.center_mm", json!([0, 33.3, 0]))]);
+        shows(page, &before).await?;
+        let held = job(page).await?;
+        set(page, "length-inch").await?;
+        set(page, "feed-minute").await?;
+        // 251.7 / 25.4 and 100 * 60 / 25.4, to seven digits.
+        assert_eq!(page.value("#path-radius_mm").await?, "9.909449");
+        assert_eq!(page.value("#motion-feed_mm_s").await?, "236.2205");
+        assert!(text(page, "path-radius_mm-label").await?.ends_with(" in"));
+        assert!(text(page, "motion-feed_mm_s-label").await?.ends_with(" in/min"));
+        // The default of 300 mm, and 10000 mm at most.
+        let help = text(page, "path-radius_mm-help").await?;
+        assert!(help.contains("393.7008, default 11.81102 in."), "{help}");
+        assert_eq!(job(page).await?, held, "looking at it changes nothing");
+        // An edit writes what was edited, and its neighbours keep every bit.
+        page.type_into("#path-center_mm-x", "0.5").await?;
+        current(page).await?;
+        assert_eq!(job(page).await?["path"]["center_mm"], json!([12.7, 33.3, 0]));
+        page.type_into("#path-radius_mm", "254 mm").await?;
+        current(page).await?;
+        assert_eq!(understood(page, "#path-radius_mm").await?, "= 10 in");
+        page.type_into("#motion-feed_mm_s", "240").await?;
+        shows(
+            page,
+            &run(&[
+                ("path.radius_mm", json!(254)),
+                ("path.center_mm", json!([12.7, 33.3, 0])),
+                ("motion.feed_mm_s", json!(101.6)),
+            ]),
+        )
+        .await?;
+        // What is out of range says so in the same unit.
+        page.type_into("#path-radius_mm", "1000").await?;
+        stale(page).await?;
+        let error = text(page, "path-radius_mm-error").await?;
+        assert!(
+            error.starts_with("Radius is 1000 in; legal is") && error.contains("to 393.7008 in"),
+            "{error}"
+        );
+        page.click("#undo").await?;
+        current(page).await?;
+        set(page, "length-mm").await?;
+        set(page, "feed-second").await?;
+        assert_eq!(page.value("#path-radius_mm").await?, "254");
+        assert_eq!(page.value("#path-center_mm-y").await?, "33.3");
+        assert_eq!(page.value("#motion-feed_mm_s").await?, "101.6");
+        // Undo goes through it all, whatever unit it was typed in.
+        unfold(page, "motion").await?;
+        for _ in 0..3 {
+            page.click("#undo").await?;
+        }
+        shows(page, &before).await
+    })
+}
