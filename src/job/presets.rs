@@ -24,6 +24,10 @@ pub struct RobotPreset {
     pub name: String,
     /// Manufacturer.
     pub maker: &'static str,
+    /// Mass at the flange that the maker rates it for [kg].
+    pub payload_kg: f64,
+    /// Distance that the wrist's centre reaches from axis 1 [mm].
+    pub reach_mm: f64,
     /// Source of the geometry and the first natural frequency, and how far to trust it.
     pub note: String,
     /// Source of the joint stiffness, and how far to trust it.
@@ -34,6 +38,8 @@ pub struct RobotPreset {
     pub world_note: String,
     /// Whether the stiffness is only an order of magnitude.
     pub stiffness_assumed: bool,
+    /// How well the stiffness is known.
+    pub stiffness: StiffnessOrigin,
     /// Rows of the modified Denavit-Hartenberg table [deg, mm].
     pub modified_dh: [DhRow; 6],
     /// Ortho-parallel parameters [mm, deg].
@@ -46,6 +52,18 @@ pub struct RobotPreset {
     pub joint_compliance_rad_per_nm: [f64; 6],
 }
 
+/// Where a robot's joint stiffness comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum StiffnessOrigin {
+    /// A published set, measured on each joint.
+    Measured,
+    /// A published set, in part estimated.
+    Published,
+    /// A rule for the payload: an order of magnitude.
+    Guessed,
+}
+
 /// A material in the library. Keys of other models are omitted.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct MaterialPreset {
@@ -55,6 +73,10 @@ pub struct MaterialPreset {
     pub name: &'static str,
     /// Source of the coefficients, and how far to trust them.
     pub note: String,
+    /// Possible error of a force, either way [%].
+    pub spread_percent: f64,
+    /// How far to trust the record: high, medium or low.
+    pub confidence: &'static str,
     /// Tangential cutting coefficient [N/mm^2].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ktc_n_mm2: Option<f64>,
@@ -109,6 +131,13 @@ impl RobotPreset {
             id: robot.id,
             name: robot.name(),
             maker: robot.maker,
+            payload_kg: robot.payload_kg,
+            reach_mm: robot.wrist_reach_mm(),
+            stiffness: match (robot.stiffness_assumed, robot.stiffness_measured) {
+                (true, _) => StiffnessOrigin::Guessed,
+                (false, true) => StiffnessOrigin::Measured,
+                (false, false) => StiffnessOrigin::Published,
+            },
             note: format!("{} {}", robot.geometry_note, robot.mode_note),
             world_mm: robot.world_mm,
             world_note: robot.world_note(),
@@ -125,7 +154,14 @@ impl RobotPreset {
 
 impl MaterialPreset {
     fn of(material: &Material) -> Self {
-        let preset = Self { id: material.id, name: material.name, note: material.note(), ..Self::default() };
+        let preset = Self {
+            id: material.id,
+            name: material.name,
+            note: material.note(),
+            spread_percent: material.spread,
+            confidence: material.confidence,
+            ..Self::default()
+        };
         // Converted back from SI and rounded, as the table does not have the last bits.
         let number = |value: f64, unit: f64| Some((value / unit * 1e9).round() / 1e9);
         match &material.model {

@@ -43,6 +43,8 @@ pub struct Preset {
     pub joint_compliance: [f64; 6],
     /// Whether the compliance is only the order-of-magnitude estimate of [`assumed_compliance`].
     pub stiffness_assumed: bool,
+    /// Whether each joint's compliance was measured on it.
+    pub stiffness_measured: bool,
     /// How well each joint's stiffness is known.
     pub stiffness_spread: [InputSpread; 6],
     /// Where the geometry comes from and how far to trust it.
@@ -59,6 +61,13 @@ impl Preset {
     /// Display name.
     pub fn name(&self) -> String {
         format!("{} {}", self.maker, self.model)
+    }
+
+    /// Distance of the wrist's centre from axis 1 with the arm stretched [mm], to a millimetre: what
+    /// makers call the reach.
+    pub fn wrist_reach_mm(&self) -> f64 {
+        let [a1, a2, _, _, c2, c3, _] = self.opw.lengths_mm;
+        (a1 + c2 + math::hypot(a2, c3)).round()
     }
 
     /// Where the controller counts from, in SI.
@@ -228,6 +237,7 @@ fn preset(mut row: impl FnMut() -> &'static str) -> Preset {
             None => assumed_compliance(payload),
         },
         stiffness_assumed: known.is_none(),
+        stiffness_measured: known.as_ref().is_some_and(|set| set.measured == [true; 6]),
         stiffness_spread: std::array::from_fn(|joint| match &known {
             Some(set) if set.measured[joint] => set.spread,
             _ => InputSpread::factor(NOT_MEASURED),

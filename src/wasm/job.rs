@@ -32,12 +32,13 @@ export interface Opw {
 export type FieldValue = number | string | number[] | number[][] | string[] | DhRow[] | Opw | null;
 export interface RobotPreset {
   id: string; name: string; maker: string; note: string; stiffness_note: string; stiffness_assumed: boolean;
+  payload_kg: number; reach_mm: number; stiffness: "measured" | "published" | "guessed";
   world_mm: number | null; world_note: string;
   joint_3: "serial" | "pendant"; modified_dh: DhRow[]; opw: Opw;
   joint_limits_deg: [number, number][] | null; joint_compliance_rad_per_nm: number[];
 }
 export interface MaterialPreset {
-  id: string; name: string; note: string; ktc_n_mm2?: number; krc_n_mm2?: number; kac_n_mm2?: number;
+  id: string; name: string; note: string; spread_percent: number; confidence: string; ktc_n_mm2?: number; krc_n_mm2?: number; kac_n_mm2?: number;
   kte_n_mm?: number; kre_n_mm?: number; kae_n_mm?: number; kc11_n_mm2?: number; mc?: number; orthogonal?: boolean;
 }
 export interface Presets { robots: RobotPreset[]; materials: MaterialPreset[]; }

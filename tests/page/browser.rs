@@ -200,12 +200,22 @@ impl Page {
         self.element(css).await?.send_keys(&keys).await.map_err(|error| within(css, error))
     }
 
-    /// Chooses an option of a `<select>` by its value.
+    /// Chooses an option of a `<select>` by its value; the one behind a searched list is set, as it
+    /// is not on show.
     ///
     /// # Errors
     /// If there is no such option.
     pub async fn choose(&self, css: &str, value: &str) -> Result {
-        self.element(css).await?.select_by_value(value).await.map_err(|error| within(css, error))
+        let element = self.element(css).await?;
+        if element.prop("hidden").await?.as_deref() != Some("true") {
+            return element.select_by_value(value).await.map_err(|error| within(css, error));
+        }
+        let (select, value) = (json!(css), json!(value));
+        let set = self.js(&format!(
+            "const select = document.querySelector({select}); select.value = {value}; \
+             select.dispatchEvent(new Event('change', {{ bubbles: true }})); return select.selectedIndex >= 0"
+        ));
+        if set.await? == json!(true) { Ok(()) } else { Err(format!("{css} has no option {value}").into()) }
     }
 
     /// Presses keys one after the other, wherever the focus is: text, [`Key`]s, or both by

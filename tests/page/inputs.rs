@@ -150,3 +150,63 @@ fn inches_are_shown_and_typed_and_the_job_stays_what_it_is() -> Result {
         shows(page, &before).await
     })
 }
+
+#[test]
+fn a_robot_is_found_by_what_is_known_of_it() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        unfold(page, "robot").await?;
+        let offered = "return [...document.querySelectorAll('#robot-preset-list [role=option]')].map(option => option.textContent)";
+        let find = async |query: &str| -> Result<Vec<String>> {
+            page.type_into("#robot-preset-search", query).await?;
+            Ok(serde_json::from_value(page.js(offered).await?)?)
+        };
+        let robots = armill::job::presets::presets().robots;
+        for (query, fits) in [
+            ("60 kg", robots.iter().filter(|robot| robot.payload_kg == 60.0).count()),
+            (
+                "measured",
+                robots.iter().filter(|robot| !robot.stiffness_assumed && robot.id.contains("240")).count(),
+            ),
+            ("guessed", robots.iter().filter(|robot| robot.stiffness_assumed).count()),
+        ] {
+            let names = find(query).await?;
+            assert!(
+                names.len() == fits && names.iter().all(|name| name.contains(query)),
+                "{query}: {names:?}"
+            );
+        }
+        assert_eq!(find("no such arm").await?, [""; 0]);
+        assert!(page.text(".search-list .none").await?.contains("None"));
+        // Until one is taken, nothing changes, and leaving shows what is chosen.
+        page.press(char::from(Key::Escape)).await?;
+        assert_eq!(page.value("#robot-preset-search").await?, "Stäubli RX-90");
+        shows(page, &run(&[])).await?;
+        assert!(find("kr210 r2700-2").await?[0].contains("reach 2.70 m"));
+        page.press(char::from(Key::Enter)).await?;
+        assert_eq!(page.value("#robot-preset").await?, "kuka-kr-210-r2700-2");
+        assert_eq!(page.value("#robot-preset-search").await?, "KUKA KR 210 R2700-2");
+        shows(page, &run(&[("robot", json!({"preset": "kuka-kr-210-r2700-2"}))])).await?;
+        // By arrows, from the chosen one on; headings are the makers.
+        page.press(char::from(Key::Down)).await?;
+        let headings = page
+            .js("return [...document.querySelectorAll('#robot-preset-list [role=group]')].map(group => group.ariaLabel)")
+            .await?;
+        assert_eq!(headings, json!(["Stäubli", "KUKA", "ABB", "Yaskawa", "FANUC", "My own numbers"]));
+        page.press(format!("{}{}", Key::Up, Key::Down)).await?;
+        page.press(char::from(Key::Enter)).await?;
+        assert_eq!(page.value("#robot-preset").await?, "kuka-kr-210-r2700-2");
+        // No name is cut off: what is longer than the box stands below it in full.
+        unfold(page, "material").await?;
+        for material in armill::job::presets::presets().materials {
+            page.choose("#material-preset", material.id).await?;
+            let whole = page
+                .js("const box = document.querySelector('#material-preset-search'); \
+                     return box.scrollWidth <= box.clientWidth || \
+                     box.closest('.search-list').querySelector('.chosen').textContent.includes(box.value)")
+                .await?;
+            assert_eq!(whole, json!(true), "{}", material.name);
+        }
+        Ok(())
+    })
+}

@@ -1,5 +1,5 @@
 // One editor per kind of field. An editor is { node, inputs, read(), write(value), at(rest),
-// mark(line), show(line), step(count), understood(), relabel() } of which mark and show are for texts and the last three
+// mark(line), show(line), step(count), understood(), relabel()} of which mark and show are for texts and the last three
 // for numbers alone. read() gives the value or throws a Mistake; at(rest) gives the input that an error path such as
 // "[1].a_mm" means; understood() is what was read of typed expressions; relabel() writes the units of the settings.
 
@@ -7,6 +7,7 @@ import { make } from "../page/dom.js";
 import { allUnderstood, numberCell } from "./number-cell.js";
 import { listing } from "./program-text.js";
 import { rowsEditor } from "./rows.js";
+import { searchList } from "./search-list.js";
 import { shownUnit } from "./shown.js";
 
 /** The order in which tables of the field print a row. */
@@ -37,7 +38,9 @@ const ROWS = {
 
 export const idOf = (path) => path.replaceAll(".", "-");
 
-export function editorFor(field) {
+/** The editor of a field; `badges` are those of the libraries' entries. */
+export function editorFor(field, { badges }) {
+  if (field.path.endsWith(".preset")) return searchList(idOf(field.path), field.choices, badges);
   const columns = Object.keys(ROWS).find((ending) => field.path.endsWith(ending));
   if (columns) return rowsEditor(idOf(field.path), ROWS[columns], { lines: field.default.length ? 8 : 2 });
   if (field.kind === "number" && field.choices) return numberOrWord(field, field.choices[0]);
@@ -92,15 +95,8 @@ function numberOrWord(field, { value: word, label }) {
 }
 
 function choice(field) {
-  const input = make("select", { id: idOf(field.path) });
-  const groups = new Map();
-  for (const { value, label, heading } of field.choices) {
-    if (heading && !groups.has(heading)) {
-      groups.set(heading, make("optgroup", { label: heading }));
-      input.append(groups.get(heading));
-    }
-    (groups.get(heading) ?? input).append(make("option", { value }, label));
-  }
+  const options = field.choices.map(({ value, label }) => make("option", { value }, label));
+  const input = make("select", { id: idOf(field.path) }, ...options);
   return single(
     field,
     input,

@@ -2,6 +2,7 @@
 
 import { byId, make, sentence } from "../page/dom.js";
 import { onSetting } from "../page/settings.js";
+import { badgesOf } from "./badges.js";
 import { editorFor, idOf } from "./editors.js";
 import { FROM_STOCK } from "../job/job.js";
 import { scrub } from "./drag-number.js";
@@ -41,9 +42,10 @@ export class Form {
     this.#onchange = onchange;
     const notes = Object.fromEntries([...presets.robots, ...presets.materials].map(({ id, note }) => [id, note]));
     this.#robots = Object.fromEntries(presets.robots.map((robot) => [robot.id, robot]));
+    const badges = badgesOf(presets);
     for (const field of fields.map(withOwn)) {
       if (!this.#groups.has(field.group)) this.#addGroup(parent, field.group);
-      const row = this.#row(field, notes);
+      const row = this.#row(field, editorFor(field, { badges }), notes);
       this.#groups.get(field.group).body.append(row.node);
       this.#rows.push(row);
     }
@@ -143,13 +145,12 @@ export class Form {
     this.#groups.set(name, { details, digest, body });
   }
 
-  #row(field, notes) {
+  #row(field, editor, notes) {
     const id = idOf(field.path);
-    const editor = editorFor(field);
     const grouped = editor.node.getAttribute("role") === "group" || editor.node.tagName === "TABLE";
     const title = make(grouped ? "span" : "label", { className: "label", id: `${id}-label` }, field.label);
     if (grouped) editor.node.setAttribute("aria-labelledby", title.id);
-    else title.htmlFor = id;
+    else title.htmlFor = editor.inputs[0].id;
     const unit = this.#job.otherUnit(field) ? this.#unitButton(field) : make("span", { className: "unit" });
     if (field.unit) title.append(" ", unit);
     const reset = make("button", { type: "button", className: "reset" }, "↺");
@@ -158,7 +159,8 @@ export class Form {
     const note = make("p", { className: "note", id: `${id}-note` });
     const error = make("p", { className: "error", id: `${id}-error` });
     for (const input of editor.inputs) input.setAttribute("aria-describedby", `${id}-error ${id}-help`);
-    const wide = grouped || editor.inputs[0].tagName === "TEXTAREA" || field.kind === "text";
+    const wide =
+      grouped || editor.inputs[0].tagName === "TEXTAREA" || field.kind === "text" || editor.inputs.length > 1;
     const head = make("div", { className: "head" }, title, helpButton(field, help), reset);
     const node = make(
       "div",
@@ -173,7 +175,7 @@ export class Form {
     const row = { field, editor, node, reset, unit, help, understood, error, note, notes, mistake: false, message: "" };
     label(row);
     // Some assistive tools and drivers choose an option with "change" alone.
-    const kind = editor.inputs[0].tagName === "SELECT" ? "change" : "input";
+    const kind = editor.inputs.some(({ tagName }) => tagName === "SELECT") ? "change" : "input";
     node.addEventListener(kind, ({ target, detail }) =>
       this.#edited(row, kind === "change" || isBox(target) ? undefined : field.path, detail === "stepped"),
     );
@@ -284,7 +286,7 @@ export class Form {
 
   /** The library's robot, if the job has one. */
   #preset() {
-    return this.#robots[this.#job.get(this.#rows.find(({ field }) => field.path === "robot.preset").field)];
+    return this.#robots[this.#job.valueAt("robot.preset")];
   }
 
   /** Beside the numbers: an order of magnitude must not look like a measurement. */

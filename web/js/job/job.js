@@ -102,6 +102,11 @@ export class Job {
     return this.#presetOf(parentOf(field.path))[keyOf(field.path)] ?? this.#standard(field);
   }
 
+  /** The value at a path that has a field. */
+  valueAt(path) {
+    return this.get(this.#find(path));
+  }
+
   /** Whether the job has a stock. */
   get hasStock() {
     return (this.#read("stock.kind") ?? "none") !== "none";

@@ -1,0 +1,152 @@
+// A choice of many, found by typing: an editable combobox with a list under headings. A select that
+// is not shown holds the value, so that a form, a test or an assistive tool may set it as any other.
+
+import { make } from "../page/dom.js";
+import { found } from "./search.js";
+
+/**
+ * An editor for `choices`, `{ value, label, heading }`. `badges` has a few words for each value, `{ text, kind }`, by which
+ * it is found too.
+ */
+export function searchList(id, choices, badges) {
+  const select = make("select", { id, hidden: true, tabIndex: -1 }, ...grouped(choices, optgroup, option));
+  const list = make("div", { id: `${id}-list`, className: "options", role: "listbox", hidden: true });
+  const input = make("input", {
+    id: `${id}-search`,
+    type: "text",
+    role: "combobox",
+    autocomplete: "off",
+    spellcheck: false,
+    "aria-autocomplete": "list",
+    "aria-expanded": "false",
+    "aria-controls": list.id,
+  });
+  const chosen = make("p", { className: "chosen" });
+  const none = make("p", { className: "none", hidden: true, role: "status" }, "None in the list fits.");
+  const node = make("div", { className: "search-list" }, input, list, none, chosen, select);
+  list.setAttribute("aria-labelledby", `${id}-label`);
+
+  const badgesOf = (value) => badges.get(value) ?? [];
+  const textOf = ({ value, label }) => [label, ...badgesOf(value).map(({ text }) => text)].join(" ");
+  const options = () => [...list.querySelectorAll("[role=option]")];
+  const isOpen = () => !list.hidden;
+  let active; // the option that Enter takes
+
+  function point(target) {
+    active?.classList.remove("active");
+    active = target;
+    active?.classList.add("active");
+    active?.scrollIntoView({ block: "nearest" });
+    if (active) input.setAttribute("aria-activedescendant", active.id);
+    else input.removeAttribute("aria-activedescendant");
+  }
+
+  function open(query) {
+    const fitting = found(choices, query, textOf);
+    list.replaceChildren(...grouped(fitting, group, entry));
+    list.hidden = fitting.length === 0;
+    none.hidden = fitting.length > 0;
+    input.setAttribute("aria-expanded", String(isOpen()));
+    point(query ? options()[0] : options().find(({ dataset }) => dataset.value === select.value));
+  }
+
+  function close() {
+    list.hidden = none.hidden = true;
+    input.setAttribute("aria-expanded", "false");
+    point(undefined);
+    show();
+  }
+
+  /** What is chosen, with its badges; a name that is longer than the input stands in full below. */
+  function show() {
+    const { label = "" } = choices.find(({ value }) => value === select.value) ?? {};
+    if (input.value !== label) input.value = label;
+    const fits = input.clientWidth === 0 ? label.length <= FITS : input.scrollWidth <= input.clientWidth;
+    chosen.replaceChildren(...(fits ? [] : [make("span", {}, label)]), ...badgesOf(select.value).map(badge));
+  }
+
+  function take(value) {
+    select.value = value;
+    close();
+    select.dispatchEvent(new Event("change", { bubbles: true }));
+  }
+
+  function entry({ value, label }) {
+    const node = make(
+      "div",
+      { id: `${id}-${value}`, role: "option", "aria-selected": String(value === select.value) },
+      make("span", { className: "name" }, label),
+      " ",
+      make("span", { className: "badges" }, ...badgesOf(value).flatMap((each) => [badge(each), " "])),
+    );
+    node.dataset.value = value;
+    return node;
+  }
+
+  // What is typed here is a question, no edit of the job.
+  for (const kind of ["input", "change"]) input.addEventListener(kind, (event) => event.stopPropagation());
+  input.addEventListener("input", () => open(input.value));
+  input.addEventListener("focus", () => input.select());
+  input.addEventListener("click", () => isOpen() || open(""));
+  input.addEventListener("blur", close);
+  list.addEventListener("pointerdown", (event) => event.preventDefault()); // the focus stays in the input
+  list.addEventListener("click", ({ target }) => {
+    const picked = target.closest("[role=option]");
+    if (picked) take(picked.dataset.value);
+  });
+  input.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey) return;
+    const { key } = event;
+    if (key === "Escape" && (isOpen() || !none.hidden)) return (event.preventDefault(), close());
+    if (key === "Enter" && isOpen()) return (event.preventDefault(), active && take(active.dataset.value));
+    const step = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 }[key];
+    if (!step) return;
+    event.preventDefault();
+    if (!isOpen()) return open("");
+    const all = options();
+    const at = all.indexOf(active);
+    point(all[at < 0 ? (step > 0 ? 0 : all.length - 1) : Math.min(all.length - 1, Math.max(0, at + step))]);
+  });
+
+  return {
+    node,
+    inputs: [input, select],
+    read: () => select.value,
+    write(value) {
+      select.value = value;
+      if (!isOpen()) show();
+    },
+    at: () => input,
+  };
+}
+
+const FITS = 36; // characters of a name, where the input is not laid out yet
+
+const badge = ({ text, kind }) => make("span", { className: `badge ${kind ?? ""}`.trim() }, text);
+
+/** Nodes of the items in order, those of one heading inside one node of it. */
+function grouped(items, groupNode, itemNode) {
+  const nodes = [];
+  const groups = new Map();
+  for (const item of items) {
+    const { heading } = item;
+    if (heading && !groups.has(heading)) {
+      groups.set(heading, groupNode(heading));
+      nodes.push(groups.get(heading));
+    }
+    if (heading) groups.get(heading).append(itemNode(item));
+    else nodes.push(itemNode(item));
+  }
+  return nodes;
+}
+
+const optgroup = (label) => make("optgroup", { label });
+
+const option = ({ value, label }) => make("option", { value }, label);
+
+const group = (heading) =>
+  make(
+    "div",
+    { role: "group", "aria-label": heading },
+    make("div", { className: "heading", "aria-hidden": "true" }, heading),
+  );
