@@ -4,6 +4,9 @@
 use crate::browser::{DESKTOP, Key, Page, Result, visit};
 use crate::common::run;
 use crate::{current, shows, stale, text, unfold};
+use armill::export::orientation::{about_moving_xyz, quaternion};
+use armill::math::Pose;
+use nalgebra::Vector3;
 use serde_json::{Value, json};
 
 /// What the field of `input` says it has understood.
@@ -207,6 +210,96 @@ fn a_robot_is_found_by_what_is_known_of_it() -> Result {
                 .await?;
             assert_eq!(whole, json!(true), "{}", material.name);
         }
+        Ok(())
+    })
+}
+
+/// Pastes a text into a box.
+async fn paste(page: &Page, css: &str, text: &str) -> Result {
+    page.js(&format!(
+        "const data = new DataTransfer(); data.setData('text/plain', {}); \
+         document.querySelector('{css}').dispatchEvent(new ClipboardEvent('paste', \
+         {{ clipboardData: data, bubbles: true, cancelable: true }}))",
+        json!(text)
+    ))
+    .await
+    .map(|_| ())
+}
+
+#[test]
+fn frames_are_written_as_the_brand_counts_them() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        unfold(page, "frames").await?;
+        // The page's conversions are the core's.
+        for rpy in [[10.0, 20.0, 30.0], [-170.0, 45.0, 100.0], [5.0, -80.0, -120.0]] {
+            let rotation = Pose::from_xyz_rpy(Vector3::zeros(), rpy.map(f64::to_radians)).rotation;
+            let turned = about_moving_xyz(&rotation).map(f64::to_degrees);
+            let quaternion = quaternion(&rotation);
+            let made = page
+                .with_module(
+                    "form/orientation",
+                    &format!("({{ CONVENTIONS }}) => ['Stäubli', 'ABB'].map((brand) => CONVENTIONS[brand].of({rpy:?}))"),
+                )
+                .await?;
+            let made: Vec<Vec<f64>> = serde_json::from_value(made)?;
+            let sign = quaternion[0].signum();
+            // The page rounds to ten decimals.
+            for (page, core) in
+                made[0].iter().zip(turned).chain(made[1].iter().zip(quaternion.map(|q| sign * q)))
+            {
+                assert!((page - core).abs() < 1e-9, "{rpy:?}: {made:?}");
+            }
+        }
+        let names = "return [...document.querySelectorAll('#tool_frame-rpy_deg .vector:not([hidden]) span')].map(name => name.textContent)";
+        for (robot, shown) in [
+            ("kuka-kr-210-r2700-2", json!(["A", "B", "C"])),
+            ("abb-irb-6700-200-2-60", json!(["q1", "q2", "q3", "q4"])),
+            ("fanuc-r-2000ic-165f", json!(["W", "P", "R"])),
+            ("opw", json!(["roll", "pitch", "yaw"])),
+            ("staubli-rx90", json!(["Rx", "Ry", "Rz"])),
+        ] {
+            let robot = page
+                .js(&format!(
+                    "const options = [...document.querySelector('#robot-preset').options].map(({{ value }}) => value); \
+                     return options.find((value) => value === '{robot}') ?? options.find((value) => value.startsWith('{}'))",
+                    &robot[..3]
+                ))
+                .await?;
+            page.choose("#robot-preset", robot.as_str().unwrap_or_default()).await?;
+            assert_eq!(page.js(names).await?, shown);
+        }
+        page.choose("#robot-preset", "kuka-kr-210-r2700-2").await?;
+        // A whole frame is pasted into any of its boxes, in one step, and is the same in any language.
+        paste(page, "#tool_frame-xyz_mm-y", "{X 250, Y 0, Z 200, A 10, B 90, C 0}").await?;
+        assert_eq!(
+            job(page).await?["tool_frame"],
+            json!({ "xyz_mm": [250, 0, 200], "rpy_deg": [0, 90, 10] })
+        );
+        assert_eq!(page.value("#tool_frame-rpy_deg-yaw").await?, "10");
+        page.click("#undo").await?;
+        assert_eq!(job(page).await?["tool_frame"], json!({ "xyz_mm": [0, 0, 0], "rpy_deg": [0, 0, 0] }));
+        paste(page, "#workpiece_frame-rpy_deg-pitch", "X: 900.0 Y: 0.0 Z: -5.5 W: 1.0 P: 2.0 R: 3.0").await?;
+        assert_eq!(
+            job(page).await?["workpiece_frame"],
+            json!({ "xyz_mm": [900, 0, -5.5], "rpy_deg": [1, 2, 3] })
+        );
+        // The first of KUKA's boxes is its A, the yaw of the job.
+        page.type_into("#workpiece_frame-rpy_deg .vector:not([hidden]) .part:first-child input", "30")
+            .await?;
+        assert_eq!(job(page).await?["workpiece_frame"]["rpy_deg"], json!([1, 2, 30]));
+        // How a spindle sits: one choice.
+        page.choose("#tool_frame-rpy_deg-spindle", "minus-x").await?;
+        assert_eq!(job(page).await?["tool_frame"]["rpy_deg"], json!([0, -90, 0]));
+        assert_eq!(page.value("#tool_frame-rpy_deg-pitch").await?, "-90");
+        // A quaternion is no rotation until its parts belong together.
+        page.choose("#program-controller", "abb").await?;
+        page.type_into("#tool_frame-rpy_deg-q1", "1").await?;
+        stale(page).await?;
+        assert!(text(page, "tool_frame-rpy_deg-error").await?.contains("a rotation needs 1"));
+        page.type_into("#tool_frame-rpy_deg-q3", "0").await?;
+        page.wait_for("document.querySelector('#tool_frame-rpy_deg-error').textContent === ''", 10.0).await?;
+        assert_eq!(job(page).await?["tool_frame"]["rpy_deg"], json!([0, 0, 0]));
         Ok(())
     })
 }

@@ -5,6 +5,7 @@
 
 import { make } from "../page/dom.js";
 import { allUnderstood, numberCell } from "./number-cell.js";
+import { orientationEditor } from "./orientation-editor.js";
 import { listing } from "./program-text.js";
 import { rowsEditor } from "./rows.js";
 import { searchList } from "./search-list.js";
@@ -38,11 +39,13 @@ const ROWS = {
 
 export const idOf = (path) => path.replaceAll(".", "-");
 
-/** The editor of a field; `badges` are those of the libraries' entries. */
-export function editorFor(field, { badges }) {
+/** The editor of a field; `badges` are those of the libraries' entries, `brand()` says whose robot the job has. */
+export function editorFor(field, { badges, brand }) {
   if (field.path.endsWith(".preset")) return searchList(idOf(field.path), field.choices, badges);
   const columns = Object.keys(ROWS).find((ending) => field.path.endsWith(ending));
   if (columns) return rowsEditor(idOf(field.path), ROWS[columns], { lines: field.default.length ? 8 : 2 });
+  if (field.path.endsWith("_frame.rpy_deg"))
+    return orientationEditor(idOf(field.path), brand, { spindle: field.path === "tool_frame.rpy_deg" });
   if (field.kind === "number" && field.choices) return numberOrWord(field, field.choices[0]);
   if (field.kind === "choice") return choice(field);
   if (field.kind === "set") return checkboxes(field);
@@ -122,11 +125,7 @@ function checkboxes(field) {
 }
 
 function vector(field) {
-  const names = field.path.endsWith("range_deg")
-    ? ["from", "to"]
-    : field.path.endsWith("rpy_deg")
-      ? ["roll", "pitch", "yaw"]
-      : ["x", "y", "z"];
+  const names = field.path.endsWith("range_deg") ? ["from", "to"] : ["x", "y", "z"];
   const id = idOf(field.path);
   const cells = names.map((name) => numberCell(`${id}-${name}`, field.unit));
   const inputs = cells.map(({ input }) => input);

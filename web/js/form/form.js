@@ -7,6 +7,7 @@ import { editorFor, idOf } from "./editors.js";
 import { FROM_STOCK } from "../job/job.js";
 import { scrub } from "./drag-number.js";
 import { asText, brief, helpText, outOfRange, withOwn } from "./field-text.js";
+import { frameIn } from "./frame-text.js";
 import { Mistake } from "./number-cell.js";
 import { shownUnits } from "./shown.js";
 
@@ -24,6 +25,7 @@ const GROUPS = {
   uncertainty: "How sure",
   program: "Program",
 };
+const BRANDS = { kuka: "KUKA", abb: "ABB", staubli: "Stäubli", fanuc: "FANUC" };
 const OPEN = ["path", "motion"]; // the groups that most visits change
 
 export class Form {
@@ -45,7 +47,7 @@ export class Form {
     const badges = badgesOf(presets);
     for (const field of fields.map(withOwn)) {
       if (!this.#groups.has(field.group)) this.#addGroup(parent, field.group);
-      const row = this.#row(field, editorFor(field, { badges }), notes);
+      const row = this.#row(field, editorFor(field, { badges, brand: () => this.#brand() }), notes);
       this.#groups.get(field.group).body.append(row.node);
       this.#rows.push(row);
     }
@@ -179,6 +181,8 @@ export class Form {
     node.addEventListener(kind, ({ target, detail }) =>
       this.#edited(row, kind === "change" || isBox(target) ? undefined : field.path, detail === "stepped"),
     );
+    const frame = /^(.*_frame)\./.exec(field.path)?.[1];
+    if (frame) node.addEventListener("paste", (event) => this.#paste(frame, event));
     if (editor.step) scrub(title, (count) => editor.step(count));
     reset.addEventListener("click", () => {
       this.#setError(row, "");
@@ -209,6 +213,26 @@ export class Form {
       byId(idOf(other.path)).focus();
     });
     return button;
+  }
+
+  /** Whose way of writing orientations holds: the controller's that programs are for, else the arm's. */
+  #brand() {
+    return BRANDS[this.#job.valueAt("program.controller")] ?? this.#preset()?.maker;
+  }
+
+  /** A whole frame, as a controller writes it, is taken at once. */
+  #paste(frame, event) {
+    const found = frameIn(event.clipboardData.getData("text/plain"), this.#brand());
+    const keys = Object.keys(found ?? {});
+    const rows = keys.map((key) => this.#rows.find(({ field }) => field.path === `${frame}.${key}`));
+    if (!found || rows.includes(undefined)) return;
+    event.preventDefault();
+    rows.forEach((row, i) => {
+      this.#setError(row, "");
+      this.#job.set(row.field, found[keys[i]]);
+      row.editor.write(found[keys[i]]);
+    });
+    this.#changed();
   }
 
   #edited(row, typing, stepped) {
@@ -275,6 +299,7 @@ export class Form {
 
   #decorate(row) {
     row.reset.classList.toggle("idle", !this.#job.changed(row.field));
+    if (row.editor.meaning) label(row);
     if (row.field.path === "robot.joint_compliance_rad_per_nm") return this.#sourceOfCompliance(row);
     if (row.field.path === "workpiece_frame.xyz_mm") {
       row.note.textContent = this.#preset()?.world_note ?? "";
@@ -337,11 +362,11 @@ export class Form {
 }
 
 /** Writes what a row says of itself, in the units of the settings. */
-function label({ field, unit, reset, help }) {
-  if (unit.tagName !== "BUTTON") unit.textContent = shownUnits(field.unit);
+function label({ field, editor, unit, reset, help }) {
+  if (unit.tagName !== "BUTTON") unit.textContent = shownUnits(editor.unit?.() ?? field.unit);
   reset.title = `Back to ${asText(field)}`;
   reset.setAttribute("aria-label", `Reset ${field.label} to ${asText(field)}`);
-  help.textContent = helpText(field);
+  help.textContent = [helpText(field), editor.meaning?.()].filter(Boolean).join(" ");
 }
 
 /** Shows and hides a field's help. Screen readers have it with the field in either case. */
