@@ -398,6 +398,23 @@ fn a_job_of_an_earlier_model_is_remarked_and_one_of_a_later_refused() {
 }
 
 #[test]
+fn a_name_is_kept_and_changes_no_number() {
+    let named = run(&[("name", json!("bracket, side 2"))]);
+    assert_eq!(named.fingerprint(), run(&[]).fingerprint());
+    let text = job_text(&[("name", json!("Träger 7"))]);
+    let (job, not_given) = Job::read_json(&text).unwrap();
+    assert_eq!(job.name.as_deref(), Some("Träger 7"));
+    assert_eq!(Job::from_json(&job.to_json()), Ok(job));
+    assert!(!not_given.contains(&"name".to_owned()), "no name is no default");
+    assert!(!Job::default().to_json().contains("\"name\": null"));
+    for name in ["", "  ", "two\nlines", &"x".repeat(101)] {
+        let error = refused(&[("name", json!(name))]);
+        assert_eq!(error.field(), Some("name"));
+        assert!(error.to_string().contains("1 to 100 characters"), "{error}");
+    }
+}
+
+#[test]
 fn progress_ascends_and_ends() {
     let mut reported = Vec::new();
     armill::run_json(

@@ -22,6 +22,9 @@ pub struct Job {
     /// written by hand, have none. See [`MODEL`](crate::model::MODEL).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<u32>,
+    /// What a person calls it: for titles and file names, never for a number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
     /// The arm.
     pub robot: Robot,
     /// TCP in the flange frame.
@@ -63,6 +66,7 @@ impl Default for Job {
         Self {
             version: 1,
             model: None,
+            name: None,
             robot: Robot { preset: Some("staubli-rx90".into()), ..Robot::default() },
             tool_frame: Frame::default(),
             base_frame: Frame::default(),
@@ -355,6 +359,7 @@ impl Default for Compensation {
 keys!(Job {
     version,
     model,
+    name,
     robot,
     tool_frame,
     base_frame,

@@ -139,6 +139,9 @@ pub struct Goal {
     pub max_passes: usize,
 }
 
+/// Longest name of a job [characters].
+const LONGEST_NAME: usize = 100;
+
 impl Setup {
     /// Checks a job and converts it to SI. Reports the fraction of the program that has been read.
     ///
@@ -151,6 +154,7 @@ impl Setup {
         if let Some(model) = job.model.filter(|model| !(1..=MODEL).contains(model)) {
             return Err(Error::invalid("model", model, format!("1 to {MODEL}, the model of this Armill")));
         }
+        check_name(job.name.as_deref())?;
         fields::check_ranges(job)?;
         let robot::BareArm {
             robot,
@@ -268,6 +272,16 @@ impl Setup {
     pub fn workpiece_in_world(&self) -> Pose {
         self.world.of_base(&self.workpiece)
     }
+}
+
+/// Refuses a name that no file or title can bear.
+fn check_name(name: Option<&str>) -> Result<(), Error> {
+    let Some(name) = name else { return Ok(()) };
+    if name.trim().is_empty() || name.chars().count() > LONGEST_NAME || name.chars().any(char::is_control) {
+        let expected = format!("1 to {LONGEST_NAME} characters on one line, or no name");
+        return Err(Error::invalid("name", format!("\"{name}\""), expected));
+    }
+    Ok(())
 }
 
 /// Refuses a job with too many samples.

@@ -3,6 +3,7 @@
 
 use crate::browser::{DESKTOP, Key, Page, Result, visit};
 use crate::common::run;
+use crate::hostile::drop_file;
 use crate::{current, shows, stale, text, unfold};
 use armill::export::orientation::{about_moving_xyz, quaternion};
 use armill::math::Pose;
@@ -210,6 +211,49 @@ fn a_robot_is_found_by_what_is_known_of_it() -> Result {
                 .await?;
             assert_eq!(whole, json!(true), "{}", material.name);
         }
+        Ok(())
+    })
+}
+
+#[test]
+fn a_job_has_a_name_in_files_and_titles() -> Result {
+    let slot = "G21 G90\nS4000 M3\nG0 X600 Y-60 Z120\nG1 Z100 F1200\nG1 Y60\nG0 Z120\nM30\n";
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        assert_eq!(page.value("#job-name").await?, "");
+        drop_file(page, "slot 4.nc", &json!([slot]).to_string()).await?;
+        page.wait_for("document.querySelector('#job-name').value === 'slot 4'", 20.0).await?;
+        current(page).await?;
+        assert_eq!(page.js("return document.title").await?, json!("slot 4 – Armill"));
+        assert!(page.text(".listing .note").await?.contains("slot 4.nc"), "short as the program is");
+        assert_eq!(page.value("#program-name").await?, "SLOT_4");
+        page.click("#download-job").await?;
+        let saved: Value = serde_json::from_str(&page.downloaded("slot-4-job.json").await?)?;
+        assert_eq!(saved["name"], "slot 4");
+        // It is an input as any other: typed, undone, shared, kept.
+        page.type_into("#job-name", "plate <b>").await?;
+        page.press(char::from(Key::Tab)).await?;
+        page.wait_for("document.title.startsWith('plate <b>')", 10.0).await?;
+        current(page).await?;
+        assert_eq!(page.value("#program-name").await?, "PLATE_B");
+        page.click("#download-columns").await?;
+        assert!(page.downloaded("plate-b-columns.csv").await?.starts_with("time_s,"));
+        page.click("#share").await?;
+        page.js("document.querySelector('#share-markdown').click()").await?;
+        assert!(page.value("#share-text").await?.starts_with("## plate \\<b\\>\n"));
+        page.click("#share-close").await?;
+        page.click("#undo").await?;
+        assert_eq!(page.value("#job-name").await?, "slot 4");
+        page.wait_for("JSON.parse(localStorage.getItem('armill-inputs'))?.state.job.name === 'slot 4'", 10.0)
+            .await?;
+        page.reload().await?;
+        current(page).await?;
+        assert_eq!(page.value("#job-name").await?, "slot 4");
+        page.click("#reset").await?;
+        assert_eq!(page.value("#job-name").await?, "");
+        assert!(
+            page.js("return document.title").await?.as_str().is_some_and(|title| title.starts_with("Armill"))
+        );
         Ok(())
     })
 }

@@ -10,6 +10,7 @@ import { makeIdentify } from "./identify/panel.js";
 import { Job, merged } from "./job/job.js";
 import { makeOpening } from "./job/opening.js";
 import { Session } from "./job/session.js";
+import { makeTitle } from "./job/title.js";
 import { setCursor } from "./page/cursor.js";
 import { byId } from "./page/dom.js";
 import { download } from "./page/download.js";
@@ -49,6 +50,10 @@ const identify = makeIdentify(byId("identify"), present);
 const armView = makeArmView((text) => core.armAtZero(text));
 const calculator = new Calculator(core, { ...status, become, show, progress, remedyFor });
 const compare = makeCompare({ shown: () => calculator.shown, load: (changed) => session.load(changed) });
+const showTitle = makeTitle(
+  () => job,
+  () => session,
+);
 const opening = makeOpening({
   core,
   job: () => job,
@@ -130,6 +135,7 @@ async function placeInFront() {
 function edited(stepped) {
   arm = job.data.robot.preset;
   showAsked(job.data);
+  showTitle();
   calculator.edited(stepped);
   if (!calculator.form.flawed) armView.show(job);
 }

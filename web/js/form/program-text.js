@@ -159,7 +159,7 @@ class Listing {
     this.#about.textContent = lines
       ? `${name}${lines.toLocaleString("en").replaceAll(",", "\u202f")} lines, ${size}. Too long to type into; open ` +
         `the file again after a change.`
-      : "";
+      : this.#name && `Opened from ${this.#name}.`;
     if (!lines) return this.#rows.replaceChildren();
     this.#draw();
     this.#height = this.#rows.firstChild?.offsetHeight || this.#height;

@@ -65,7 +65,7 @@ export function programTools(use, fail) {
     examples.value = "";
     if (!chosen) return;
     try {
-      await use(chosen.kind, await readText(`examples/${chosen.file}`), chosen);
+      if (await use(chosen.kind, await readText(`examples/${chosen.file}`), chosen)) listing.name = chosen.file;
     } catch ({ message }) {
       fail(message);
     }
@@ -89,7 +89,7 @@ export async function textIn(file, fail) {
 export async function openProgram(file, use, fail) {
   const text = await textIn(file, fail);
   if (text === undefined) return;
-  if (await use(languageOf(file.name, text), text)) listing.name = file.name;
+  if (await use(languageOf(file.name, text), text, { file: file.name })) listing.name = file.name;
 }
 
 /** A program pasted in place of the whole text is opened as one from a file is. */

@@ -4,6 +4,7 @@ import { isOfExample, openProgram, textIn } from "../form/program-tools.js";
 import { ask } from "../form/still-asked.js";
 import { byId } from "../page/dom.js";
 import { merged } from "./job.js";
+import { nameOfFile, named } from "./name.js";
 
 /**
  * `openJob(file)`, `useProgram(kind, text, example)` and `wireDrop()` for the page. `session()`, `job()`
@@ -30,22 +31,24 @@ export function makeOpening({ core, job, session, thesis, warn }) {
 
   /**
    * Makes a program the path of the job, whatever the job was before. The thesis's shaper goes: hardly
-   * any controller has one, and commands for it are wrong without. The spindle speed is the program's.
-   * An example brings its stock and its tool; any other program gets a stock unless the job has one, and
-   * the rest of the inputs is asked about. False if another program came meanwhile.
+   * any controller has one, and commands for it are wrong without. The spindle speed is the program's, and
+   * its file names the job. An example, which has a title, brings its stock and its tool; any other program
+   * gets a stock unless the job has one, and the rest of the inputs is asked about. False if another
+   * program came meanwhile.
    */
-  async function useProgram(kind, text, example) {
+  async function useProgram(kind, text, { stock, tool, title, file } = {}) {
     const mine = ++opened;
     core.cancel();
-    const stock = example ? example.stock : await stockFor(kind, text);
+    const given = title ? stock : await stockFor(kind, text);
     const { shaper, stock: _, ...rest } = job().data;
     const own = JSON.stringify(shaper) !== JSON.stringify(thesis().shaper);
     const plain = { ...rest, path: { kind, text }, shaper: own ? shaper : "none" };
-    const next = merged(plain, { ...(stock && { stock }), ...(example?.tool && { tool: example.tool }) });
-    const said = await changesFor(next, Boolean(example));
+    const next = merged(plain, { ...(given && { stock: given }), ...(tool && { tool }) });
+    const said = await changesFor(next, Boolean(title));
     if (mine !== opened) return false;
-    session().load(merged(next, said));
-    if (!example) ask(job().data);
+    const whole = merged(next, said);
+    session().load(file ? named(whole, nameOfFile(file)) : whole);
+    if (!title) ask(job().data);
     byId("group-path").open = true;
     return true;
   }

@@ -17,6 +17,7 @@ export function markdown({ summary, job, standard, link }) {
   ];
   const changed = job.differences(standard).filter(({ own }) => own !== undefined);
   return [
+    ...(job.data.name ? [`## ${escaped(job.data.name)}`, ""] : []),
     `**${escaped(summary.verdict)}**`,
     "",
     escaped(summary.how_sure.sentence),
