@@ -58,6 +58,9 @@ pub struct Field {
     /// Largest number it accepts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max: Option<f64>,
+    /// Smallest and largest number of usual jobs: what a slider covers, on a logarithmic scale.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub usual: Option<[f64; 2]>,
     /// Value of a new field.
     pub default: DefaultValue,
     /// Values of a new field by the word of the field in `when`, if they differ.

@@ -19,7 +19,7 @@ export interface Field {
   path: string; group: string; label: string; unit: string;
   kind: "number" | "integer" | "choice" | "vector" | "table" | "text" | "set";
   choices?: { value: string; label: string; heading?: string }[];
-  min?: number; max?: number; default: FieldValue; defaults?: Record<string, FieldValue>;
+  min?: number; max?: number; usual?: [number, number]; default: FieldValue; defaults?: Record<string, FieldValue>;
   help: string; when?: { path: string; is: string[] };
 }
 export interface DhRow {

@@ -258,6 +258,34 @@ fn a_job_has_a_name_in_files_and_titles() -> Result {
     })
 }
 
+#[test]
+fn a_slider_pushes_its_number() -> Result {
+    visit("/", DESKTOP, async |page| {
+        current(page).await?;
+        let slider = "document.querySelector('#motion-feed_mm_s').closest('.field').querySelector('.slider')";
+        // 100 of 1 to 1000 is two thirds of the way on a logarithmic scale.
+        let place = page.js(&format!("return {slider}.value / {slider}.max")).await?;
+        assert!((place.as_f64().unwrap_or(0.0) - 2.0 / 3.0).abs() < 0.003, "{place}");
+        page.js(&format!(
+            "for (const value of [0.6, 0.55, 0.5]) {{ {slider}.value = value * {slider}.max; \
+             {slider}.dispatchEvent(new Event('input', {{ bubbles: true }})) }}"
+        ))
+        .await?;
+        // Half of the way is the geometric mean, 31.6, to two digits.
+        assert_eq!(page.value("#motion-feed_mm_s").await?, "32");
+        shows(page, &run(&[("motion.feed_mm_s", json!(32))])).await?;
+        page.click("#undo").await?;
+        shows(page, &run(&[])).await?;
+        // It follows what is typed, and stays at its end beyond.
+        for (typed, at) in [("10", 1.0 / 3.0), ("1500", 1.0), ("0.5", 0.0)] {
+            page.type_into("#motion-feed_mm_s", typed).await?;
+            let place = page.js(&format!("return {slider}.value / {slider}.max")).await?;
+            assert!((place.as_f64().unwrap_or(-1.0) - at).abs() < 0.003, "{typed}: {place}");
+        }
+        Ok(())
+    })
+}
+
 /// Pastes a text into a box.
 async fn paste(page: &Page, css: &str, text: &str) -> Result {
     page.js(&format!(

@@ -42,16 +42,14 @@ impl FieldBlock {
             None => (kind, ""),
         };
         let (mut label, mut help, mut when) = (None, None, None);
-        let (mut range, mut choices) = (None, Vec::new());
+        let (mut range, mut usual, mut choices) = (None, None, Vec::new());
         let (mut default, mut defaults) = (None, BTreeMap::new());
         for (key, lines) in &self.keys {
             match (*key, lines.as_slice()) {
                 ("label", [line]) => label = Some(*line),
                 ("help", lines) => help = Some(lines.join(" ")),
-                ("range", [line]) => {
-                    let (min, max) = line.split_once(" to ")?;
-                    range = Some((min.parse().ok()?, max.parse().ok()?));
-                }
+                ("range", [line]) => range = Some(span(line)?),
+                ("usual", [line]) => usual = Some(span(line)?),
                 ("words", lines) => choices = words(path, lines)?,
                 ("when", [line]) => {
                     let (path, is) = line.split_once(" = ")?;
@@ -72,14 +70,21 @@ impl FieldBlock {
             unit,
             kind: serde_json::from_value(kind.into()).ok()?,
             choices,
-            min: range.map(|(min, _)| min),
-            max: range.map(|(_, max)| max),
+            min: range.map(|[min, _]| min),
+            max: range.map(|[_, max]| max),
+            usual,
             default: default?,
             defaults: (!defaults.is_empty()).then_some(defaults),
             help: help?,
             when,
         })
     }
+}
+
+/// The numbers of "1 to 10".
+fn span(line: &str) -> Option<[f64; 2]> {
+    let (low, high) = line.split_once(" to ")?;
+    Some([low.parse().ok()?, high.parse().ok()?])
 }
 
 /// The stage of a key of the job.

@@ -1,5 +1,5 @@
 // One editor per kind of field. An editor is { node, inputs, read(), write(value), at(rest),
-// mark(line), show(line), step(count), understood(), relabel()} of which mark and show are for texts and the last three
+// mark(line), show(line), step(count), understood(), relabel(), slider } of which mark and show are for texts and the last three
 // for numbers alone. read() gives the value or throws a Mistake; at(rest) gives the input that an error path such as
 // "[1].a_mm" means; understood() is what was read of typed expressions; relabel() writes the units of the settings.
 
@@ -10,6 +10,7 @@ import { listing } from "./program-text.js";
 import { rowsEditor } from "./rows.js";
 import { searchList } from "./search-list.js";
 import { shownUnit } from "./shown.js";
+import { makeSlider } from "./slider.js";
 
 /** The order in which tables of the field print a row. */
 const DH_ORDER = ["alpha_deg", "a_mm", "d_mm", "theta_offset_deg", "joint_sign", "offset_deg"];
@@ -64,7 +65,18 @@ function single(field, input, read, write) {
 
 function number(field) {
   const cell = numberCell(idOf(field.path), field.unit, field.kind === "integer");
-  return { ...cell, node: cell.input, inputs: [cell.input], at: () => cell.input };
+  const slider = field.usual && makeSlider(cell, field.unit, field.usual);
+  return {
+    ...cell,
+    node: cell.input,
+    slider: slider?.node,
+    inputs: [cell.input],
+    at: () => cell.input,
+    write(value) {
+      cell.write(value);
+      slider?.follow();
+    },
+  };
 }
 
 /** A number, or a word that a checkbox stands for. */

@@ -169,6 +169,7 @@ export class Form {
       { className: wide ? "field wide" : "field" },
       head,
       editor.node,
+      editor.slider ?? "",
       understood,
       error,
       help,
