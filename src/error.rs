@@ -195,7 +195,6 @@ impl fmt::Display for Error {
             }
             Error::OutOfRange { field, value, min, max, unit } => {
                 let space = if unit.is_empty() { "" } else { " " };
-                let nearest = if value < min { min } else { max };
                 let size = value.abs();
                 // Avoids printing f64::MAX with all its 309 digits.
                 let value = if size != 0.0 && !(1e-9..1e15).contains(&size) {

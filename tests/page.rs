@@ -20,6 +20,8 @@ mod cursor;
 mod cut;
 #[path = "page/embed.rs"]
 mod embed;
+#[path = "page/first_screen.rs"]
+mod first_screen;
 #[path = "page/hostile.rs"]
 mod hostile;
 #[path = "page/identify.rs"]

@@ -112,7 +112,10 @@ fn the_wall_has_both_deviations_and_a_bending_tool_its_part() -> Result {
         ]);
         shows(page, &long).await?;
         page.view("forces").await?;
-        assert_eq!(figure(page, "Tip deflection of the tool").await?, long.summary().cut.tool_bending_um_n.unwrap());
+        assert_eq!(
+            figure(page, "Tip deflection of the tool").await?,
+            long.summary().cut.tool_bending_um_n.unwrap()
+        );
         let cells = page
             .js("return [...document.querySelectorAll('#wall-table tbody tr')].map(row => \
              [...row.cells].slice(1, 3).map(cell => cell.dataset.value ?? null))")

@@ -198,7 +198,8 @@ fn the_tolerance_is_drawn_on_request_and_leaves_the_passes_in_sight() -> Result 
 
         // Passes of a zigzag are as far apart as it says; a circle has only one; a rapid move parts two.
         let spacing = async |points: Value| {
-            page.with_module("scene/spacing.js", &format!("({{ spacingOf }}) => String(spacingOf({points}))")).await
+            page.with_module("scene/spacing.js", &format!("({{ spacingOf }}) => String(spacingOf({points}))"))
+                .await
         };
         let zigzag: Vec<[f64; 3]> = (0..10)
             .flat_map(|row| {
@@ -290,7 +291,8 @@ fn it_fits_small_and_large_panes() -> Result {
             )
             .await?;
             click(page, "[data-view=iso]").await?;
-            page.js("return new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))").await?;
+            page.js("return new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+                .await?;
             let faults = page
                 .js("const scene = document.querySelector('#scene'), whole = scene.getBoundingClientRect();
                      const box = (node) => node.getBoundingClientRect();

@@ -108,6 +108,17 @@ function showWarnings(warnings, apply) {
   box.classList.toggle("none", count === 0);
   if (count === 0) box.open = false;
   byId("warnings-list").replaceChildren(...warnings.map((warning) => warningItem(warning, apply)));
+  showFirstRemedy(warnings, apply);
+}
+
+/** The cure of the most severe warning that has one, beside the warnings. */
+function showFirstRemedy(warnings, apply) {
+  const { remedy } = warnings.find((warning) => warning.remedy && warning.severity !== "note") ?? {};
+  const button = byId("remedy-first");
+  button.hidden = !remedy;
+  if (!remedy) return;
+  button.textContent = remedy.label;
+  button.onclick = () => apply(remedy.patch);
 }
 
 /** What the arm cannot run is said before what it would achieve. */
