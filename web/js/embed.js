@@ -6,7 +6,7 @@ import { setCharts, showPanel } from "./chart/panel.js";
 import * as core from "./core/client.js";
 import { chartsIn, fieldsIn, isLinked, jobOf, optionsIn } from "./embed-options.js";
 import { Form } from "./form/form.js";
-import { Job } from "./job/job.js";
+import { Job, merged } from "./job/job.js";
 import { fragmentOf } from "./job/link.js";
 import { byId } from "./page/dom.js";
 import { lend } from "./page/settings.js";
@@ -15,6 +15,7 @@ import { errorText, forceUnit, lengthUnit } from "./page/units.js";
 import { showBudget } from "./result/budget.js";
 import { showFeedRule } from "./result/feed-rule.js";
 import { showSurface } from "./result/surface.js";
+import { showWarnings } from "./result/warnings.js";
 import { makeScene } from "./scene/view.js";
 
 let options; // what the host page asks for
@@ -39,6 +40,13 @@ function edited(_, stepped) {
   calculator.edited(stepped);
 }
 
+/** Applies the remedy of a warning. */
+function remedy(patch) {
+  job.load(merged(job.data, patch));
+  calculator.form.reload();
+  edited();
+}
+
 function cannotStart(error) {
   byId("verdict").textContent = "The calculator could not start.";
   status.become("stale");
@@ -60,10 +68,13 @@ function show({ summary, charts }) {
   }
 }
 
-function showFigures({ verdict, before_mm, after_mm, cut, fingerprint }) {
+function showFigures({ verdict, verdict_state, how_sure, before_mm, after_mm, cut, warnings, fingerprint }) {
   byId("stock").hidden = !cut.stock;
   byId("stock").textContent = cut.stock ? `Engagement from the stock: ${cut.stock}.` : "";
   byId("verdict").textContent = verdict;
+  byId("results").dataset.verdict = verdict_state;
+  byId("expected").textContent = how_sure.sentence;
+  showWarnings(warnings, remedy);
   for (const [row, { mean, max }] of [
     [".before", before_mm.both],
     [".after", after_mm],

@@ -2,6 +2,7 @@
 
 import { formatError, formatNumber } from "../page/number.js";
 import { inWords } from "../form/field-text.js";
+import { SEVERITY } from "./warnings.js";
 
 /**
  * `job` is the Job of the result, `standard` the default job's plain object, `link` its address or
@@ -29,7 +30,8 @@ export function markdown({ summary, job, standard, link }) {
     "",
     `Mean force ${formatNumber(Math.hypot(...summary.mean_force_n))} N, path length ` +
       `${formatNumber(summary.path_length_mm, 4)} mm, duration ${formatNumber(summary.duration_s)} s, stops: ` +
-      `${summary.stops.count}, warnings: ${summary.warnings.length}.`,
+      `${summary.stops.count}.`,
+    ...(summary.warnings.length ? ["", "Warnings:", "", ...summary.warnings.map(warningLine)] : ["", "No warnings."]),
     ...(summary.cut.stock ? ["", escaped(inStock(summary.cut))] : []),
     ...(summary.feed_rule ? ["", escaped(summary.feed_rule.sentence)] : []),
     ...(summary.surface?.worst.length ? ["", escaped(surfaceLeft(summary.surface))] : []),
@@ -44,6 +46,8 @@ export function markdown({ summary, job, standard, link }) {
     "",
   ].join("\n");
 }
+
+const warningLine = ({ severity, message }) => `- **${SEVERITY[severity]}:** ${escaped(message)}`;
 
 /** The cut in a stock. */
 const inStock = ({ stock, removed_cm3, air_share, largest_engaged_deg }) =>

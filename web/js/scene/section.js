@@ -42,6 +42,7 @@ export class Section {
       this.#caption,
     );
     this.node.addEventListener("toggle", () => this.follow());
+    new IntersectionObserver(() => this.follow()).observe(this.node);
   }
 
   /** Offers the sections of a result, if its part can be cut. */
@@ -67,7 +68,7 @@ export class Section {
 
   /** The cursor has moved: asks the core, one question at a time. */
   async follow() {
-    if (!this.#ready || this.#asking || this.node.hidden || !this.node.open) return;
+    if (!this.#ready || this.#asking || !this.node.open || !this.node.checkVisibility()) return;
     this.#asking = true;
     try {
       while (this.#ready && this.#asked !== this.#sample) {

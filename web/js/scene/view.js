@@ -73,7 +73,11 @@ class Scene {
     this.#labels = new Labels(labels);
     this.#panel.corner(this.#part.node);
     this.#panel.below(this.#player.node, this.#readout.node);
-    this.#panel.after(this.#readout.text, this.#section.node);
+    this.#panel.after(this.#readout.text);
+    // On the page it has a place of its own, in the view of the result.
+    const place = document.getElementById("section");
+    if (place) place.append(this.#section.node);
+    else this.#panel.after(this.#section.node);
     steer(canvas, this.#camera, {
       move: () => ((this.#steered = true), this.#redraw()),
       point: (x, y, pressed) => this.#pointSoon(x, y, pressed),
