@@ -211,11 +211,11 @@ impl Page {
             return element.select_by_value(value).await.map_err(|error| within(css, error));
         }
         let (select, value) = (json!(css), json!(value));
-        let set = self.js(&format!(
+        let script = format!(
             "const select = document.querySelector({select}); select.value = {value}; \
              select.dispatchEvent(new Event('change', {{ bubbles: true }})); return select.selectedIndex >= 0"
-        ));
-        if set.await? == json!(true) { Ok(()) } else { Err(format!("{css} has no option {value}").into()) }
+        );
+        if self.js(&script).await? == json!(true) { Ok(()) } else { Err(format!("{css} has no option {value}").into()) }
     }
 
     /// Presses keys one after the other, wherever the focus is: text, [`Key`]s, or both by

@@ -178,7 +178,7 @@ export class Calculator {
   #refuse() {
     this.#become("stale");
     const { problem } = this.form;
-    if (problem) this.#view.warn(problem.message, { label: "Show the field", go: problem.go });
+    if (problem) this.#view.warn(problem.message, problem.limit ?? { label: "Show the field", go: problem.go });
     this.#view.say(this.#lastValid.trim() || "No result yet.");
   }
 

@@ -23,7 +23,8 @@ const choiceLabel = (field, value) => field.choices.find((choice) => choice.valu
 
 const numberIn = (unit) => (value) => plainNumber(shownValue(value, unit));
 
-const quantity = (value, unit) => [numberIn(unit)(value), shownUnit(unit)].filter(Boolean).join(" ");
+/** A number with the unit that it is shown in. */
+export const quantity = (value, unit) => [numberIn(unit)(value), shownUnit(unit)].filter(Boolean).join(" ");
 
 const saved = (value, unit) => [plainNumber(value), unit].filter(Boolean).join(" ");
 
@@ -56,7 +57,7 @@ export function inWords(field, value, { asSaved = false } = {}) {
 export function outOfRange({ code, field: path, value, min, max, unit }) {
   if (code !== "out-of-range" || shownUnit(unit) === unit) return undefined;
   const [is, low, high] = [value, min, max].map((number) => quantity(number, unit));
-  return `${path} is ${is}; legal is ${low} to ${high}, nearest ${value < min ? low : high}`;
+  return `${path} is ${is}; it must be ${low} to ${high}`;
 }
 
 /** The default in words. */

@@ -6,7 +6,7 @@ import { badgesOf } from "./badges.js";
 import { editorFor, idOf } from "./editors.js";
 import { FROM_STOCK } from "../job/job.js";
 import { scrub } from "./drag-number.js";
-import { asText, brief, helpText, outOfRange, withOwn } from "./field-text.js";
+import { asText, brief, helpText, outOfRange, quantity, withOwn } from "./field-text.js";
 import { frameIn } from "./frame-text.js";
 import { Mistake } from "./number-cell.js";
 import { shownUnits } from "./shown.js";
@@ -66,7 +66,7 @@ export class Form {
     if (!row) return undefined;
     const { message } = row;
     const named = message.startsWith(row.field.label) ? message : `${row.field.label}: ${message}`;
-    return { message: named, go: () => this.#go(row) };
+    return { message: named, go: () => this.#go(row), limit: row.limit };
   }
 
   /** What was typed and is not a value: path of the field -> what each of its inputs holds. */
@@ -126,9 +126,21 @@ export class Form {
     const text = own.startsWith(path) ? row.field.label + own.slice(path.length) : sentence(own);
     this.#setError(row, where + text, row.editor.at(path.slice(row.field.path.length)));
     row.line = line;
+    if (path === row.field.path) row.limit = this.#limitOf(row, error);
     if (line) row.editor.mark?.(line);
     this.#digest();
     return true;
+  }
+
+  /** The nearest number that is allowed, and how to take it: { label, go }. */
+  #limitOf({ field, editor }, { code, value, min, max }) {
+    if (code !== "out-of-range" || field.kind === "vector" || editor.inputs.length > 1) return undefined;
+    const nearest = value < min ? min : max;
+    const go = () => {
+      this.#job.set(field, nearest);
+      this.#changed();
+    };
+    return { label: `Use ${quantity(nearest, field.unit)}`, go };
   }
 
   /** Takes back what the core said; what was typed wrong stays marked. */
@@ -289,7 +301,7 @@ export class Form {
   }
 
   #setError(row, message, input) {
-    row.line = undefined;
+    row.line = row.limit = undefined;
     row.mistake = false;
     row.error.textContent = row.message = message;
     for (const each of row.editor.inputs) {
