@@ -225,7 +225,7 @@ async fn native(
 
 #[test]
 fn a_chart_is_read_by_decades_or_in_even_steps() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let report = run(&[]);
         let chart = Chart::open(page, "error", "after-shaping").await?;
@@ -279,7 +279,7 @@ async fn over(chart: &Chart<'_>, axis: &str) -> Result {
 
 #[test]
 fn charts_are_drawn_over_time_length_or_line() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         let text = "G21 G90\nG0 X600 Y-60 Z100\nG1 Y20 F1200\nG4 P0.5\nG1 X640 Y60\nM30";
         page.choose("#path-kind", "gcode").await?;
         page.type_into("#path-text", text).await?;
@@ -332,7 +332,7 @@ fn charts_are_drawn_over_time_length_or_line() -> Result {
 
 #[test]
 fn a_stretch_is_selected_and_read() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let report = run(&[]);
         let chart = Chart::open(page, "error", "after-both").await?;

@@ -1,7 +1,7 @@
 //! Inputs as people have them: numbers with units and sums, in mm or inch, frames as a brand counts
 //! them, robots by search, a job with a name.
 
-use crate::browser::{DESKTOP, Key, Page, Result, visit};
+use crate::browser::{DESKTOP, Key, Page, Result, THESIS, visit};
 use crate::common::run;
 use crate::hostile::drop_file;
 use crate::{current, shows, stale, text, unfold};
@@ -34,7 +34,7 @@ async fn set(page: &Page, setting: &str) -> Result {
 
 #[test]
 fn numbers_take_units_and_sums_and_a_doubtful_comma_is_asked_about() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         for (typed, said, feed) in [
             ("4800 mm/min", "= 80 mm/s", 80.0),
@@ -95,7 +95,7 @@ fn numbers_take_units_and_sums_and_a_doubtful_comma_is_asked_about() -> Result {
 
 #[test]
 fn inches_are_shown_and_typed_and_the_job_stays_what_it_is() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         // Numbers that no short text in inches has.
         page.type_into("#path-radius_mm", "251.7").await?;
@@ -157,7 +157,7 @@ fn inches_are_shown_and_typed_and_the_job_stays_what_it_is() -> Result {
 
 #[test]
 fn a_robot_is_found_by_what_is_known_of_it() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         unfold(page, "robot").await?;
         let offered = "return [...document.querySelectorAll('#robot-preset-list [role=option]')].map(option => option.textContent)";
@@ -218,7 +218,7 @@ fn a_robot_is_found_by_what_is_known_of_it() -> Result {
 #[test]
 fn a_job_has_a_name_in_files_and_titles() -> Result {
     let slot = "G21 G90\nS4000 M3\nG0 X600 Y-60 Z120\nG1 Z100 F1200\nG1 Y60\nG0 Z120\nM30\n";
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         assert_eq!(page.value("#job-name").await?, "");
         drop_file(page, "slot 4.nc", &json!([slot]).to_string()).await?;
@@ -260,7 +260,7 @@ fn a_job_has_a_name_in_files_and_titles() -> Result {
 
 #[test]
 fn a_slider_pushes_its_number() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let slider = "document.querySelector('#motion-feed_mm_s').closest('.field').querySelector('.slider')";
         // 100 of 1 to 1000 is two thirds of the way on a logarithmic scale.
@@ -300,7 +300,7 @@ async fn paste(page: &Page, css: &str, text: &str) -> Result {
 
 #[test]
 fn frames_are_written_as_the_brand_counts_them() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         unfold(page, "frames").await?;
         // The page's conversions are the core's.

@@ -59,7 +59,7 @@ fn a_pinned_result_stands_beside_the_next() -> Result {
 
 #[test]
 fn up_to_five_results_are_compared_with_a_chosen_one() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         let depths = [10.0, 9.0, 8.0, 7.0, 6.0];
         let reports = depths.map(|depth| run(&[("cutting.axial_depth_mm", json!(depth))]));
@@ -116,7 +116,7 @@ fn up_to_five_results_are_compared_with_a_chosen_one() -> Result {
 
 #[test]
 fn what_changed_is_said_row_by_row() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         // Two results that were pinned in this tab, whose third joint differs.
         let arm = |third: f64| json!([1e-6, 2e-6, third, 4e-6, 5e-6, 6e-6]);

@@ -1,7 +1,7 @@
 //! What the picture in space marks: the worst place, joints out of range, the tolerance, the arm that must not hide
 //! the path; and how it looks in panes of other sizes and in the other theme.
 
-use crate::browser::{DESKTOP, Page, Result, visit};
+use crate::browser::{DESKTOP, Page, Result, THESIS, visit};
 use crate::common::program::opened_example;
 use crate::common::{column, job_text, run};
 use crate::{current, shows};
@@ -63,7 +63,7 @@ const COLOURED: &str = "Math.max(r, g, b) - Math.min(r, g, b) > 60";
 
 #[test]
 fn the_worst_place_is_named_and_leads_the_cursor_there() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         for example in [None, Some("pocket.nc")] {
             let report = match example {
                 None => {
@@ -156,7 +156,7 @@ fn a_joint_is_red_where_it_is_out_of_its_range() -> Result {
 
 #[test]
 fn from_above_the_arm_does_not_hide_the_path() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         open_part(page, "pocket.nc").await?;
         click(page, "[data-path=solid]").await?;
         for view in ["top", "tool"] {
@@ -179,7 +179,7 @@ fn from_above_the_arm_does_not_hide_the_path() -> Result {
 
 #[test]
 fn the_tolerance_is_drawn_on_request_and_leaves_the_passes_in_sight() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         open_part(page, "pocket.nc").await?;
         assert_eq!(data(page, "tube").await?, "0.000", "off for a program");
         let ink = "Math.max(r, g, b) < 235";
@@ -222,7 +222,7 @@ fn the_tolerance_is_drawn_on_request_and_leaves_the_passes_in_sight() -> Result 
 
 #[test]
 fn the_scale_of_errors_stands_out_from_light_and_dark_paper() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         open(page).await?;
         let surface = "getComputedStyle(document.querySelector('#scene .stage')).backgroundColor";
         let mut seen = Vec::new();
@@ -273,7 +273,7 @@ fn the_scale_of_errors_stands_out_from_light_and_dark_paper() -> Result {
 
 #[test]
 fn it_fits_small_and_large_panes() -> Result {
-    visit("/", (1280, 900), async |page| {
+    visit(THESIS, (1280, 900), async |page| {
         open_part(page, "pocket.nc").await?;
         for (width, height) in [(900, 500), (470, 400), (360, 300), (300, 260)] {
             page.js(&format!(
@@ -323,7 +323,7 @@ fn it_fits_small_and_large_panes() -> Result {
 
 #[test]
 fn a_stream_of_results_is_taken_over_at_its_pace() -> Result {
-    visit("/", DESKTOP, async |page| {
+    visit(THESIS, DESKTOP, async |page| {
         open(page).await?;
         let calls = page
             .with_module(
