@@ -3,7 +3,7 @@
 use crate::browser::{DESKTOP, Page, Result, THESIS, visit};
 use crate::chart::Chart;
 use crate::common::{self, run};
-use crate::{current, shows};
+use crate::{current, shows, unfold};
 use armill::chart::{ChartOptions, Over, Scaling};
 use serde_json::{Value, json};
 
@@ -61,6 +61,7 @@ fn a_pinned_result_stands_beside_the_next() -> Result {
 fn up_to_five_results_are_compared_with_a_chosen_one() -> Result {
     visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
+        unfold(page, "cutting").await?;
         let depths = [10.0, 9.0, 8.0, 7.0, 6.0];
         let reports = depths.map(|depth| run(&[("cutting.axial_depth_mm", json!(depth))]));
         for (depth, report) in depths.iter().zip(&reports) {

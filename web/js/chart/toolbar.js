@@ -35,7 +35,7 @@ export function toolbar(title, act) {
     return made;
   };
   const select = toggle("Select a stretch by dragging", icon("select"), act.select);
-  const log = toggle("Logarithmic scale", "log", act.log);
+  const log = toggle("log scale", "log", act.log);
   const along = menuButton(
     button("Drawn over", "Time", () => {}),
     act.over,
@@ -54,8 +54,8 @@ export function toolbar(title, act) {
     toggle("Table", icon("table"), act.table),
     select,
     log,
-    along.node,
     save.node,
+    along.node,
   );
 
   /** Shows a drawing's scale, where there are two to choose from, and what it is drawn over of `list`. */
