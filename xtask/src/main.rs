@@ -12,6 +12,7 @@ mod fuzz;
 mod reproduce;
 mod audit;
 mod bench;
+mod picture;
 
 use std::env;
 use std::process::ExitCode;
@@ -24,6 +25,7 @@ usage: cargo xtask <command>
   build            build the complete static site in target/site
   serve            build it and serve it on this machine, from port 8080 on
   docs             build the documentation, with the calculator in it, in target/docs
+  picture          take the README's picture of the page, docs/page.png
   npm              make the package for npm in target/npm
   test             check formatting and lints, run all tests: native, in the browser, through the page
   test --native    only what needs no browser
@@ -51,6 +53,7 @@ fn run(arguments: &[String]) -> Result<()> {
         ["build"] => site::build().map(|_| ()),
         ["serve"] => server::serve(&site::build()?),
         ["docs"] => docs::build().map(|_| ()),
+        ["picture"] => picture::take(),
         ["npm"] => npm::package().map(|_| ()),
         ["test"] => checks::all(),
         ["test", "--native"] => checks::native(),
