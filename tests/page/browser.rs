@@ -215,7 +215,11 @@ impl Page {
             "const select = document.querySelector({select}); select.value = {value}; \
              select.dispatchEvent(new Event('change', {{ bubbles: true }})); return select.selectedIndex >= 0"
         );
-        if self.js(&script).await? == json!(true) { Ok(()) } else { Err(format!("{css} has no option {value}").into()) }
+        if self.js(&script).await? == json!(true) {
+            Ok(())
+        } else {
+            Err(format!("{css} has no option {value}").into())
+        }
     }
 
     /// Presses keys one after the other, wherever the focus is: text, [`Key`]s, or both by

@@ -188,7 +188,8 @@ fn the_tolerance_is_drawn_on_request_and_leaves_the_passes_in_sight() -> Result 
 
         // Passes of a zigzag are as far apart as it says; a circle has only one; a rapid move parts two.
         let spacing = async |points: Value| {
-            page.with_module("scene/spacing", &format!("({{ spacingOf }}) => String(spacingOf({points}))")).await
+            page.with_module("scene/spacing", &format!("({{ spacingOf }}) => String(spacingOf({points}))"))
+                .await
         };
         let zigzag: Vec<[f64; 3]> = (0..10)
             .flat_map(|row| {
