@@ -1,4 +1,5 @@
 //! What charts of the run can be drawn over, and by which scale.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
 
