@@ -104,7 +104,7 @@ export class Paths {
     return box;
   }
 
-  /** How far apart neighbouring passes of the path are [mm]; infinite if it has only one. */
+  /** How far apart neighbouring passes of the path are [mm]; of one pass about its size, or infinite. */
   get spacing() {
     if (this.#spacing !== undefined) return this.#spacing;
     const step = Math.max(1, Math.ceil(this.count / MOST_LEGS));

@@ -43,7 +43,10 @@ class Picture {
     this.#painter.ramp(texels());
   }
 
-  /** Takes over paths, the stock, and axes { frame, long }, over a floor that is as wide as `box`; `unit` [mm] is that of its grid. Returns the grid's spacing in units. */
+  /**
+   * Takes over paths, the stock, and axes { frame, long }, over a floor that is as wide as `box`;
+   * `unit` [mm] is that of its grid. Returns the grid's spacing in units.
+   */
   take({ paths, stock, frame, axes, box, unit }) {
     this.#paths = paths;
     this.#looks = paths.cutPoints(LOOKS);
