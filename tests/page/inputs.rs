@@ -186,7 +186,8 @@ fn a_robot_is_found_by_what_is_known_of_it() -> Result {
         page.press(char::from(Key::Escape)).await?;
         assert_eq!(page.value("#robot-preset-search").await?, "Stäubli RX-90");
         shows(page, &run(&[])).await?;
-        assert!(find("kr210 r2700-2").await?[0].contains("reach 2.70 m"));
+        // Its lengths: 330 + 1150 + the root of 115² + 1220², in mm.
+        assert!(find("kr210 r2700-2").await?[0].contains("reach 2.71 m"));
         page.press(char::from(Key::Enter)).await?;
         assert_eq!(page.value("#robot-preset").await?, "kuka-kr-210-r2700-2");
         assert_eq!(page.value("#robot-preset-search").await?, "KUKA KR 210 R2700-2");
@@ -303,6 +304,7 @@ fn frames_are_written_as_the_brand_counts_them() -> Result {
     visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         unfold(page, "frames").await?;
+        unfold(page, "program").await?;
         // The page's conversions are the core's.
         for rpy in [[10.0, 20.0, 30.0], [-170.0, 45.0, 100.0], [5.0, -80.0, -120.0]] {
             let rotation = Pose::from_xyz_rpy(Vector3::zeros(), rpy.map(f64::to_radians)).rotation;
