@@ -163,7 +163,7 @@ fn opens_with_the_thesis_case_and_follows_the_inputs() -> Result {
         let zv = json!({"kind": "zv", "frequency_rad_s": 18, "damping": 0.1});
         shows(page, &run(&[aluminium, ("shaper", zv)])).await?;
 
-        page.click("#reset").await?;
+        page.js("document.getElementById('open-thesis').click()").await?;
         shows(page, &run(&[])).await
     })
 }

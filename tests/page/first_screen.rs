@@ -26,7 +26,7 @@ async fn drawn(page: &Page) -> Result {
 
 /// Buttons, labels and titles of which a part is cut off or lies over another line of its bar.
 const CUT_OFF: &str = "const shown = [...document.querySelectorAll('button, label, h1, h2, h3, dt, dd, #verdict, \
-    .legend button, [role=tab]')].filter(each => each.checkVisibility()); \
+    .legend button, [role=tab]')].filter(each => each.checkVisibility() && !each.classList.contains('hidden-text')); \
     return shown.filter(each => each.scrollWidth > each.clientWidth + 1 && getComputedStyle(each).overflowX !== 'visible') \
     .map(each => each.id || each.textContent.trim().slice(0, 40))";
 

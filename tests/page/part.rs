@@ -195,8 +195,8 @@ fn with_a_part_no_panel_is_wider_than_its_screen() -> Result {
 fn nothing_moves_when_the_part_arrives() -> Result {
     visit(THESIS, DESKTOP, async |page| {
         open(page, "pocket.nc").await?;
-        page.wait_for("document.querySelector('#chart-path svg')", 20.0).await?;
-        let places = "return [...document.querySelectorAll('#panel-path .chart-figure')].map(each => \
+        page.wait_for("document.querySelector('#chart-actual-path svg')", 20.0).await?;
+        let places = "return [...document.querySelectorAll('.picture, #panel-overview .chart-figure')].map(each => \
              each.getBoundingClientRect().top + scrollY)";
         let early = page.js(places).await?;
         page.wait_for("document.querySelector('#scene').dataset.part === 'before'", 60.0).await?;

@@ -34,6 +34,7 @@ fn a_pinned_result_stands_beside_the_next() -> Result {
     visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         page.click("#pin").await?;
+        page.click("#tab-compare").await?;
         page.type_into("#motion-feed_mm_s", "50").await?;
         let (a, b) = (run(&[]), run(&[("motion.feed_mm_s", json!(50))]));
         shows(page, &b).await?;
@@ -68,6 +69,7 @@ fn up_to_five_results_are_compared_with_a_chosen_one() -> Result {
             page.type_into("#cutting-axial_depth_mm", &depth.to_string()).await?;
             shows(page, report).await?;
             page.click("#pin").await?;
+        page.click("#tab-compare").await?;
         }
         page.click("#pin").await?;
         assert_eq!(title(page).await?, "E is this result already.");
@@ -162,6 +164,7 @@ fn a_pinned_result_is_drawn_with_the_next_and_stays_over_a_reload() -> Result {
     visit(THESIS, DESKTOP, async |page| {
         Chart::open(page, "overview", "before-after").await?;
         page.click("#pin").await?;
+        page.click("#tab-compare").await?;
         assert_eq!(outlines(page, true).await?.len(), 0, "A beside itself");
         page.type_into("#motion-feed_mm_s", "60").await?;
         let (a, b) = (run(&[]), run(&[("motion.feed_mm_s", json!(60))]));

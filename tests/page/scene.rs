@@ -139,7 +139,7 @@ fn without_webgl_a_message_leads_to_the_charts() -> Result {
         current(page).await?;
         page.wait_for("document.querySelector('#scene .message').textContent.includes('WebGL')", 10.0)
             .await?;
-        page.wait_for("document.querySelector('#chart-path svg')", 10.0).await
+        page.wait_for("document.querySelector('#chart-actual-path svg')", 10.0).await
     })
 }
 
