@@ -115,7 +115,7 @@ fn mistakes_are_placed_and_say_what_to_do() {
         ("GOTO/1,,3", (1, 8), "value before and after it"),
         ("GOTO/1,2,", (1, 10), "value before and after it"),
         ("GOTO/1,2 $\n3", (2, 1), "separated by commas"),
-        ("GOTO/1,2,3 $", (1, 11), "goes on"),
+        ("GOTO/1,2,3 $", (1, 11), "continues the statement"),
         ("GOTO/1,2,nan", (1, 10), "\"nan\""),
         ("GOTO/1,2,inf", (1, 10), "\"inf\""),
         ("GOTO/1 0,2,3", (1, 6), "\"1 0\""),

@@ -127,7 +127,7 @@ fn mistakes_are_placed_and_say_what_to_do() {
         ("x,y,z,f\n0,0,0,1\n1,0,0,0", (3, 7), "a feed is"),
         ("x,y,z,f\n0,0,0,1\n1,0,0,-5", (3, 7), "a feed is"),
         ("x,y,z,f\n0,0,0,1\n1,0,0,", (3, 5), "4 cells"),
-        ("x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,0", (3, 7), "the length 1"),
+        ("x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,0", (3, 7), "a unit vector"),
         ("x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,1\n1,0,0,0,0.7071,0.7071", (4, 7), "45.000 deg in place"),
         ("x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,-1", (3, 7), "180 deg"),
     ] {
@@ -262,7 +262,7 @@ fn angles_of_a_robot_are_no_axis() {
         ("w,p,r,x,y,z\n0,90,0,0,0,0", (1, 1)),
         ("x,y,z,qw,qx,qy,qz\n0,0,0,1,0,0,0", (1, 7)),
     ] {
-        common::refused_at(read(text), text, place, "angles of a robot");
+        common::refused_at(read(text), text, place, "robot angles");
     }
     for text in [
         // P49

@@ -69,7 +69,7 @@ fn a_command_that_jumps_is_said_to_be_impossible() {
         assert_eq!(report.warnings[0].code, "command-acceleration", "before all that it would achieve");
         let said: f64 = found
             .message
-            .split_once("tool by ")
+            .split_once("tool at ")
             .and_then(|(_, rest)| rest.split(' ').next())
             .and_then(|figure| figure.parse().ok())
             .unwrap();

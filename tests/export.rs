@@ -291,9 +291,9 @@ fn every_program_says_where_it_comes_from_and_what_it_does_not_promise() {
             env!("CARGO_PKG_VERSION"),
             "model 2, run",
             &fingerprint,
-            "Tolerance asked 0.01 mm, largest contour error reached",
+            "Tolerance 0.01 mm, largest contour error",
             "absolute-accuracy option adds its own error",
-            "commands before the input shaper, 18 rad/s, damping 0.1",
+            "commands are meant for an input shaper, 18 rad/s, damping 0.1",
         ] {
             assert!(text.contains(piece), "{}: {piece}\n{text}", format.id);
         }

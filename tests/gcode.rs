@@ -431,7 +431,7 @@ fn refusals_are_placed_and_say_what_to_do() {
         ("a variable without a value", "G1 X#1", 5, "no value"),
         ("an expression that is none", "G1 X[1+a]", 8, "a number"),
         ("a sub-program without an end", "O100 sub", 1, "endsub"),
-        ("a sub-program that is not there", "o<cut> call", 1, "a sub-program or macro in this text"),
+        ("a sub-program that is not there", "o<cut> call", 1, "a sub-program in this text"),
                 ("a second program", "O200", 1, "sub-programs"),
         ("a call of another file", "M98 P100", 1, "other files are not read"),
         ("rotary axis", "G1 X1 A30", 7, "rotary"),

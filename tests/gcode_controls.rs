@@ -105,7 +105,7 @@ fn macros_take_their_words_as_variables() {
         ),
     ]);
     refuse(&[
-        (Fanuc, "G65 P77 A1\nM30", 1, "must be in this text"),
+        (Fanuc, "G65 P77 A1\nM30", 1, "a sub-program or macro in this text"),
         (Fanuc, "G65 A1\nM30", 1, "names its macro"),
         (Fanuc, "G65 P1 I1 J2 I3\nM30\nO1\nM99", 1, "specification II"),
         (Fanuc, "G65 P1\nM30\nO1\nG65 P1\nM99", 4, "hundred"),
@@ -155,7 +155,7 @@ fn loops_without_a_condition_need_a_way_out() {
         "{error}"
     );
     refuse(&[
-        (Fanuc, "X1\nDO 1\nX2\nX1\nEND 1\nM30", 2, "without an end"),
+        (Fanuc, "X1\nDO 1\nX2\nX1\nEND 1\nM30", 2, "endless"),
         (Fanuc, "DO 1\nX2\nIF [#0 EQ #0] GOTO 5\nM30\nN5 X1", 1, "END"),
         (Fanuc, "X1\nEND 1", 2, "DO"),
     ]);
@@ -273,13 +273,13 @@ fn positions_of_the_machine_are_no_points_of_the_workpiece() {
         assert_eq!(ends(&program), points, "{text}");
     }
     refuse(&[
-        (Fanuc, "G53 G0 X0 Y0\nG1 Z-1", 2, "position of the machine"),
-        (Fanuc, "G53 G0 X0 Y0\nG2 X5 Y5 I5", 2, "position of the machine"),
-        (Fanuc, "G53 G0 X0 Y0\nG81 Z-1 R2", 2, "position of the machine"),
+        (Fanuc, "G53 G0 X0 Y0\nG1 Z-1", 2, "machine position"),
+        (Fanuc, "G53 G0 X0 Y0\nG2 X5 Y5 I5", 2, "machine position"),
+        (Fanuc, "G53 G0 X0 Y0\nG81 Z-1 R2", 2, "machine position"),
         (Fanuc, "G53 G0 Z0\nG91 Z-5", 2, "G91"),
         (Fanuc, "G53 G0 Z0\nX1 Y1\nG18 G2 X5 Z5 I5", 3, "in Z"),
         (Fanuc, "G91 G28 X0 Y0\nX5", 2, "G91"),
-        (Fanuc, "G53 G0 X0\nG92 X0", 2, "position of the machine"),
+        (Fanuc, "G53 G0 X0\nG92 X0", 2, "machine position"),
     ]);
 }
 
