@@ -281,7 +281,7 @@ fn a_trap_is_survived() -> Result {
         page.type_into("#motion-feed_mm_s", "120").await?;
         let job = ("motion.feed_mm_s", json!(120));
         shows(page, &run(std::slice::from_ref(&job))).await?;
-        page.with_module("core", "({ trap }) => trap()").await?;
+        page.with_module("core/client", "({ trap }) => trap()").await?;
         page.wait_for("document.querySelector('#alert').textContent.includes('started again')", 20.0).await?;
         // The job is kept and computed again; the next change works as before.
         assert_eq!(page.value("#motion-feed_mm_s").await?, "120");

@@ -20,7 +20,9 @@ export class ArmillCalculator extends HTMLElement {
   static observedAttributes = ["job", ...HANDED_ON, "height", "title", "src"];
 
   #frame = document.createElement("iframe");
+  /** @type {URL | undefined} */
   #url; // what the frame shows
+  #shadow = this.attachShadow({ mode: "open" });
   #update = 0; // only the latest one counts
 
   constructor() {
@@ -29,7 +31,6 @@ export class ArmillCalculator extends HTMLElement {
     for (const [name, value] of Object.entries({ display: "block", width: "100%", border: "0" }))
       this.#frame.style.setProperty(name, value);
     this.#tall(FIRST_HEIGHT);
-    this.attachShadow({ mode: "open" });
   }
 
   connectedCallback() {
@@ -47,7 +48,7 @@ export class ArmillCalculator extends HTMLElement {
   }
 
   /** Takes the height from our own frame's messages, and nothing from anybody else's. */
-  #follow = ({ source, origin, data }) => {
+  #follow = (/** @type {MessageEvent} */ { source, origin, data }) => {
     if (source !== this.#frame.contentWindow || origin !== this.#url?.origin) return;
     const height = data?.type === "armill-height" ? data.height : undefined;
     if (Number.isFinite(height) && height > 0 && height <= TALLEST && !this.#fixed) this.#tall(Math.ceil(height));
@@ -58,6 +59,7 @@ export class ArmillCalculator extends HTMLElement {
     return height > 0 ? Math.min(height, TALLEST) : undefined;
   }
 
+  /** @param {number} height [px] */
   #tall(height) {
     this.#frame.style.setProperty("height", `${height}px`);
   }
@@ -67,7 +69,7 @@ export class ArmillCalculator extends HTMLElement {
     if (this.#fixed) this.#tall(this.#fixed);
     this.#frame.title = this.getAttribute("title") ?? "Armill calculator";
     const options = new URLSearchParams();
-    for (const name of HANDED_ON) if (this.hasAttribute(name)) options.set(name, this.getAttribute(name));
+    for (const name of HANDED_ON) if (this.hasAttribute(name)) options.set(name, this.getAttribute(name) ?? "");
     try {
       const job = await jobOf(this.getAttribute("job")?.trim());
       if (mine !== this.#update) return;
@@ -77,24 +79,28 @@ export class ArmillCalculator extends HTMLElement {
       return;
     }
     this.#url = new URL(this.getAttribute("src") ?? new URL("../embed.html", import.meta.url), document.baseURI);
-    this.#url.hash = options;
+    this.#url.hash = String(options);
     // Replaced, so that a change of attributes is no step in the reader's history.
-    if (this.#frame.isConnected) this.#frame.contentWindow.location.replace(this.#url);
+    if (this.#frame.isConnected) this.#frame.contentWindow?.location.replace(this.#url);
     else {
-      this.#frame.src = this.#url;
-      this.shadowRoot.replaceChildren(this.#frame);
+      this.#frame.src = this.#url.href;
+      this.#shadow.replaceChildren(this.#frame);
     }
   }
 
+  /** @param {string} message */
   #say(message) {
     const text = document.createElement("p");
     text.setAttribute("role", "alert");
     text.textContent = message;
-    this.shadowRoot.replaceChildren(text);
+    this.#shadow.replaceChildren(text);
   }
 }
 
-/** What the frame takes as a job: JSON text, or what a link's fragment holds. */
+/**
+ * What the frame takes as a job: JSON text, or what a link's fragment holds.
+ * @param {string | undefined} attribute
+ */
 async function jobOf(attribute) {
   if (!attribute || attribute.startsWith("{")) return attribute;
   const url = new URL(attribute, document.baseURI);

@@ -12,45 +12,104 @@
 
 import { formatNumber } from "./page/number.js";
 
+/**
+ * @import { ChartEntry, Summary } from "../pkg/armill.js"
+ * @import { Events, Failure, Result } from "./core/client.js"
+ * @import { Job } from "./job/job.js"
+ * @import { Remedy } from "./page/status.js"
+ */
+
+/** @typedef {"empty" | "computing" | "preview" | "current" | "stale" | "stopped"} State */
+
+/**
+ * A result on show: `text` is its job, `took` how long it took [ms].
+ *
+ * @typedef {{ text: string, readonly job: Job, summary: Summary, charts: ChartEntry[], preview: boolean, took: number }} Shown
+ */
+
+/**
+ * The inputs. `flawed` says that a field holds something else than what the job has, `problem` what it is;
+ * `showError` shows an error of the core beside its field, and returns whether there is one.
+ *
+ * @typedef {{
+ *   flawed: boolean,
+ *   problem: { message: string, go(): void } | undefined,
+ *   clearErrors(): void,
+ *   showError(error: Failure): boolean,
+ * }} Inputs
+ */
+
+/**
+ * What shows it all.
+ *
+ * @typedef {{
+ *   become(state: State): void,
+ *   say(status: string): void,
+ *   warn(message: string, remedy?: Remedy): void,
+ *   calm(): void,
+ *   slow(whether: boolean): void,
+ *   progress(fraction: number): void,
+ *   show(shown: Shown): void,
+ *   remedyFor?(error: Failure): Remedy | undefined,
+ * }} View
+ */
+
 const TYPING_MS = 150; // results follow this long after the last key
 const PUSHED = 4000; // samples of a run that follows a number while it is pushed
 const COARSE_S = 0.005; // but no further apart than this
 const PATIENCE_MS = 150; // a run that takes longer shows its progress
 const SILENCE_MS = 30_000; // without progress: browsers do not report a killed Worker
 
-/** The states, in the order of the picture above. */
+/**
+ * The states, in the order of the picture above.
+ * @type {State[]}
+ */
 export const STATES = ["empty", "computing", "preview", "current", "stale", "stopped"];
 
-/** A form that is not built yet. */
+/**
+ * A form that is not built yet.
+ * @type {Inputs}
+ */
 const NO_FORM = { flawed: false, problem: undefined, clearErrors() {}, showError: () => false };
 
 export class Calculator {
-  /** One of `STATES`. */
+  /** @type {State} */
   state = "empty";
-  /** The shown result: { text, job, summary, charts, preview, took }, or null. */
+  /** @type {Shown | null} */
   shown = null;
-  /** The inputs: { flawed, problem, clearErrors(), showError(error) }. */
   form = NO_FORM;
+  /** @type {{ run(text: string): void, cancel(): void }} */
   #core;
+  /** @type {View} */
   #view;
+  /** @type {Job} */
   #job;
+  /** @type {Set<string>} */
   #previews = new Set(); // texts of jobs with fewer samples that were asked for since the last full result
+  /** @type {number | undefined} */
   #typing;
+  /** @type {number | undefined} */
   #slow;
   #isSlow = false;
+  /** @type {number | undefined} */
   #silent;
 
   /**
    * `core` has run(text) and cancel(); `view` shows what happens: become(state), say(status),
    * warn(message, remedy) with remedy { label, go }, calm(), slow(whether), progress(fraction),
    * show(shown) for a result, and remedyFor(error), which may be undefined.
+   * @param {{ run(text: string): void, cancel(): void }} core
+   * @param {View} view
    */
   constructor(core, view) {
     this.#core = core;
     this.#view = view;
   }
 
-  /** The job that is computed from now on, a `Job`. */
+  /**
+   * The job that is computed from now on, a `Job`.
+   * @param {Job} job
+   */
   open(job) {
     this.#job = job;
   }
@@ -63,6 +122,7 @@ export class Calculator {
   /**
    * After every edit: computes, or says what is wrong and keeps the last result. A number that is
    * pushed (`stepped`) is complete at every step; one that is typed is not.
+   * @param {boolean} [stepped]
    */
   edited(stepped = false) {
     this.#view.calm();
@@ -87,7 +147,10 @@ export class Calculator {
     this.#core.run(this.#job.text);
   }
 
-  /** What the core calls, see `start` in core/client.js. */
+  /**
+   * What the core calls.
+   * @type {Events}
+   */
   events = {
     onstart: () => {
       this.#become(this.shown?.preview ? "preview" : "computing");
@@ -127,6 +190,8 @@ export class Calculator {
   /**
    * The core could not be loaded, at first or for another Worker. `again` is what to try where a network
    * that comes back mends that.
+   * @param {Partial<Failure>} error
+   * @param {() => void} [again]
    */
   cannotStart(error, again = () => this.edited()) {
     this.#become("stopped");
@@ -137,6 +202,10 @@ export class Calculator {
     this.#view.say(this.#lastValid.trim());
   }
 
+  /**
+   * @param {Result} result
+   * @param {number} took
+   */
   #take({ text, summary, charts }, took) {
     this.#idle();
     const current = text === this.#job.text;
@@ -164,6 +233,7 @@ export class Calculator {
     this.#view.say(`${samples} samples in ${formatNumber(took / 1000, 2)} s`);
   }
 
+  /** @param {Failure} error */
   #fail(error) {
     this.#idle();
     if (this.form.showError(error)) return this.#refuse();
@@ -184,8 +254,9 @@ export class Calculator {
 
   /** Has a long run follow a number that is pushed with fewer samples; all of them come when it rests. */
   #pushed() {
+    const { duration_s } = /** @type {Shown} */ (this.shown).summary;
     const time = this.#job.sampleTime;
-    const every = Math.floor(Math.min(this.shown.summary.duration_s / PUSHED, COARSE_S) / time);
+    const every = Math.floor(Math.min(duration_s / PUSHED, COARSE_S) / time);
     if (every < 2) return this.compute();
     const preview = this.#job.sampledEvery(every * time);
     this.#previews.add(preview);
@@ -198,6 +269,7 @@ export class Calculator {
     this.#typing = setTimeout(() => this.compute(), TYPING_MS);
   }
 
+  /** @param {State} state */
   #become(state) {
     this.state = state;
     this.#view.become(state);

@@ -4,12 +4,36 @@
 import { readText } from "./core/assets.js";
 import { jobIn } from "./job/link.js";
 
+/**
+ * @import { ChartEntry, Field, Presets, RobotPreset, MaterialPreset } from "../pkg/armill.js"
+ * @import { Hello } from "./core/client.js"
+ * @import { JobData } from "./job/data.js"
+ */
+
+/**
+ * @typedef {{
+ *   theme: string,
+ *   show: string[],
+ *   units: Record<string, string>,
+ *   job: string | null,
+ *   preset: string[],
+ *   inputs: string[],
+ *   charts: string[],
+ * }} Options
+ */
+
 const THEMES = ["auto", "light", "dark"];
 const PARTS = ["none", "scene", "budget"];
+/** @type {Record<string, string>} */
 const UNITS = { mm: "length", inch: "length", N: "force", lbf: "force" }; // what each is a unit of
+/** @param {string} text */
 const words = (text) => text.split(/[\s,]+/).filter(Boolean);
 
-/** The options in a fragment, with what holds for those that are not given. */
+/**
+ * The options in a fragment, with what holds for those that are not given.
+ * @param {string} fragment
+ * @returns {Options}
+ */
 export function optionsIn(fragment) {
   const given = new URLSearchParams(fragment.slice(1));
   const theme = given.get("theme") || "auto";
@@ -29,10 +53,18 @@ export function optionsIn(fragment) {
   };
 }
 
-/** Whether the job comes from a link rather than as JSON text. */
-export const isLinked = ({ job }) => Boolean(job) && !job.startsWith("{");
+/**
+ * Whether the job comes from a link rather than as JSON text.
+ * @param {Pick<Options, "job">} options
+ */
+export const isLinked = ({ job }) => Boolean(job) && !job?.startsWith("{");
 
-/** The job to start from: the one given, or the default job with presets put in. */
+/**
+ * The job to start from: the one given, or the default job with presets put in.
+ * @param {Options} options
+ * @param {Pick<Hello, "job" | "presets">} core
+ * @returns {Promise<JobData>}
+ */
 export async function jobOf(options, { job: standard, presets }) {
   const { job, preset } = options;
   const text = isLinked(options) ? await jobIn(`#job=${job}`) : job;
@@ -41,13 +73,21 @@ export async function jobOf(options, { job: standard, presets }) {
   return data;
 }
 
-/** Puts a robot, a material or an example program of this name into a job. */
+/**
+ * Puts a robot, a material or an example program of this name into a job.
+ * @param {string} name
+ * @param {JobData} job
+ * @param {Presets} presets
+ */
 async function put(name, job, { robots, materials }) {
+  /** @param {(RobotPreset | MaterialPreset)[]} list */
   const has = (list) => list.some(({ id }) => id === name);
   if (has(robots)) job.robot = { preset: name };
   else if (has(materials)) job.material = { preset: name };
   else {
+    /** @type {{ file: string, kind: string, stock?: object, tool?: object }[]} */
     const examples = JSON.parse(await readText("examples/index.json"));
+    /** @param {{ file: string }} example */
     const nameOf = ({ file }) => file.replace(/\.\w+$/, "");
     const example = examples.find((each) => nameOf(each) === name);
     if (!example)
@@ -58,7 +98,11 @@ async function put(name, job, { robots, materials }) {
   }
 }
 
-/** The fields to show: those named, and those of groups named. */
+/**
+ * The fields to show: those named, and those of groups named.
+ * @param {Field[]} fields
+ * @param {string[]} inputs
+ */
 export function fieldsIn(fields, inputs) {
   const names = new Set(fields.flatMap(({ group, path }) => [group, path]));
   return chosen(
@@ -70,13 +114,25 @@ export function fieldsIn(fields, inputs) {
   );
 }
 
-/** The charts to show: those named, and those of views named. */
+/**
+ * The charts to show: those named, and those of views named.
+ * @param {ChartEntry[]} charts
+ * @param {string[]} wanted
+ */
 export function chartsIn(charts, wanted) {
   const names = new Set(charts.flatMap(({ name, view }) => [view, name]));
   return chosen("charts", charts, wanted, [...names], ({ name, view }, word) => word === name || word === view);
 }
 
-/** The items that any of the words picks, in the order of the words; "none" picks nothing. */
+/**
+ * The items that any of the words picks, in the order of the words; "none" picks nothing.
+ * @template T
+ * @param {string} option
+ * @param {T[]} items
+ * @param {string[]} asked
+ * @param {string[]} legal
+ * @param {(item: T, word: string) => boolean} picks
+ */
 function chosen(option, items, asked, legal, picks) {
   const found = asked.flatMap((word) => {
     const picked = items.filter((item) => picks(item, word));
@@ -86,5 +142,10 @@ function chosen(option, items, asked, legal, picks) {
   return [...new Set(found)];
 }
 
+/**
+ * @param {string} option
+ * @param {string} value
+ * @param {string[]} legal
+ */
 const unknown = (option, value, legal) =>
   new Error(`This calculator is asked for ${option} "${value}", which is not one of ${legal.join(", ")}.`);

@@ -18,8 +18,18 @@ import { showSurface } from "./result/surface.js";
 import { showWarnings } from "./result/warnings.js";
 import { makeScene } from "./scene/view.js";
 
+/**
+ * @import { Summary } from "../pkg/armill.js"
+ * @import { Shown } from "./calculator.js"
+ * @import { Failure } from "./core/client.js"
+ * @import { Options } from "./embed-options.js"
+ */
+
+/** @type {Options} */
 let options; // what the host page asks for
+/** @type {ReturnType<typeof makeScene> | undefined} */
 let scene; // if it is asked for
+/** @type {Job} */
 let job;
 let origin = ""; // what there is to say about the job of a link, until it is changed
 let missing = ""; // what the host page asks for and there is none of
@@ -33,7 +43,11 @@ const calculator = new Calculator(core, {
   show,
 });
 
-/** After every edit; the way to the whole page takes the inputs along. */
+/**
+ * After every edit; the way to the whole page takes the inputs along.
+ * @param {unknown} _
+ * @param {boolean} [stepped]
+ */
 function edited(_, stepped) {
   origin = "";
   link();
@@ -54,6 +68,7 @@ function cannotStart(error) {
   status.say("No result yet.");
 }
 
+/** @param {Shown} shown */
 function show({ summary, charts }) {
   showFigures(summary);
   scene?.show(summary);
@@ -78,7 +93,8 @@ function showFigures({ verdict, verdict_state, how_sure, before_mm, after_mm, cu
   for (const [row, { mean, max }] of [
     [".before", before_mm.both],
     [".after", after_mm],
-  ]) {
+  ])) {
+    /** @type {NodeListOf<HTMLElement>} */
     const cells = byId("figures").querySelectorAll(`${row} td`);
     [mean, max].forEach((value, i) => {
       cells[i].textContent = errorText(value);
@@ -97,7 +113,7 @@ async function link() {
 /** Shows the parts asked for, in the units asked for. */
 function furnish() {
   lend(options.units);
-  for (const unit of document.querySelectorAll("[data-unit]"))
+  for (const unit of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-unit]")))
     unit.textContent = unit.dataset.unit === "force" ? forceUnit() : lengthUnit();
   for (const part of ["scene", "budget"]) byId(part).hidden = !options.show.includes(part);
   if (options.show.includes("scene")) scene = makeScene(byId("scene"));
@@ -127,7 +143,8 @@ try {
   calculator.open(job);
   calculator.compute(); // while the form is built
   calculator.form = new Form(byId("form"), job, fields, hello.presets, edited);
-  for (const group of document.querySelectorAll(".group")) group.open = !options.inputs.includes("all");
+  for (const group of /** @type {NodeListOf<HTMLDetailsElement>} */ (document.querySelectorAll(".group")))
+    group.open = !options.inputs.includes("all");
   showPanel(byId("panel-embed"));
   link();
 } catch (error) {

@@ -7,7 +7,8 @@ import { Form } from "./form/form.js";
 import { followCaret, followPaste, programTools } from "./form/program-tools.js";
 import { ask, showAsked } from "./form/still-asked.js";
 import { makeIdentify } from "./identify/panel.js";
-import { Job, merged } from "./job/job.js";
+import { merged } from "./job/data.js";
+import { Job } from "./job/job.js";
 import { makeOpening } from "./job/opening.js";
 import { Session } from "./job/session.js";
 import { makeTitle } from "./job/title.js";
@@ -37,13 +38,15 @@ const OF_RESULT = [...FILES, "share", "pin"];
 
 await begun;
 
+/** @type {Job} */
 let job;
+/** @type {Session} */
 let session;
 let tabs;
 let arm; // the robot of the inputs, by its key
 let examples; // the core's own jobs: `opening`, and `job`, the thesis's
 
-const present = { job: () => job?.data, use: (changed) => session.load(changed) };
+const present = { job: () => job?.data, use: (/** @type {JobData} */ changed) => session.load(changed) };
 const scene = makeScene(byId("scene"));
 const placement = makePlacement(byId("placement"), present);
 const identify = makeIdentify(byId("identify"), present);
@@ -62,7 +65,10 @@ const opening = makeOpening({
   warn: status.warn,
 });
 
-/** A result of other inputs than those on the page is shared with its own, but not milled. */
+/**
+ * A result of other inputs than those on the page is shared with its own, but not milled.
+ * @param {State} state
+ */
 function become(state) {
   status.become(state);
   if (state === "stale") for (const id of FILES) byId(id).disabled = true;
@@ -72,6 +78,7 @@ function progress(fraction) {
   byId("progress").value = fraction;
 }
 
+/** @param {Shown} shown */
 function show(shown) {
   const first = !byId("fingerprint").dataset.seen;
   showFigures();
@@ -99,7 +106,10 @@ function showFigures() {
   compare.show();
 }
 
-/** Charts name the line of the program that runs at a time. */
+/**
+ * Charts name the line of the program that runs at a time.
+ * @param {Summary} summary
+ */
 async function takeLines({ program, duration_s, samples }) {
   setLines(null, 1);
   if (!program) return;
@@ -131,7 +141,10 @@ async function placeInFront() {
   }
 }
 
-/** After every edit of the form, and after every job that was opened. */
+/**
+ * After every edit of the form, and after every job that was opened.
+ * @param {boolean} [stepped]
+ */
 function edited(stepped) {
   arm = job.data.robot.preset;
   showAsked(job.data);
@@ -154,6 +167,10 @@ function foldInputs(away) {
   byId("inputs-toggle").textContent = away ? "Show" : "Hide";
 }
 
+/**
+ * @param {string} format
+ * @param {string} name
+ */
 async function save(format, name) {
   try {
     download(name, "text/csv", await core.exported(format));
@@ -194,7 +211,7 @@ function wire() {
   byId("open-thesis").addEventListener("click", () => session.load(examples.job));
   byId("reset").addEventListener("click", () => session.load(examples.opening));
   byId("open-job").addEventListener("click", () => byId("job-file").click());
-  byId("job-file").addEventListener("change", ({ target }) => opening.openJob(target.files[0]));
+  byId("job-file").addEventListener("change", () => opening.openJob(byId("job-file").files?.[0]));
   byId("download-job").addEventListener("click", () =>
     download("armill-job.json", "application/json", `${job.text}\n`),
   );
@@ -216,6 +233,8 @@ function wire() {
 
 /** What is done with the shown result as a whole: shared, pinned, read in other units. */
 function wireResultTools() {
+  /** @param {(shown: Shown) => void} act */
+  const withShown = (act) => () => calculator.shown && act(calculator.shown);
   const share = shareDialog();
   byId("share").addEventListener("click", () =>
     share({ ...calculator.shown, job: calculator.shown.job, standard: examples.job }),
@@ -234,8 +253,8 @@ async function open() {
   byId("version").textContent = `v${hello.version}`;
   const form = new Form(byId("form"), job, hello.fields, hello.presets, typed);
   calculator.form = form;
-  byId("group-robot").querySelector("legend").after(armView.node);
-  byId("group-path").querySelector("legend").after(programTools(opening.useProgram, status.warn));
+  byId("group-robot").querySelector("legend")?.after(armView.node);
+  byId("group-path").querySelector("legend")?.after(programTools(opening.useProgram, status.warn));
   followPaste(opening.useProgram);
   followCaret((time) => setCursor(time, "program"));
   opening.wireDrop();
@@ -246,7 +265,10 @@ async function open() {
   byId("download-job").disabled = false;
 }
 
-/** The core could not be loaded: says so, and offers to try again. */
+/**
+ * The core could not be loaded: says so, and offers to try again.
+ * @param {Partial<Failure>} error
+ */
 function cannotStart(error) {
   if (!calculator.shown) byId("verdict").textContent = "The calculator could not start.";
   calculator.cannotStart(error, () => {

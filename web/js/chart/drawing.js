@@ -8,12 +8,16 @@ const MOST_LETTERS = 3; // curves of a result that have its letter each
 const LETTER_PX = 14; // height of a letter with some room
 const SPILL = 4; // what a line at the edge needs beside the plot [px]
 
-/** The drawing as elements. */
+/**
+ * The drawing as elements.
+ * @param {Chart} chart
+ * @returns {SVGSVGElement}
+ */
 export function drawingOf(chart) {
   const parsed = new DOMParser().parseFromString(chart.svg, "image/svg+xml");
-  const svg = document.importNode(parsed.documentElement, true);
+  const svg = /** @type {any} */ (document.importNode(parsed.documentElement, true));
   svg.setAttribute("aria-hidden", "true"); // heading and caption say it; a <title> would pop up under the pointer
-  svg.querySelectorAll(":scope > :is(title, desc)").forEach((element) => element.remove());
+  svg.querySelectorAll(":scope > :is(title, desc)").forEach((/** @type {Element} */ element) => element.remove());
   const { left, top, width, height } = chart.plot;
   const id = `clip-${chart.name}`;
   const room = makeSvg("rect", {

@@ -3,6 +3,8 @@
 import { make, makeSvg } from "../page/dom.js";
 import { sample } from "./legend.js";
 
+/** @import { Chart, ChartColumn } from "../../pkg/armill.js" */
+
 const LOOK = [
   "fill",
   "fill-opacity",
@@ -47,8 +49,8 @@ export async function fileOf(format, { chart, data, times, hidden }, svg, legend
 function svgText(chart, plot, legend) {
   const style = getComputedStyle(plot);
   const family = style.fontFamily.replaceAll('"', "'");
-  const ink = getComputedStyle(plot.closest("figure")).color;
-  const pen = make("canvas").getContext("2d");
+  const { color: ink, backgroundColor } = getComputedStyle(plot.closest("figure") ?? plot);
+  const pen = /** @type {CanvasRenderingContext2D} */ (make("canvas").getContext("2d"));
   pen.font = `12px ${style.fontFamily}`;
   let [x, row] = [MARGIN, 0];
   const entries = legend.map(({ label, sample }) => {
@@ -80,7 +82,7 @@ function svgText(chart, plot, legend) {
     },
     makeSvg("title", {}, chart.title),
     makeSvg("desc", {}, chart.description),
-    makeSvg("rect", { width, height, fill: getComputedStyle(plot.closest("figure")).backgroundColor }),
+    makeSvg("rect", { width, height, fill: backgroundColor }),
     makeSvg("text", { x: MARGIN, y: TITLE - 4, "font-size": 15, "font-weight": 600, fill: ink }, chart.title),
     ...entries,
   );
@@ -89,9 +91,17 @@ function svgText(chart, plot, legend) {
   return `<?xml version="1.0" encoding="UTF-8"?>\n${new XMLSerializer().serializeToString(root)}\n`;
 }
 
-/** A copy that has its colours, weights and dashes with it. */
+/**
+ * A copy that has its colours, weights and dashes with it.
+ * @param {SVGElement} element
+ * @returns {SVGElement}
+ */
 function dressed(element) {
-  const copy = element.cloneNode(true);
+  const copy = /** @type {SVGElement} */ (element.cloneNode(true));
+  /**
+   * @param {Element} a
+   * @param {Element} b
+   */
   const pairs = (a, b) => {
     if (a.namespaceURI === makeSvg("g").namespaceURI && a.tagName !== "svg" && !a.closest("defs")) {
       const style = getComputedStyle(a);
@@ -114,8 +124,10 @@ async function pngOf(svg) {
     image.src = address;
     await image.decode();
     const canvas = make("canvas", { width: 2 * image.width, height: 2 * image.height });
-    canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
-    return await new Promise((done) => canvas.toBlob(done, "image/png"));
+    canvas.getContext("2d")?.drawImage(image, 0, 0, canvas.width, canvas.height);
+    return await new Promise((done, fail) =>
+      canvas.toBlob((blob) => (blob ? done(blob) : fail(new Error("the picture is too large"))), "image/png"),
+    );
   } finally {
     URL.revokeObjectURL(address);
   }

@@ -37,16 +37,21 @@ export class Figure {
   #tools;
   #link;
   #values;
+  /** @type {any} */
   #svg = null;
   #chart = null; // as drawn last
   selecting = false; // whether a drag selects
   #picker;
   #samples;
   #view = { x: null, y: null }; // ranges asked for; null: all
+  /** @type {number | null} */
   #index = null; // the sample at the cursor
+  /** @type {number | null} */
   #local = null; // that of a chart that is not over the run
+  /** @type {number | null | undefined} */
   #before = undefined; // where the cursor was when the pointer came
   #waiting = false;
+  /** @type {Promise<void> | null} */
   #drawing = null;
   #drawnAt = { width: 0, height: 0 };
   #room = null; // to draw in, measured when it may have changed: to ask makes the browser lay out the page
@@ -54,6 +59,9 @@ export class Figure {
   /**
    * `link(figure, range)` is called when the range of time changes, to take the other charts along.
    * `values` draws it and has its values: the shown result.
+   * @param {Pick<ChartEntry, "name" | "title" | "figure" | "kind">} entry
+   * @param {(figure: Figure, range: Range | null) => void} link
+   * @param {Values} [values]
    */
   constructor({ name, title, figure, kind, over = [] }, link, values = core) {
     this.#values = values;
@@ -100,7 +108,10 @@ export class Figure {
     listen(this.#plot, this);
   }
 
-  /** Draws with what holds now; what is asked for meanwhile is drawn after that. */
+  /**
+   * Draws with what holds now; what is asked for meanwhile is drawn after that.
+   * @returns {Promise<void>}
+   */
   draw() {
     this.#waiting = true;
     this.#drawing ??= this.#drawAll().finally(() => (this.#drawing = null));
@@ -162,7 +173,7 @@ export class Figure {
     this.#plot.replaceChildren(this.#svg, this.#marks.node);
     const { width, height } = chart;
     for (const [name, value] of Object.entries({ width, height, viewBox: `0 0 ${width} ${height}` }))
-      this.#marks.node.setAttribute(name, value);
+      this.#marks.node.setAttribute(name, String(value));
     this.#title.textContent = chart.title;
     this.#caption.textContent = chart.description;
     this.#legend.show(
@@ -204,7 +215,12 @@ export class Figure {
     return this.#chart?.plot ?? { left: 0, top: 0, width: 1, height: 1 };
   }
 
-  /** Shows these ranges; null is all, undefined as it is. */
+  /**
+   * Shows these ranges; null is all, undefined as it is.
+   * @param {Range | null} [x]
+   * @param {Range | null} [y]
+   * @param {boolean} [linked]
+   */
   zoom(x = this.#view.x, y = this.#view.y, linked = false) {
     if (!this.#chart) return void (this.#view = { x, y });
     const moved = String(x) !== String(this.#view.x);
@@ -236,12 +252,20 @@ export class Figure {
     this.draw().catch(() => {}); // a newer result, or a recovery, draws again
   }
 
+  /**
+   * @param {[number, number]} factors
+   * @param {[number, number]} [place]
+   */
   scale([fx, fy], place = this.#middle()) {
     if (!this.#chart) return;
     const { x, y } = this.#axes;
     this.zoom(fx === 1 ? undefined : scaled(x, place[0], fx), fy === 1 ? undefined : scaled(y, place[1], fy));
   }
 
+  /**
+   * @param {number} dx
+   * @param {number} dy
+   */
   shift(dx, dy) {
     if (!this.#chart) return;
     const { x, y } = this.#axes;
@@ -253,23 +277,44 @@ export class Figure {
     return this.#chart && this.#axes;
   }
 
+  /**
+   * @param {{ x: Axis, y: Axis } | null} grip
+   * @param {number} dx
+   * @param {number} dy
+   * @param {number} [factor]
+   * @param {[number, number]} [place]
+   */
   drag(grip, dx, dy, factor = 1, place = [0.5, 0.5]) {
     if (!grip) return;
     const { width, height } = this.area;
+    /**
+     * @param {Axis} axis
+     * @param {number} by
+     * @param {number} at
+     */
     const move = (axis, by, at) => between(axis, at - at * factor - by * factor, at + (1 - at) * factor - by * factor);
     const upright = this.plane || (factor === 1 && this.#view.y);
     this.zoom(move(grip.x, dx / width, place[0]), upright ? move(grip.y, -dy / height, place[1]) : undefined);
   }
 
+  /**
+   * @param {[number, number]} a
+   * @param {[number, number]} b
+   */
   zoomBox([x1, y1], [x2, y2]) {
     const { left, top, width, height } = this.area;
     const { x, y } = this.#axes;
-    const across = [x1, x2].map((value) => (value - left) / width).sort((a, b) => a - b);
-    const up = [y1, y2].map((value) => 1 - (value - top) / height).sort((a, b) => a - b);
-    const whole = ([from, to]) => from < 1e-6 && to > 1 - 1e-6;
-    this.zoom(whole(across) ? undefined : between(x, ...across), whole(up) ? undefined : between(y, ...up));
+    const [from, to] = [x1, x2].map((value) => (value - left) / width).sort((a, b) => a - b);
+    const [low, high] = [y1, y2].map((value) => 1 - (value - top) / height).sort((a, b) => a - b);
+    /**
+     * @param {number} start
+     * @param {number} end
+     */
+    const whole = (start, end) => start < 1e-6 && end > 1 - 1e-6;
+    this.zoom(whole(from, to) ? undefined : between(x, from, to), whole(low, high) ? undefined : between(y, low, high));
   }
 
+  /** @param {[number, number][] | null} corners */
   box(corners) {
     this.#marks.box(corners);
   }
@@ -278,7 +323,10 @@ export class Figure {
     this.zoom(null, null);
   }
 
-  /** Where keys and buttons zoom: at the cursor if it is seen. */
+  /**
+   * Where keys and buttons zoom: at the cursor if it is seen.
+   * @returns {[number, number]}
+   */
   #middle() {
     const { x } = this.#axes;
     const at =
@@ -288,23 +336,31 @@ export class Figure {
 
   // -- Cursor --
 
-  /** Where an event is, as fractions of the plot; null beside it unless `anyway`. */
+  /**
+   * Where an event is, as fractions of the plot; null beside it unless `anyway`.
+   * @param {Pointed} event
+   * @param {boolean} [anyway]
+   * @returns {[number, number] | null}
+   */
   place({ clientX, clientY }, anyway = false) {
     const { left, top, width, height } = this.area;
     const box = this.#plot.getBoundingClientRect();
     const [across, up] = [(clientX - box.left - left) / width, 1 - (clientY - box.top - top) / height];
-    const inside = [across, up].every((value) => value >= 0 && value <= 1);
-    return inside ? [across, up] : anyway ? [across, up].map((value) => Math.min(1, Math.max(0, value))) : null;
+    /** @param {number} value */
+    const inside = (value) => Math.min(1, Math.max(0, value));
+    return anyway || (across === inside(across) && up === inside(up)) ? [inside(across), inside(up)] : null;
   }
 
   enter() {
     this.#before = undefined;
   }
 
+  /** @param {[number, number] | null} place */
   async point(place) {
     if (this.#before === undefined) this.#before = this.overRun ? cursor() : this.#local;
     if (!this.#data && !(await this.#samples.fetch())) return;
     if (this.#before === undefined) return; // the pointer has left meanwhile
+    if (!place) return;
     const axes = this.#axes;
     if (!this.plane) return this.#set(scan(this.#data[0].values, valueAt(axes.x, place[0])));
     const { index, distance } = nearestInSpace(this.#content, axes, place);
@@ -320,7 +376,10 @@ export class Figure {
     else this.#set(before);
   }
 
-  /** The cursor comes to a place and stays. */
+  /**
+   * The cursor comes to a place and stays.
+   * @param {[number, number] | null} place
+   */
   async pin(place) {
     await this.point(place);
     this.#stay();
@@ -336,7 +395,11 @@ export class Figure {
     if (stretch()) setStretch(null);
   }
 
-  /** Moves by pixels, at least by one sample, or by a share of what is seen. */
+  /**
+   * Moves by pixels, at least by one sample, or by a share of what is seen.
+   * @param {number} pixels
+   * @param {number} share
+   */
   async step(pixels, share) {
     if (!this.#data && !(await this.#samples.fetch())) return;
     const { values } = this.#data[0];
@@ -348,6 +411,7 @@ export class Figure {
     this.#keep(this.#index === null && pixels > 0 ? from : Math.min(values.length - 1, Math.max(0, now + rounded)));
   }
 
+  /** @param {boolean} last */
   async ends(last) {
     if (!this.#data && !(await this.#samples.fetch())) return;
     const { values } = this.#data[0];
@@ -370,6 +434,7 @@ export class Figure {
     if (at < 0 || at > 1) this.shift(at < 0 ? at - 0.1 : at - 0.9, 0);
   }
 
+  /** @param {number | null} index */
   #set(index) {
     if (this.overRun) {
       const time = index === null ? null : this.#times[index];
@@ -380,7 +445,10 @@ export class Figure {
     this.#at(index);
   }
 
-  /** Follows the page's cursor, at an instant of the run [s] or at none. */
+  /**
+   * Follows the page's cursor, at an instant of the run [s] or at none.
+   * @param {number | null} time
+   */
   async follow(time) {
     if (!this.#chart || this.node.closest("[hidden]")) return; // it follows when it is shown
     if ((this.overRun ? time : this.#local) === null) return this.#at(null);
@@ -389,6 +457,7 @@ export class Figure {
     else if (time === cursor()) this.#at(nearest(this.#times, time));
   }
 
+  /** @param {number | null} index */
   #at(index) {
     this.#picker.extend(index);
     const beyond = index !== null && (!this.#data || index >= this.#data[0].values.length);
@@ -404,7 +473,7 @@ export class Figure {
   #tell() {
     const along = this.#data?.[0].values ?? [0, 1];
     const { x } = this.#axes;
-    const [min, max] = this.plane ? [along[0], along.at(-1)] : [x.min, x.max];
+    const [min, max] = this.plane ? [along[0], along[along.length - 1]] : [x.min, x.max];
     const now = this.#index === null ? min : Math.min(max, Math.max(min, along[this.#index]));
     const text = this.#readout.text || "no sample chosen";
     for (const [name, value] of Object.entries({ valuemin: min, valuemax: max, valuenow: now, valuetext: text })) {
@@ -458,6 +527,7 @@ export class Figure {
 
   // -- Table and files --
 
+  /** @param {boolean} on */
   #tabulate(on) {
     this.#table.style.setProperty("height", `${this.#plot.clientHeight || this.#size().height}px`);
     this.#plot.hidden = on;
@@ -471,6 +541,7 @@ export class Figure {
     this.#table.replaceChildren(tableOf(this.#content, this.#axes));
   }
 
+  /** @param {string} format */
   async #save(format) {
     if (!this.#chart || (format === "csv" && !this.#data && !(await this.#samples.fetch()))) return;
     const { type, content } = await this.#file(format);
@@ -491,4 +562,5 @@ export class Figure {
 
 const roomIn = ({ clientWidth, clientHeight }) => ({ width: clientWidth, height: clientHeight });
 
-const units = () => ({ length: setting("length"), force: setting("force") });
+/** @returns {ChartUnits} */
+const units = () => /** @type {any} */ ({ length: setting("length"), force: setting("force") });

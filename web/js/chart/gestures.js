@@ -11,11 +11,21 @@ const THIN_PX = 12; // a box thinner than this zooms one axis only
 const WHEEL = 0.0015; // exponent of the zoom for each pixel of the wheel
 const PINCH = 0.01; // a pinch on a touchpad comes as a wheel with small steps
 
+/**
+ * @param {HTMLElement} plot
+ * @param {Figure} chart
+ */
 export function listen(plot, chart) {
-  const pressed = new Map(); // pointers that are down: id -> { x, y }
+  /** @type {Map<number, Pointed>} */
+  const pressed = new Map(); // pointers that are down, by id
+  /** @type {any} */
   let held = null; // what they do
 
   const size = () => plot.getBoundingClientRect();
+  /**
+   * @param {Pointed} event
+   * @returns {Point}
+   */
   const local = ({ clientX, clientY }) => [clientX - size().left, clientY - size().top];
 
   plot.addEventListener("pointerenter", () => chart.enter());
@@ -73,8 +83,9 @@ export function listen(plot, chart) {
     { passive: false },
   );
 
-  function release(event) {
-    pressed.delete(event.pointerId);
+  /** @param {{ pointerId?: number }} event */
+  function release({ pointerId = NaN }) {
+    pressed.delete(pointerId);
     chart.box(null);
     held = null;
   }
@@ -93,13 +104,22 @@ export function listen(plot, chart) {
       now.clientX - held.middle.clientX,
       now.clientY - held.middle.clientY,
       factor,
-      chart.place(held.middle, true),
+      chart.place(held.middle, true) ?? undefined,
     );
   }
 
-  /** A box that is thin in one direction covers the whole plot in it. */
+  /**
+   * A box that is thin in one direction covers the whole plot in it.
+   * @param {Point} a
+   * @param {Point} b
+   * @returns {[Point, Point]}
+   */
   function boxed(a, b) {
     const { left, top, width, height } = chart.area;
+    /**
+     * @param {Point} point
+     * @returns {Point}
+     */
     const clamp = ([x, y]) => [Math.min(left + width, Math.max(left, x)), Math.min(top + height, Math.max(top, y))];
     const [[x1, y1], [x2, y2]] = [clamp(a), clamp(b)];
     if (Math.abs(y2 - y1) < THIN_PX)
@@ -131,11 +151,12 @@ export function listen(plot, chart) {
       if (sideways) return chart.shift((Math.abs(dx) > Math.abs(dy) ? dx : dy) / size().width, 0);
       const factor = Math.exp(dy * (event.ctrlKey && Math.abs(dy) < 30 ? PINCH : WHEEL));
       const onAxis = event.clientX - size().left < chart.area.left;
-      chart.scale(onAxis ? [1, factor] : [factor, chart.plane ? factor : 1], chart.place(event, true));
+      chart.scale(onAxis ? [1, factor] : [factor, chart.plane ? factor : 1], chart.place(event, true) ?? undefined);
     },
     { passive: false },
   );
 
+  /** @type {Record<string, (shift: boolean) => void>} */
   const keys = {
     ArrowLeft: (shift) => (shift ? chart.shift(-0.1, 0) : chart.step(-1, 0)),
     ArrowRight: (shift) => (shift ? chart.shift(0.1, 0) : chart.step(1, 0)),
@@ -152,7 +173,7 @@ export function listen(plot, chart) {
     s: () => chart.markEnd(),
   };
   plot.addEventListener("keydown", (event) => {
-    const vertical = event.shiftKey && { ArrowUp: 0.1, ArrowDown: -0.1 }[event.key];
+    const vertical = event.shiftKey && (event.key === "ArrowUp" ? 0.1 : event.key === "ArrowDown" ? -0.1 : 0);
     const act = vertical ? () => chart.shift(0, vertical) : keys[event.key];
     if (!act || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
@@ -160,5 +181,13 @@ export function listen(plot, chart) {
   });
 }
 
+/**
+ * @param {Pointed} a
+ * @param {Pointed} b
+ */
 const distance = (a, b) => Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
+/**
+ * @param {Pointed} a
+ * @param {Pointed} b
+ */
 const middle = (a, b) => ({ clientX: (a.clientX + b.clientX) / 2, clientY: (a.clientY + b.clientY) / 2 });

@@ -2,13 +2,23 @@
 
 import { make, makeSvg, rove } from "../page/dom.js";
 
+/** @import { Chart } from "../../pkg/armill.js" */
+
+/** @typedef {Chart["series"][number]} Series */
+
 export class Legend {
   node = make("ul", { className: "legend" });
+  /** @type {Set<string>} */
   #hidden = new Set();
+  /** @type {string[]} */
   #keys = [];
   #change;
 
-  /** `change()` is called after a series was hidden or shown. */
+  /**
+   * `change()` is called after a series was hidden or shown.
+   * @param {string} title
+   * @param {() => void} change
+   */
   constructor(title, change) {
     this.#change = change;
     this.node.setAttribute("aria-label", `Series of ${title}`);
@@ -33,8 +43,12 @@ export class Legend {
     this.#mark();
   }
 
+  /**
+   * @param {EventTarget | null} target
+   * @param {boolean} alone
+   */
   #choose(target, alone) {
-    const key = target.closest("button")?.dataset.key;
+    const key = /** @type {Element} */ (target).closest("button")?.dataset.key;
     if (!key) return;
     const others = this.#keys.filter((each) => each !== key);
     if (alone) {
@@ -47,12 +61,15 @@ export class Legend {
 
   #mark() {
     for (const button of this.node.querySelectorAll("button")) {
-      button.setAttribute("aria-pressed", String(!this.#hidden.has(button.dataset.key)));
+      button.setAttribute("aria-pressed", String(!this.#hidden.has(button.dataset.key ?? "")));
     }
   }
 }
 
-/** A short line in the look of a series. */
+/**
+ * A short line in the look of a series.
+ * @param {{ key: string, class: string }} series
+ */
 export const sample = ({ key, class: name }) =>
   makeSvg(
     "svg",
@@ -60,6 +77,7 @@ export const sample = ({ key, class: name }) =>
     makeSvg("g", { class: `series ${name}`, "data-key": key }, makeSvg("path", { d: "M0 4H28" })),
   );
 
+/** @param {Series} series */
 function entry(series) {
   const button = make(
     "button",

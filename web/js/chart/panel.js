@@ -8,7 +8,15 @@ import { debounced, make } from "../page/dom.js";
 import { onSetting } from "../page/settings.js";
 import { onStretch } from "../page/stretch.js";
 
-let available = []; // { name, title, view, figure, kind } of the shown result
+/**
+ * @import { ChartEntry } from "../../pkg/armill.js"
+ * @import { Values } from "./figure.js"
+ * @import { Range } from "./view.js"
+ */
+
+/** @type {ChartEntry[]} */
+let available = []; // of the shown result
+/** @type {HTMLElement | null} */
 let panel = null;
 let fixed = null; // { place, name }: the chart that is always in sight
 let turn = 0; // drawing that is no longer the latest one stops
@@ -17,7 +25,10 @@ let over = "time"; // what all charts over the run are drawn over
 let range = null; // of that
 const figures = new Map(); // chart name -> Figure
 
-/** Takes over the charts of a new result. */
+/**
+ * Takes over the charts of a new result.
+ * @param {ChartEntry[]} list
+ */
 export function setCharts(list) {
   available = list;
   for (const figure of figures.values()) figure.forget();
@@ -114,9 +125,11 @@ function link(from, x) {
   for (const figure of figures.values()) if (figure !== from && figure.kind === "time") figure.zoom(x, undefined, true);
 }
 
+/** @param {ChartEntry} entry */
 function figureOf(entry) {
-  if (!figures.has(entry.name)) {
-    const figure = new Figure(entry, link);
+  let figure = figures.get(entry.name);
+  if (!figure) {
+    figure = new Figure(entry, link);
     figure.beside = beside;
     figure.fills = entry.name === fixed?.name;
     if (figure.kind === "time") figure.zoom(range, null, true);
@@ -133,6 +146,7 @@ const resized = new ResizeObserver(() => {
 });
 
 async function draw() {
+  if (!panel) return;
   const mine = ++turn;
   const view = panel.id.replace("panel-", "");
   const always = available.filter(({ name }) => name === fixed?.name).map(figureOf);

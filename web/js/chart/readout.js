@@ -4,9 +4,21 @@ import { make, makeSvg } from "../page/dom.js";
 import { formatNumber } from "../page/number.js";
 import { fractionOf } from "./view.js";
 
+/** @import { Axis, Chart, ChartColumn } from "../../pkg/armill.js" */
+
+/** @typedef {{ chart: Chart, data: ChartColumn[], hidden: string[] }} Content a chart, its values, and the keys of series not drawn */
+
+/** @typedef {NonNullable<Chart["camera"]>} Camera the directions to the right and up in a picture of space */
+
+/** @type {Record<string, number>} */
 const PLACES = { mm: 4, inch: 6, N: 2, lbf: 3, deg: 4, "%": 2 }; // as fine as is known of it
 
-/** A value as read in its unit; what would round to nothing is given with its power of ten. */
+/**
+ * A value as read in its unit; what would round to nothing is given with its power of ten.
+ * @param {number} value
+ * @param {string} unit
+ * @param {number} [places]
+ */
 export function read(value, unit, places = PLACES[unit] ?? 4) {
   const text = value.toFixed(places);
   return value !== 0 && Number(text) === 0 ? formatNumber(value, 2) : text.replace("-", "\u2212");
@@ -19,7 +31,12 @@ export function readAlong({ key, values }, index) {
   return read(values[index], "", Math.min(6, Math.max(0, Math.ceil(-Math.log10(step) - 1e-6))));
 }
 
-/** The columns of a chart's series: one each, or x, y and z. */
+/**
+ * The columns of a chart's series: one each, or x, y and z.
+ * @param {Chart} chart
+ * @param {ChartColumn[]} data
+ * @returns {ChartColumn[][]}
+ */
 export const columnsOf = (chart, data) =>
   chart.series.map((_, i) => (chart.camera ? data.slice(1 + 3 * i, 4 + 3 * i) : [data[1 + i]]));
 
@@ -43,14 +60,14 @@ export class Readout {
       if (hidden.includes(key)) return;
       const values = columns.map((column) => {
         const value = make("b", {}, read(column.values[index], column.unit));
-        value.dataset.value = column.values[index];
+        value.dataset.value = String(column.values[index]);
         return value;
       });
       const part = make("span", {}, `${label} `, ...values.flatMap((value, k) => (k ? [", ", value] : [value])));
       part.dataset.key = key;
       parts.push(part);
     });
-    if (data[1]?.unit) parts.at(-1).append(` ${data[1].unit}`);
+    if (data[1]?.unit) parts[parts.length - 1].append(` ${data[1].unit}`);
     if (line) {
       const button = make("button", { type: "button", className: "quiet" }, `line ${line} of the program`);
       button.addEventListener("click", go);
@@ -77,9 +94,15 @@ export class Marks {
     this.box(null);
   }
 
-  /** Marks a sample in a chart whose axes are shown as `x` and `y`; none if `index` is null. */
+  /**
+   * Marks a sample in a chart whose axes are shown as `x` and `y`; none if `index` is null.
+   * @param {Content} content
+   * @param {{ x: Axis, y: Axis }} axes
+   * @param {number | null} index
+   */
   show({ chart, data, hidden }, { x, y }, index) {
     const { left, top, width, height } = chart.plot;
+    /** @param {number} value */
     const inside = (value) => value >= -1e-9 && value <= 1 + 1e-9;
     const at = index === null || chart.camera ? NaN : fractionOf(x, data[0].values[index]);
     this.#line.classList.toggle("on", inside(at));
@@ -121,11 +144,20 @@ export class Marks {
   }
 }
 
+/**
+ * @param {Element} element
+ * @param {Record<string, number>} attributes
+ */
 function set(element, attributes) {
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
 }
 
-/** Where a point in space stands in the picture: to the right and up. */
+/**
+ * Where a point in space stands in the picture: to the right and up.
+ * @param {Camera} camera
+ * @param {ChartColumn[]} columns
+ * @param {number} index
+ */
 function project(camera, columns, index) {
   return camera.map((axis) => axis.reduce((sum, part, k) => sum + part * columns[k].values[index], 0));
 }
@@ -133,10 +165,16 @@ function project(camera, columns, index) {
 /**
  * The sample of a path whose picture is nearest to a place (fractions of the plot), and how far
  * away it is [px].
+ * @param {Content} content
+ * @param {{ x: Axis, y: Axis }} axes
+ * @param {[number, number]} place
+ * @returns {{ index: number | null, distance: number }}
  */
 export function nearestInSpace({ chart, data, hidden }, { x, y }, [across, high]) {
   const { camera, plot } = chart;
+  /** @type {{ index: number | null, distance: number }} */
   let best = { index: null, distance: Infinity };
+  if (!camera) return best;
   columnsOf(chart, data).forEach((columns, i) => {
     if (hidden.includes(chart.series[i].key)) return;
     const [px, py, pz] = columns.map((column) => column.values);

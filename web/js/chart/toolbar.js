@@ -2,6 +2,13 @@
 
 import { make, makeSvg, rove } from "../page/dom.js";
 
+/**
+ * What the buttons do.
+ *
+ * @typedef {{ zoomIn(): void, zoomOut(): void, reset(): void, table(on: boolean): void, save(format: string): void }} Tools
+ */
+
+/** @type {Record<string, string>} */
 const ICONS = {
   in: "M4 10H16M10 4V16",
   out: "M4 10H16",
@@ -12,6 +19,7 @@ const ICONS = {
 };
 const OVER = { time: ["Time", "since the start"], length: ["Length", "of the path"], line: ["Line", "of the program"] };
 
+/** @param {string} name */
 const icon = (name) =>
   makeSvg("svg", { viewBox: "0 0 20 20", class: "icon", "aria-hidden": "true" }, makeSvg("path", { d: ICONS[name] }));
 

@@ -1,9 +1,13 @@
 // The files that this page has beside it. The one-file page has its own version of this module and
 // finds them inside itself.
 
+/** @param {string} path */
 const urlOf = (path) => new URL(path, document.baseURI);
 
-/** The text of a file of the site. */
+/**
+ * The text of a file of the site.
+ * @param {string} path
+ */
 export async function readText(path) {
   const answer = await fetch(urlOf(path)).catch(({ message }) => {
     throw new Error(`${path} could not be loaded (${message}).`); // without a network

@@ -10,21 +10,70 @@ const SUPERSEDE_MS = [400, 1500]; // a run older than this is cut off when a new
 const LARGE = 100_000; // samples: a Worker that has held more is not used again, for its memory never shrinks
 const CANCELLED = { code: "cancelled", message: "Cancelled." };
 
-let events; // { onstart, onprogress, onresult, onerror, oncancel, ontrap }, given to start()
+/**
+ * @import { ChartEntry, ChartOptions, ChartUnits, Controller, Field, Format, Presets, Summary } from "../../pkg/armill.js"
+ * @import { JobData } from "../job/data.js"
+ */
+
+/**
+ * What a form is built from.
+ *
+ * @typedef {{ version: string, model: number, job: JobData, fields: Field[], presets: Presets, formats: Format[] }} Hello
+ */
+
+/**
+ * An error as data: the core's, or `fatal` where its Worker cannot be used any more.
+ *
+ * @typedef {{ code: string, message: string, field?: string, line?: number, column?: number, fatal?: boolean }} Failure
+ */
+
+/** @typedef {{ fraction: number, stage: string }} Progress of a run; the fraction is 0 to 1 */
+
+/** @typedef {{ text: string, summary: Summary, charts: ChartEntry[] }} Result of the job `text` */
+
+/**
+ * @typedef {{
+ *   onstart(): void,
+ *   onprogress(progress: Progress): void,
+ *   onresult(result: Result, took: number): void,
+ *   onerror(error: Failure): void,
+ *   oncancel(error: Failure): void,
+ *   ontrap(error: Failure): void,
+ * }} Events what is heard of runs; `took` is in milliseconds
+ */
+
+/**
+ * @typedef {{
+ *   stop(reason: Failure): void,
+ *   large: boolean,
+ *   ask(kind: string, ...args: unknown[]): Promise<any>,
+ * }} Asked a Worker; `large` says whether it holds a long run
+ */
+
+/** @type {Events} */
+let events; // given to start()
+/** @type {Asked | null} */
 let shown = null; // Worker with the shown result
+/** @type {Asked | null} */
 let spare = null; // Worker to compute in
+/** @type {number | null} */
 let since = null; // when the run in progress began
+/** @type {Promise<WebAssembly.Module> | undefined} */
 let compiled; // promise of the core's module: every Worker starts from the same one
+/** @type {Promise<Hello> | undefined} */
 let hello; // promise of what a form is built from
 let foreseen; // { json, result, since } of a speculative run
 let lasted = 0; // how long the shown result took [ms]
+/** @type {string | null} */
 let next = null; // the job to compute next: only the latest counts
+/** @type {string | null} */
 let good = null; // the job of the shown result
 let lost = false; // the shown result was lost to a trap and is being computed again
 
 /**
  * Begins to load the core, and resolves with what a form is built from: version, model, default
  * job, fields, presets, formats.
+ * @returns {Promise<Hello>}
  */
 export function load() {
   hello ??= (spare ??= spawn()).ask("hello").catch((error) => {
@@ -34,7 +83,10 @@ export function load() {
   return hello;
 }
 
-/** The same for the page, which hears what happens from now on. */
+/**
+ * The same for the page, which hears what happens from now on.
+ * @param {Events} handlers
+ */
 export function start(handlers) {
   events = handlers;
   return load();
@@ -49,7 +101,10 @@ export function foresee(json) {
   foreseen = early;
 }
 
-/** Computes `json`; what is being computed or waits is superseded. Events tell the rest. */
+/**
+ * Computes `json`; what is being computed or waits is superseded. Events tell the rest.
+ * @param {string} json
+ */
 export function run(json) {
   lost = false;
   next = json;
@@ -68,16 +123,28 @@ export function cancel() {
   if (since !== null) cutOff(CANCELLED);
 }
 
-/** Resolves if `json` is a valid job, else rejects with the error. */
+/**
+ * Resolves if `json` is a valid job, else rejects with the error.
+ * @type {(json: string) => Promise<void>}
+ */
 export const check = (json) => (spare ??= spawn()).ask("check", json);
 
-/** Frames of base, joints and TCP of the job's arm at zero joint values, as a Float64Array. */
+/**
+ * Frames of base, joints and TCP of the job's arm at zero joint values, as a Float64Array.
+ * @type {(json: string) => Promise<Float64Array>}
+ */
 export const armAtZero = (json) => (spare ??= spawn()).ask("arm", json);
 
-/** Resolves with x, y, z [mm] of the workpiece frame that bring the path in front of the robot. */
+/**
+ * Resolves with x, y, z [mm] of the workpiece frame that bring the path in front of the robot.
+ * @type {(json: string) => Promise<Float64Array>}
+ */
 export const placeInFront = (json) => (spare ??= spawn()).ask("place", json);
 
-/** Resolves with the stock to give a job's program if it has none of its own, or undefined. */
+/**
+ * Resolves with the stock to give a job's program if it has none of its own, or undefined.
+ * @type {(json: string) => Promise<import("../../pkg/armill.js").Stock | undefined>}
+ */
 export const proposedStock = (json) => (spare ??= spawn()).ask("stock", json);
 
 /** Resolves with what a job's program says of its cut, keys of `cutting`, or undefined. */
@@ -91,16 +158,23 @@ export const thesis = () => (spare ??= spawn()).ask("thesis");
  */
 export const helper = () => spawn(() => {});
 
-/** One chart of the shown result, drawn at `options.width` pixels. */
+/**
+ * One chart of the shown result, drawn at `options.width` pixels.
+ * @type {(name: string, options: ChartOptions) => Promise<import("../../pkg/armill.js").Chart>}
+ */
 export const chart = (name, options) => askShown("chart", name, options);
 
 /**
  * The values that a chart of the shown result is drawn from: its first axis, then each series,
  * every sample.
+ * @type {(name: string, units: ChartUnits) => Promise<import("../../pkg/armill.js").ChartColumn[]>}
  */
 export const chartData = (name, units) => askShown("data", name, units);
 
-/** One column of the shown result, as a Float64Array. */
+/**
+ * One column of the shown result, as a Float64Array.
+ * @type {(key: string) => Promise<Float64Array>}
+ */
 export const column = (key) => askShown("column", key);
 
 /**
@@ -112,28 +186,47 @@ export const pose = (sample) => askShown("pose", sample);
 /** The shown result's stock before the first cut, or undefined. */
 export const stockSolid = () => askShown("stock_solid");
 
-/** The paths of the shown result in at most about `most` rows, as a Float64Array. */
+/**
+ * The paths of the shown result in at most about `most` rows, as a Float64Array.
+ * @type {(most: number) => Promise<Float64Array>}
+ */
 export const track = (most) => askShown("track", most);
 
-/** A mesh of the shown result's part, with its deviation to be magnified. */
+/**
+ * A mesh of the shown result's part, with its deviation to be magnified.
+ * @type {() => Promise<import("../../pkg/armill.js").PartMesh>}
+ */
 export const partMesh = () => askShown("part_mesh");
 
-/** A section through that part across the feed at a sample. */
+/**
+ * A section through that part across the feed at a sample.
+ * @type {(sample: number) => Promise<import("../../pkg/armill.js").PartSection>}
+ */
 export const partSection = (sample) => askShown("part_section", sample);
 
-/** The part as a binary STL file: "before", "after" or "nominal". */
+/**
+ * The part as a binary STL file: "before", "after" or "nominal".
+ * @type {(kind: string) => Promise<Uint8Array<ArrayBuffer>>}
+ */
 export const simulatedPart = (kind) => askShown("simulated_part", kind);
 
-/** The shown result as text; "columns-csv" as a Blob of it. */
+/**
+ * The shown result as text; "columns-csv" as a Blob of it.
+ * @type {(format: string) => Promise<string | Blob>}
+ */
 export const exported = (format) => askShown("export", format);
 
 /**
  * How the shown result's path runs as a package for a controller, by default the job's, with the names
  * of its files.
+ * @type {(controller?: Controller) => Promise<import("./server.js").Outline>}
  */
 export const packaged = (controller) => askShown("packaged", controller);
 
-/** The package to save, `{ file: { name, type, content }, outline }`. */
+/**
+ * The package to save, `{ file: { name, type, content }, outline }`.
+ * @type {(controller?: Controller) => Promise<import("./server.js").PackageFile>}
+ */
 export const packageOf = (controller) => askShown("package", controller);
 
 /** Texts as one zip archive, `files` of [path, text]. */
@@ -180,7 +273,10 @@ async function compute() {
   }
 }
 
-/** The run foreseen, if it is of this job; any other is given up. */
+/**
+ * The run foreseen, if it is of this job; any other is given up.
+ * @param {string} json
+ */
 function foresaw(json) {
   const early = foreseen;
   foreseen = undefined;
@@ -189,6 +285,11 @@ function foresaw(json) {
   return undefined;
 }
 
+/**
+ * @param {string} kind
+ * @param {unknown[]} args
+ * @returns {Promise<any>}
+ */
 async function askShown(kind, ...args) {
   const worker = shown;
   if (!worker) throw { code: "empty", message: "There is no result yet." };
@@ -203,9 +304,10 @@ async function askShown(kind, ...args) {
 /**
  * The shown result died with its Worker: says so and computes it again, but only once for the same
  * job.
+ * @param {Failure} error
  */
 function recover(error) {
-  retire(shown);
+  if (shown) retire(shown);
   events.ontrap(error);
   if (lost) return;
   lost = true;
@@ -213,12 +315,14 @@ function recover(error) {
   if (since === null) compute();
 }
 
+/** @param {Failure} reason */
 function cutOff(reason) {
   const worker = spare;
   spare = spawn();
   worker?.stop(reason);
 }
 
+/** @param {Asked} worker */
 function retire(worker) {
   worker.stop(CANCELLED);
   if (worker === shown) shown = null;
@@ -234,18 +338,26 @@ function moduleOfCore() {
   return compiled;
 }
 
-/** A Worker that answers `ask(kind, ...args)` with a promise. */
+/**
+ * A Worker that answers `ask(kind, ...args)` with a promise.
+ * @param {(progress: Progress) => void} [onprogress]
+ * @returns {Asked}
+ */
 function spawn(onprogress = (progress) => events?.onprogress(progress)) {
   const worker = startWorker();
+  /** @type {Map<number, { resolve(value: unknown): void, reject(reason: Failure): void }>} */
   const waiting = new Map();
   let count = 0;
+  /** @type {Failure | undefined} */
   let ended; // why it answers no more
+  /** @param {Failure} reason */
   const stop = (reason) => {
     ended = reason;
     worker.terminate();
     for (const { reject } of waiting.values()) reject(reason);
     waiting.clear();
   };
+  /** @param {{ message: string }} error */
   const fail = ({ message }) => {
     if (own === spare) spare = null; // the next question starts another one
     stop({ code: "load", message: message || "the browser does not say why", fatal: true });
@@ -261,6 +373,7 @@ function spawn(onprogress = (progress) => events?.onprogress(progress)) {
     event.preventDefault();
     fail(event);
   });
+  /** @type {Asked} */
   const own = {
     stop,
     large: false, // whether it holds a long run

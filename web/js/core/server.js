@@ -6,11 +6,16 @@ import { heldRuns } from "./held-runs.js";
 const PROGRESS_MS = 40;
 const ROWS = 20_000; // of a file written at a time
 
+/** @type {Core} */
 let armill; // the core
+/** @type {any} */
 let run = null;
+/** @type {Record<string, Armill.Identified>} */
 const identified = {}; // what was identified last, `stiffness` and `response`
-let surveyed; // { json, survey } of the map of places
+/** @type {{ json: string, survey: Armill.Survey } | undefined} */
+let surveyed; // of the map of places
 
+/** @type {Record<string, (...args: any[]) => unknown>} */
 const answers = {
   /** What a form is built from. Jobs are as the page saves them: with the number of the model. */
   hello: () => ({
@@ -56,7 +61,8 @@ const answers = {
   release,
   thesis: () => armill.thesis_recomputed(),
   identify(kind, ...args) {
-    const fresh = armill[`identify_${kind}`](...args);
+    const identify = kind === "stiffness" ? armill.identify_stiffness : armill.identify_response;
+    const fresh = Reflect.apply(identify, armill, args);
     identified[kind]?.free();
     identified[kind] = fresh;
     return fresh.summary();
@@ -80,10 +86,17 @@ function columnsFile() {
   return new Blob(parts);
 }
 
-/** A package with the names of its files instead of their texts. */
+/**
+ * A package with the names of its files instead of their texts.
+ * @param {Package} made
+ * @returns {Outline}
+ */
 const outlineOf = ({ files, ...rest }) => ({ ...rest, files: files.map(({ path }) => path) });
 
-/** What to save of a package: its only file, or all of them as a zip archive; and how it runs. */
+/**
+ * What to save of a package: its only file, or all of them as a zip archive; and how it runs.
+ * @param {Controller} [controller]
+ */
 function packageFile(controller) {
   const made = run.package(controller);
   const { name, files } = made;
@@ -101,7 +114,10 @@ function release() {
   run = null;
 }
 
-/** The job of a map, read once for all its bands. */
+/**
+ * The job of a map, read once for all its bands.
+ * @param {string} json
+ */
 function surveyOf(json) {
   if (surveyed?.json !== json) {
     surveyed?.survey.free();
@@ -111,19 +127,27 @@ function surveyOf(json) {
   return surveyed.survey;
 }
 
-/** What is handed over instead of copied: an array of numbers, or those of a chart, a mesh or a section. */
+/**
+ * What is handed over instead of copied: an array of numbers, or those of a chart, a mesh or a section.
+ * @param {unknown} value
+ */
 const buffers = (value) =>
   [value]
     .flat()
     .flatMap(arraysIn)
     .map(({ buffer }) => buffer);
 
+/** @param {unknown} value */
 function arraysIn(value) {
   if (ArrayBuffer.isView(value)) return [value];
   return value && typeof value === "object" ? Object.values(value).filter(ArrayBuffer.isView) : [];
 }
 
-/** An error as data: Errors lose their extra properties on the way through postMessage. */
+/**
+ * An error as data: Errors lose their extra properties on the way through postMessage.
+ * @param {any} error
+ * @returns {Failure}
+ */
 function plain(error) {
   const { code, message, field, line, column, value, min, max, unit } = error;
   return {
@@ -140,9 +164,11 @@ function plain(error) {
 /**
  * Answers the page's questions with a core, the module that wasm-bindgen made; the page sends the
  * compiled WebAssembly first.
+ * @param {Core} core
  */
 export function serve(core) {
   armill = core;
+  /** @type {(module: WebAssembly.Module) => void} */
   let start;
   const started = new Promise((resolve) => (start = resolve)).then((module) =>
     armill.default({ module_or_path: module }),
@@ -157,7 +183,7 @@ export function serve(core) {
     }
     try {
       const value = answers[kind](...args);
-      postMessage({ id, value }, buffers(value));
+      postMessage({ id, value }, { transfer: buffers(value) });
     } catch (error) {
       postMessage({ id, error: plain(error) });
     }

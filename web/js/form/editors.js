@@ -59,10 +59,20 @@ export function editorFor(field, { badges, brand }) {
   return number(field);
 }
 
-function single(field, input, read, write) {
+/**
+ * @param {HTMLElement} input
+ * @param {() => any} read
+ * @param {(value: any) => void} write
+ * @returns {Editor}
+ */
+function single(input, read, write) {
   return { node: input, inputs: [input], read, write, at: () => input };
 }
 
+/**
+ * @param {Edited} field
+ * @returns {Editor}
+ */
 function number(field) {
   const cell = numberCell(idOf(field.path), field.unit, field.kind === "integer");
   const slider = field.usual && makeSlider(cell, field.unit, field.usual);
@@ -79,7 +89,12 @@ function number(field) {
   };
 }
 
-/** A number, or a word that a checkbox stands for. */
+/**
+ * A number, or a word that a checkbox stands for.
+ * @param {Field} field
+ * @param {{ value: string, label: string }} word
+ * @returns {Editor}
+ */
 function numberOrWord(field, { value: word, label }) {
   const cell = numberCell(idOf(field.path), field.unit);
   const { input } = cell;
@@ -109,22 +124,30 @@ function numberOrWord(field, { value: word, label }) {
   };
 }
 
+/**
+ * @param {Edited} field
+ * @returns {Editor}
+ */
 function choice(field) {
   const options = field.choices.map(({ value, label }) => make("option", { value }, label));
   const input = make("select", { id: idOf(field.path) }, ...options);
   return single(
-    field,
     input,
     () => input.value,
     (value) => (input.value = value),
   );
 }
 
+/**
+ * @param {Field} field
+ * @returns {Editor}
+ */
 function checkboxes(field) {
-  const inputs = field.choices.map(({ value }) =>
+  const { choices = [] } = field;
+  const inputs = choices.map(({ value }) =>
     make("input", { type: "checkbox", value, id: `${idOf(field.path)}-${value}` }),
   );
-  const labels = field.choices.map(({ label }, i) =>
+  const labels = choices.map(({ label }, i) =>
     make("label", { className: "check", for: inputs[i].id }, inputs[i], label),
   );
   return {
@@ -136,6 +159,10 @@ function checkboxes(field) {
   };
 }
 
+/**
+ * @param {Edited} field
+ * @returns {Editor}
+ */
 function vector(field) {
   const names = field.path.endsWith("range_deg") ? ["from", "to"] : ["x", "y", "z"];
   const id = idOf(field.path);
@@ -154,7 +181,11 @@ function vector(field) {
   };
 }
 
-/** One of a few words, or a vector of one's own. */
+/**
+ * One of a few words, or a vector of one's own.
+ * @param {Field} field
+ * @returns {Editor}
+ */
 function wordOrVector(field) {
   const words = choice(field);
   const [select] = words.inputs;
@@ -186,10 +217,13 @@ function wordOrVector(field) {
 
 /**
  * A table with as many rows as its default: rows of named numbers, of numbers, or single numbers.
+ * @param {Edited} field
+ * @returns {Editor}
  */
 function table(field) {
   const id = idOf(field.path);
   const sample = field.default[0];
+  /** @type {(string | null)[]} */
   const columns =
     typeof sample !== "object" ? [null] : Object.keys(sample).sort((a, b) => DH_ORDER.indexOf(a) - DH_ORDER.indexOf(b));
   const named = columns[0] !== null && !Array.isArray(sample);
@@ -236,7 +270,11 @@ function table(field) {
   };
 }
 
-/** Ortho-parallel parameters: seven lengths, then sign and zero offset of each joint. */
+/**
+ * Ortho-parallel parameters: seven lengths, then sign and zero offset of each joint.
+ * @param {Edited} field
+ * @returns {Editor}
+ */
 function lengths(field) {
   const id = idOf(field.path);
   const scalars = Object.keys(field.default).filter((key) => key.endsWith("_mm"));
@@ -247,7 +285,7 @@ function lengths(field) {
   );
   const joints = table({
     path: field.path,
-    default: field.default.joint_sign.map((sign, i) => ({
+    default: field.default.joint_sign.map((/** @type {number} */ sign, /** @type {number} */ i) => ({
       joint_sign: sign,
       offset_deg: field.default.joint_offset_deg[i],
     })),
@@ -261,6 +299,7 @@ function lengths(field) {
     ),
     inputs: [...inputs, ...joints.inputs],
     read() {
+      /** @type {{ joint_sign: number, offset_deg: number }[]} */
       const rows = joints.read();
       const values = scalars.map((key, i) => [key, cells[i].read()]);
       return {
@@ -290,17 +329,23 @@ function lengths(field) {
   };
 }
 
+/**
+ * @param {Field} field
+ * @returns {Editor}
+ */
 function text(field) {
   const input = make("input", { id: idOf(field.path), spellcheck: false, type: "text" });
   return single(
-    field,
     input,
     () => input.value,
     (value) => (input.value = value),
   );
 }
 
-/** The text of a program, of which there is one. */
+/**
+ * The text of a program, of which there is one.
+ * @returns {Editor}
+ */
 function program() {
   return {
     node: listing.node,

@@ -4,7 +4,13 @@ import { KIENZLE, OWN } from "../job/job.js";
 import { plainNumber } from "../page/number.js";
 import { shownUnit, shownUnits, shownValue } from "./shown.js";
 
-/** A preset choice that also offers one's own numbers. */
+/** @import { Field } from "../../pkg/armill.js" */
+
+/**
+ * A preset choice that also offers one's own numbers.
+ * @param {Field} field
+ * @returns {Field}
+ */
 export function withOwn(field) {
   if (!field.path.endsWith(".preset")) return field;
   const own =
@@ -16,10 +22,14 @@ export function withOwn(field) {
       : [{ value: OWN, label: "My own coefficients", heading: "My own numbers" }];
   if (field.path === "material.preset")
     own.push({ value: KIENZLE, label: "My own k_c1.1 and m_c", heading: "My own numbers" });
-  return { ...field, choices: [...field.choices, ...own] };
+  return { ...field, choices: [...(field.choices ?? []), ...own] };
 }
 
-const choiceLabel = (field, value) => field.choices.find((choice) => choice.value === value)?.label ?? String(value);
+/**
+ * @param {Field} field
+ * @param {string} value
+ */
+const choiceLabel = (field, value) => field.choices?.find((choice) => choice.value === value)?.label ?? String(value);
 
 const numberIn = (unit) => (value) => plainNumber(shownValue(value, unit));
 
@@ -30,7 +40,7 @@ const saved = (value, unit) => [plainNumber(value), unit].filter(Boolean).join("
 
 /** A value in a few words, with its unit or name; nothing for tables and texts. */
 export function brief(field, value) {
-  if (field.kind === "set") return value.map((one) => choiceLabel(field, one)).join(" + ");
+  if (field.kind === "set") return value.map((/** @type {string} */ one) => choiceLabel(field, one)).join(" + ");
   if (field.choices && typeof value === "string") return choiceLabel(field, value);
   if (typeof value !== "number") return "";
   return field.unit ? quantity(value, field.unit) : `${plainNumber(value)} ${field.label.toLowerCase()}`;
@@ -42,7 +52,7 @@ export function brief(field, value) {
  */
 export function inWords(field, value, { asSaved = false } = {}) {
   if (value === undefined) return "–";
-  if (field.kind === "set") return value.map((one) => choiceLabel(field, one)).join(" + ") || "none";
+  if (field.kind === "set") return brief(field, value) || "none";
   if (field.choices && typeof value === "string") return choiceLabel(field, value);
   if (typeof value === "number") return (asSaved ? saved : quantity)(value, field.unit);
   if (field.kind === "vector") {
@@ -64,7 +74,10 @@ export function outOfRange({ code, field: path, value, min, max, unit }) {
 export const asText = (field) =>
   ["table", "text"].includes(field.kind) ? "its default" : inWords(field, field.default);
 
-/** What a field is, its range and default. */
+/**
+ * What a field is, its range and default.
+ * @param {Field} field
+ */
 export function helpText(field) {
   const { min, max, kind } = field;
   const mixed = field.unit.includes(", "); // a table whose range holds in the job's own units

@@ -11,6 +11,33 @@ import { frameIn } from "./frame-text.js";
 import { Mistake } from "./number-cell.js";
 import { shownUnits } from "./shown.js";
 
+/**
+ * @import { Field, Presets, RobotPreset } from "../../pkg/armill.js"
+ * @import { Failure } from "../core/client.js"
+ * @import { JobData } from "../job/data.js"
+ * @import { Job } from "../job/job.js"
+ * @import { Editor } from "./editors.js"
+ */
+
+/**
+ * A field on the page: `mistake` says that what is typed is no value, `line` which line of a text is wrong.
+ *
+ * @typedef {{
+ *   field: Field,
+ *   editor: Editor,
+ *   node: HTMLElement,
+ *   reset: HTMLElement,
+ *   error: HTMLElement,
+ *   note: HTMLElement,
+ *   notes: Record<string, string>,
+ *   mistake: boolean,
+ *   line?: number,
+ * }} Row
+ */
+
+/** @typedef {(typing?: string, stepped?: boolean) => void} OnChange called with the field's path while it is typed into */
+
+/** @type {Record<string, string>} */
 const GROUPS = {
   robot: "Robot",
   frames: "Frames",
@@ -31,13 +58,21 @@ const OPEN = ["path", "motion"]; // the groups that most visits change
 export class Form {
   #job;
   #onchange;
+  /** @type {Row[]} */
   #rows = [];
+  /** @type {Record<string, RobotPreset>} */
   #robots; // id -> preset
+  /** @type {Map<string, { details: HTMLElement, digest: HTMLElement, body: HTMLElement }>} */
   #groups = new Map();
 
   /**
    * Fills `parent`; `onchange` is called after every edit, with the field's path while it is typed
    * into.
+   * @param {HTMLElement} parent
+   * @param {Job} job
+   * @param {Field[]} fields
+   * @param {Presets} presets
+   * @param {OnChange} onchange
    */
   constructor(parent, job, fields, presets, onchange) {
     this.#job = job;
@@ -80,7 +115,10 @@ export class Form {
     );
   }
 
-  /** Shows another job: whatever was wrong before is forgotten, `typed` takes its place. */
+  /**
+   * Shows another job: whatever was wrong before is forgotten, `typed` takes its place.
+   * @param {Record<string, any>} [typed]
+   */
   reload(typed = {}) {
     for (const row of this.#rows) this.#setError(row, "");
     this.refresh();
@@ -89,12 +127,15 @@ export class Form {
     this.#digest();
   }
 
-  /** Brings the first field that differs from `before`, a job's plain object, into view. */
+  /**
+   * Brings the first field that differs from `before`, a job's plain object, into view.
+   * @param {JobData} before
+   */
   reveal(before) {
     const changed = new Set(this.#job.differences(before).map(({ field }) => field.path));
     const row = this.#rows.find(({ node, mistake, field }) => !node.hidden && (mistake || changed.has(field.path)));
     if (!row) return;
-    row.node.closest("details").open = true;
+    unfold(row.node);
     row.node.scrollIntoView({ block: "nearest" });
   }
 
@@ -119,8 +160,8 @@ export class Form {
   showError(error) {
     const { field: path, message, line, column } = error;
     this.clearErrors();
-    const row = path && this.#rows.find(({ field, node }) => !node.hidden && belongs(path, field.path));
-    if (!row) return false;
+    const row = this.#rows.find(({ field, node }) => path && !node.hidden && belongs(path, field.path));
+    if (!path || !row) return false;
     const where = line && !/\bline\b/i.test(message) ? `Line ${line}${column ? `, column ${column}` : ""}: ` : "";
     const own = outOfRange(error) ?? message;
     const text = own.startsWith(path) ? row.field.label + own.slice(path.length) : sentence(own);
@@ -149,6 +190,10 @@ export class Form {
     this.#digest();
   }
 
+  /**
+   * @param {HTMLElement} parent
+   * @param {string} name
+   */
   #addGroup(parent, name) {
     const digest = make("span", { className: "digest" });
     const title = GROUPS[name] ?? name;
@@ -253,7 +298,10 @@ export class Form {
     this.#changed(typing, stepped);
   }
 
-  /** Puts what a row holds into the job, or says why not. */
+  /**
+   * Puts what a row holds into the job, or says why not.
+   * @param {Row} row
+   */
   #take(row) {
     try {
       this.#job.set(row.field, row.editor.read());
@@ -286,11 +334,16 @@ export class Form {
     this.#take(row);
   }
 
+  /**
+   * @param {string} [typing]
+   * @param {boolean} [stepped]
+   */
   #changed(typing, stepped) {
     this.refresh();
     this.#onchange(typing, stepped);
   }
 
+  /** @param {Row} row */
   #says(row) {
     try {
       const [said, held] = [row.editor.read(), this.#job.get(row.field)];
@@ -300,6 +353,11 @@ export class Form {
     }
   }
 
+  /**
+   * @param {Row} row
+   * @param {string} message
+   * @param {HTMLElement} [input]
+   */
   #setError(row, message, input) {
     row.line = row.limit = undefined;
     row.mistake = false;
@@ -310,6 +368,7 @@ export class Form {
     }
   }
 
+  /** @param {Row} row */
   #decorate(row) {
     row.reset.classList.toggle("idle", !this.#job.changed(row.field));
     if (row.editor.meaning) label(row);
@@ -327,7 +386,10 @@ export class Form {
     return this.#robots[this.#job.valueAt("robot.preset")];
   }
 
-  /** Beside the numbers: an order of magnitude must not look like a measurement. */
+  /**
+   * Beside the numbers: an order of magnitude must not look like a measurement.
+   * @param {Row} row
+   */
   #sourceOfCompliance(row) {
     const preset = this.#preset();
     const given = this.#job.changed(row.field);
@@ -335,7 +397,10 @@ export class Form {
     row.node.classList.toggle("assumed", Boolean(preset?.stiffness_assumed && !given));
   }
 
-  /** Without a stock nothing follows from it; with one, nothing else is asked for. */
+  /**
+   * Without a stock nothing follows from it; with one, nothing else is asked for.
+   * @param {Row} row
+   */
   #sourceOfEngagement(row) {
     const stock = this.#job.hasStock;
     const follows = this.#job.get(row.field) === FROM_STOCK;
@@ -365,8 +430,9 @@ export class Form {
     }
   }
 
+  /** @param {Row} row */
   #go(row) {
-    row.node.closest("details").open = true;
+    unfold(row.node);
     const input = row.editor.inputs.find((each) => each.getAttribute("aria-invalid")) ?? row.editor.inputs[0];
     input.focus();
     input.scrollIntoView({ block: "center" });
@@ -397,7 +463,18 @@ function helpButton(field, help) {
   return button;
 }
 
+/** @param {HTMLElement} node */
+function unfold(node) {
+  const group = node.closest("details");
+  if (group) group.open = true;
+}
+
+/** @param {HTMLInputElement} input */
 const isBox = (input) => input.type === "checkbox";
 
-/** Whether an error path such as "path.points_mm[3]" is about the field `own`. */
+/**
+ * Whether an error path such as "path.points_mm[3]" is about the field `own`.
+ * @param {string} path
+ * @param {string} own
+ */
 const belongs = (path, own) => path === own || (path.startsWith(own) && "[.".includes(path[own.length]));

@@ -6,6 +6,7 @@ import { make } from "../page/dom.js";
 
 const LONG = 200_000; // characters
 const TALLEST = 8e6; // px: browsers draw nothing beyond some 16 million
+/** @type {Record<string, number>} */
 const KEYS = { ArrowUp: -1, ArrowDown: 1, PageUp: -10, PageDown: 10, Home: -Infinity, End: Infinity };
 
 class Listing {
@@ -22,13 +23,16 @@ class Listing {
   #about = make("p", { className: "note" });
   #text = "";
   #name = "";
+  /** @type {number[] | null} */
   #starts = null; // where each line of a long text starts; null while it is short
   #line = 1; // the line that is pointed at
   #visible = 12;
   #height = 18; // of a line, px
-  #onpoint = () => {};
+  #onpoint = (/** @type {number} */ _line) => {};
+  /** @type {(text: string) => unknown} */
   #onreplaced = (text) => (this.text = text);
 
+  /** @param {string} id */
   constructor(id) {
     this.#area = make("textarea", { id, rows: 8, spellcheck: false });
     this.#window.id = `${id}-window`;
@@ -37,14 +41,14 @@ class Listing {
     this.node = make("div", { className: "listing" }, this.#area, this.#window, this.#about);
     this.inputs = [this.#area, this.#window];
     this.#window.addEventListener("scroll", () => this.#draw());
-    this.#window.addEventListener("click", ({ target }) =>
+    this.#window.addEventListener("click", (/** @type {any} */ { target }) =>
       this.#point(Number(target.closest("[data-line]")?.dataset.line)),
     );
     this.#window.addEventListener("keydown", (event) => {
       const step = KEYS[event.key];
       if (!step || event.altKey || event.ctrlKey || event.metaKey) return;
       event.preventDefault();
-      this.#point(Math.min(this.#starts.length, Math.max(1, this.#line + step)));
+      this.#point(Math.min(this.#lines.length, Math.max(1, this.#line + step)));
     });
     this.#area.addEventListener("paste", (event) => this.#paste(event));
     const follow = () => this.#onpoint(this.#area.value.slice(0, this.#area.selectionStart).split("\n").length);
@@ -74,23 +78,35 @@ class Listing {
     this.#show();
   }
 
-  /** Names the file that the text comes from. */
+  /**
+   * Names the file that the text comes from.
+   * @param {string} name
+   */
   set name(name) {
     this.#name = name;
     this.#show();
   }
 
-  /** `point(line)` is called whenever the caret, or a click, comes to a line. */
+  /**
+   * `point(line)` is called whenever the caret, or a click, comes to a line.
+   * @param {(line: number) => void} point
+   */
   set onpoint(point) {
     this.#onpoint = point;
   }
 
-  /** `replace(text)` is called with a text of several lines that is pasted in place of the whole one. */
+  /**
+   * `replace(text)` is called with a text of several lines that is pasted in place of the whole one.
+   * @param {(text: string) => unknown} replace
+   */
   set onreplaced(replace) {
     this.#onreplaced = replace;
   }
 
-  /** Points at a line, where it can be seen. */
+  /**
+   * Points at a line, where it can be seen.
+   * @param {number} line
+   */
   show(line) {
     if (this.#starts) {
       this.mark(line);
@@ -105,7 +121,10 @@ class Listing {
     this.input.scrollIntoView({ block: "nearest" });
   }
 
-  /** Brings a line of a long text into its window, and leaves the focus where it is. */
+  /**
+   * Brings a line of a long text into its window, and leaves the focus where it is.
+   * @param {number} line
+   */
   mark(line) {
     if (!this.#starts) return;
     this.#window.scrollTop = (line - 3) * this.#pitch;
@@ -113,9 +132,12 @@ class Listing {
     this.#draw();
   }
 
-  /** Opens a whole program; takes a long text aside before the browser lays it out. */
+  /**
+   * Opens a whole program; takes a long text aside before the browser lays it out.
+   * @param {ClipboardEvent} event
+   */
   #paste(event) {
-    const pasted = event.clipboardData.getData("text/plain");
+    const pasted = event.clipboardData?.getData("text/plain") ?? "";
     const { value, selectionStart, selectionEnd } = this.#area;
     if (pasted.includes("\n") && selectionEnd - selectionStart === value.length) {
       event.preventDefault();
@@ -129,6 +151,7 @@ class Listing {
     this.#window.focus();
   }
 
+  /** @param {number} line */
   #point(line) {
     if (!line) return;
     this.#line = line;
@@ -141,14 +164,19 @@ class Listing {
 
   /** Way to scroll from one line to the next [px]. */
   get #pitch() {
-    return Math.min(this.#height, TALLEST / this.#starts.length);
+    return Math.min(this.#height, TALLEST / this.#lines.length);
+  }
+
+  /** Where each line of the long text starts. */
+  get #lines() {
+    return this.#starts ?? [];
   }
 
   /** The first line that is shown, from 0. */
   get #top() {
     return Math.max(
       0,
-      Math.min(this.#starts.length - this.#visible + 1, Math.round(this.#window.scrollTop / this.#pitch)),
+      Math.min(this.#lines.length - this.#visible + 1, Math.round(this.#window.scrollTop / this.#pitch)),
     );
   }
 
@@ -162,7 +190,7 @@ class Listing {
       : this.#name && `Opened from ${this.#name}.`;
     if (!lines) return this.#rows.replaceChildren();
     this.#draw();
-    this.#height = this.#rows.firstChild?.offsetHeight || this.#height;
+    this.#height = /** @type {HTMLElement | null} */ (this.#rows.firstChild)?.offsetHeight || this.#height;
     this.#visible = Math.max(1, Math.ceil(this.#window.clientHeight / this.#height));
     this.#spacer.style.setProperty("height", `${lines * this.#pitch + (this.#window.clientHeight % this.#height)}px`);
     this.#draw();
@@ -170,7 +198,7 @@ class Listing {
 
   #draw() {
     const from = this.#top;
-    const shown = Array.from({ length: Math.min(this.#visible, this.#starts.length - from) }, (_, i) =>
+    const shown = Array.from({ length: Math.min(this.#visible, this.#lines.length - from) }, (_, i) =>
       this.#row(from + i),
     );
     this.#rows.replaceChildren(...shown);
@@ -179,11 +207,10 @@ class Listing {
     else this.#window.removeAttribute("aria-activedescendant");
   }
 
+  /** @param {number} index */
   #row(index) {
-    const line = this.#text.slice(
-      this.#starts[index],
-      Math.min(this.#starts[index + 1] ?? Infinity, this.#starts[index] + 200),
-    );
+    const [start, next = Infinity] = this.#lines.slice(index, index + 2);
+    const line = this.#text.slice(start, Math.min(next, start + 200));
     const at = index + 1 === this.#line;
     const row = make(
       "div",
@@ -200,7 +227,10 @@ class Listing {
 /** The text of the job's program; a job has one at most. */
 export const listing = new Listing("path-text");
 
-/** Where each line of a text starts. */
+/**
+ * Where each line of a text starts.
+ * @param {string} text
+ */
 function linesOf(text) {
   const starts = [0];
   for (let at = text.indexOf("\n"); at >= 0 && at + 1 < text.length; at = text.indexOf("\n", at + 1))

@@ -4,39 +4,38 @@
 import { readText } from "../core/assets.js";
 import { make } from "../page/dom.js";
 import { timeOf } from "../page/program-lines.js";
+import { languageOf } from "./language.js";
 import { listing } from "./program-text.js";
 
-const ENDINGS = {
-  apt: ["apt", "aptsource", "cls", "cl", "ncl"],
-  csv: ["csv", "txt", "tsv", "xyz"],
-  gcode: ["nc", "ngc", "gcode", "g", "tap", "cnc", "mpf", "spf", "eia", "iso"],
-};
+/** @import { Stock } from "../../pkg/armill.js" */
 
-/**
- * The language of a program by what stands in it; where that does not tell, by the ending of its
- * name.
- */
-function languageOf(name, text) {
-  const head = text.slice(0, 20_000);
-  if (/^\s*(GOTO|FROM|FEDRAT|PARTNO|UNITS|MULTAX|SPINDL)\b/im.test(head)) return "apt";
-  if (/^\s*%|^[^A-FH-LO-Z\n]*[GM]\s*\d/im.test(head.replace(/\([^)]*\)|;.*$/gm, ""))) return "gcode";
-  const ending = name.split(".").pop().toLowerCase();
-  return Object.keys(ENDINGS).find((language) => ENDINGS[language].includes(ending)) ?? "csv";
-}
+/** @typedef {{ file: string, kind: string, title: string, note: string, stock?: Stock, tool?: object }} Example a program of the site */
 
-/** The example programs, `{ file, kind, title, note, stock, tool }`, of which the last two may be left out. */
-const listOfExamples = () => (examplesListed ??= readText("examples/index.json").then(JSON.parse));
+/** @typedef {(kind: string, text: string, example?: Example) => Promise<boolean>} Use makes a program the path of the job */
+
+/** @type {Promise<Example[]> | undefined} */
 let examplesListed;
 
-/** Whether a stock is that of an example program: it has nothing to do with another one. */
+/**
+ * The example programs.
+ * @returns {Promise<Example[]>}
+ */
+const listOfExamples = () => (examplesListed ??= readText("examples/index.json").then((text) => JSON.parse(text)));
+
+/**
+ * Whether a stock is that of an example program: it has nothing to do with another one.
+ * @param {Stock} stock
+ */
 export async function isOfExample(stock) {
-  const list = await listOfExamples().catch(() => []);
+  const list = await listOfExamples().catch(() => /** @type {Example[]} */ ([]));
   return list.some((example) => JSON.stringify(example.stock) === JSON.stringify(stock));
 }
 
 /**
  * Buttons for programs; `use(kind, text, example)` is called with what was opened, `fail(message)`
  * where that did not work.
+ * @param {Use} use
+ * @param {(message: string) => void} fail
  */
 export function programTools(use, fail) {
   const file = make("input", { type: "file", id: "program-file", hidden: true, "aria-label": "Program file" });
@@ -48,7 +47,7 @@ export function programTools(use, fail) {
   );
   open.addEventListener("click", () => file.click());
   file.addEventListener("change", async () => {
-    const [chosen] = file.files;
+    const [chosen] = file.files ?? [];
     file.value = "";
     if (chosen) await openProgram(chosen, use, fail);
   });
@@ -73,7 +72,11 @@ export function programTools(use, fail) {
   return make("div", { className: "program-tools" }, open, examples, file);
 }
 
-/** The text of a file; nothing, after `fail(message)`, if it cannot be read or is no text. */
+/**
+ * The text of a file; nothing, after `fail(message)`, if it cannot be read or is no text.
+ * @param {File} file
+ * @param {(message: string) => void} fail
+ */
 export async function textIn(file, fail) {
   try {
     const text = await file.text();
@@ -85,26 +88,41 @@ export async function textIn(file, fail) {
   return undefined;
 }
 
-/** Reads a file into the job. */
+/**
+ * Reads a file into the job.
+ * @param {File} file
+ * @param {Use} use
+ * @param {(message: string) => void} fail
+ */
 export async function openProgram(file, use, fail) {
   const text = await textIn(file, fail);
   if (text === undefined) return;
   if (await use(languageOf(file.name, text), text, { file: file.name })) listing.name = file.name;
 }
 
-/** A program pasted in place of the whole text is opened as one from a file is. */
+/**
+ * A program pasted in place of the whole text is opened as one from a file is.
+ * @param {Use} use
+ */
 export function followPaste(use) {
   listing.onreplaced = (text) => use(languageOf("", text), text);
 }
 
-/** Points at a line of the program where it was typed. */
+/**
+ * Points at a line of the program where it was typed.
+ * @param {number} line
+ */
 export function showLine(line) {
   if (listing.node.closest("[hidden]")) return;
-  listing.node.closest("details").open = true;
+  const group = listing.node.closest("details");
+  if (group) group.open = true;
   listing.show(line);
 }
 
-/** Calls `point(time)` whenever the caret comes to a line that runs. */
+/**
+ * Calls `point(time)` whenever the caret comes to a line that runs.
+ * @param {(time: number) => void} point
+ */
 export function followCaret(point) {
   listing.onpoint = (line) => {
     const time = timeOf(line);

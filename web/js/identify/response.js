@@ -7,6 +7,12 @@ import { formatNumber } from "../page/number.js";
 import { Outcome, remarks } from "./result.js";
 import { Source } from "./input.js";
 
+/**
+ * @import { ResponseSummary } from "../../pkg/armill.js"
+ * @import { Ask, Present } from "./panel.js"
+ */
+
+/** @param {{ ask: Ask } & Present} page */
 export function makeResponse({ ask, job, use }) {
   const cell = numberCell("identify-from", "s");
   const from = cell.input;
@@ -45,8 +51,10 @@ export function makeResponse({ ask, job, use }) {
     outcome.compute(start);
   }
 
+  /** @param {ResponseSummary} found */
   function take({ frequency_rad_s, frequency_hz, damping }) {
     const next = job();
+    /** @param {number} value */
     const digits = (value) => Number(value.toPrecision(6));
     const before = typeof next.shaper === "object" ? next.shaper : { kind: "zvd" };
     const frequency =
@@ -57,6 +65,7 @@ export function makeResponse({ ask, job, use }) {
     notify("The job’s shaper now has this frequency and damping. Undo removes them.");
   }
 
+  /** @param {ResponseSummary} found */
   function show(found) {
     const button = make(
       "button",
@@ -64,6 +73,13 @@ export function makeResponse({ ask, job, use }) {
       "Use this frequency and damping in the job",
     );
     button.addEventListener("click", () => take(found));
+    /**
+     * @param {string} id
+     * @param {string} name
+     * @param {string} unit
+     * @param {number} value
+     * @param {[number | null, number | null]} interval
+     */
     const fact = (id, name, unit, value, [low, high]) =>
       make(
         "div",
@@ -73,7 +89,7 @@ export function makeResponse({ ask, job, use }) {
           "dd",
           {},
           make("output", { id }, formatNumber(value, 5)),
-          make("span", { className: "unit" }, ` ± ${formatNumber((high - low) / 2, 2)}`),
+          make("span", { className: "unit" }, ` ± ${formatNumber(((high ?? Infinity) - (low ?? -Infinity)) / 2, 2)}`),
         ),
       );
     return [

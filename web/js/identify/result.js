@@ -5,19 +5,33 @@ import { Figure } from "../chart/figure.js";
 import { debounced, make } from "../page/dom.js";
 import { onSetting } from "../page/settings.js";
 
+/**
+ * @import { ChartOptions, ChartUnits } from "../../pkg/armill.js"
+ * @import { Source } from "./input.js"
+ * @import { Ask } from "./panel.js"
+ */
+
+/** @template Found what the core finds */
 export class Outcome {
+  /** @type {Ask} */
   #ask;
+  /** @type {"stiffness" | "response"} */
   #kind;
+  /** @type {Source} */
   #source;
+  /** @type {(found: Found) => Node[]} */
   #show;
   #result = make("div", { className: "result", hidden: true });
+  /** @type {Figure} */
   #figure;
   #turn = 0;
   #asked = ""; // what was asked last
+  /** @type {Found | null} */
   #found = null;
 
   /**
    * `source` is the text, `show(found)` gives the nodes of a result; `chart` is { name, title }.
+   * @param {{ ask: Ask, kind: "stiffness" | "response", source: Source, chart: { name: string, title: string }, show(found: Found): Node[] }} options
    */
   constructor({ ask, kind, source, chart, show }) {
     this.#ask = ask;
@@ -25,8 +39,8 @@ export class Outcome {
     this.#source = source;
     this.#show = show;
     const drawn = {
-      chart: (_, options) => ask("identified_chart", kind, options),
-      chartData: (_, units) => ask("identified_data", kind, units),
+      chart: (/** @type {string} */ _, /** @type {ChartOptions} */ options) => ask("identified_chart", kind, options),
+      chartData: (/** @type {string} */ _, /** @type {ChartUnits} */ units) => ask("identified_data", kind, units),
     };
     this.#figure = new Figure({ ...chart, figure: "", kind: "curve" }, () => {}, drawn);
     this.node = make("div", { className: "outcome", "aria-live": "polite" }, this.#result);
@@ -40,7 +54,10 @@ export class Outcome {
     });
   }
 
-  /** Computes with the text and `args` (plain data), unless that is what is shown. */
+  /**
+   * Computes with the text and `args` (plain data), unless that is what is shown.
+   * @param {unknown[]} args
+   */
   async compute(...args) {
     const { text } = this.#source;
     const asked = JSON.stringify([text, args]);
@@ -71,13 +88,17 @@ export class Outcome {
     }
   }
 
-  /** The core takes the job before the text where there is one. */
+  /**
+   * The core takes the job before the text where there is one.
+   * @param {string} text
+   * @param {unknown[]} args
+   */
   #order(text, args) {
     return this.#kind === "stiffness" ? [args[0], text, args[1]] : [text, ...args];
   }
 
   #fill() {
-    this.#result.replaceChildren(...this.#show(this.#found), this.#figure.node);
+    if (this.#found) this.#result.replaceChildren(...this.#show(this.#found), this.#figure.node);
   }
 
   #draw() {
@@ -85,6 +106,9 @@ export class Outcome {
   }
 }
 
-/** Sentences that make a result doubtful. */
+/**
+ * Sentences that make a result doubtful.
+ * @param {string[]} texts
+ */
 export const remarks = (texts) =>
   texts.length ? [make("ul", { className: "remarks" }, ...texts.map((text) => make("li", {}, text)))] : [];

@@ -8,11 +8,19 @@ import { lengthText, lengthUnit } from "../page/units.js";
 import { Outcome, remarks } from "./result.js";
 import { Source } from "./input.js";
 
+/**
+ * @import { JointSummary, StiffnessSummary } from "../../pkg/armill.js"
+ * @import { JobData } from "../job/data.js"
+ * @import { Ask, Present } from "./panel.js"
+ */
+
 const EXAMPLE = "identify-fanuc-r2000ic";
 const MICRO = 1e6;
 const JOINTS = { table: "as the robot’s table does", "coupled-j3": "joint 3 from the horizontal (FANUC)" };
 
+/** @param {{ ask: Ask } & Present} page */
 export function makeStiffness({ ask, job, use }) {
+  /** @type {JobData | null} */
   let example = null; // the measured robot, as long as it is looked at instead of the job's
   const joints = make(
     "select",
@@ -40,6 +48,7 @@ export function makeStiffness({ ask, job, use }) {
   });
   joints.addEventListener("change", () => look());
 
+  /** @param {JobData} job */
   const robotOf = ({ version = 1, robot, tool_frame }) => ({ version, robot, tool_frame });
 
   function look() {
@@ -60,6 +69,7 @@ export function makeStiffness({ ask, job, use }) {
     look();
   }
 
+  /** @param {StiffnessSummary} found */
   function take(found) {
     const { robot, tool_frame, workpiece_frame } = example ?? job();
     const { compliance_covariance: covariance } = found;
@@ -69,6 +79,7 @@ export function makeStiffness({ ask, job, use }) {
       name: `${name}, compliance ${found.source}`,
       joint_compliance_rad_per_nm: found.joint_compliance_rad_per_nm.map((c) => Number(c.toPrecision(6))),
     };
+    /** @type {JobData} */
     const next = { ...job(), robot: identified, tool_frame, workpiece_frame };
     const { stiffness_percent, stiffness_factor, compliance_covariance, ...rest } = next.uncertainty ?? {};
     next.uncertainty = covariance
@@ -81,6 +92,7 @@ export function makeStiffness({ ask, job, use }) {
     );
   }
 
+  /** @param {StiffnessSummary} found */
   function show(found) {
     const button = make(
       "button",
@@ -136,8 +148,11 @@ export function makeStiffness({ ask, job, use }) {
   };
 }
 
+/** @param {JointSummary[]} joints */
 function tableOf(joints) {
+  /** @param {number | null} value */
   const micro = (value) => (value === null ? "∞" : formatNumber(value * MICRO));
+  /** @param {JointSummary} joint */
   const row = ({
     joint,
     compliance_rad_per_nm,
@@ -165,6 +180,10 @@ function tableOf(joints) {
       ),
       make("td", {}, sentence(words)),
     );
+  /**
+   * @param {string} text
+   * @param {string} [unit]
+   */
   const head = (text, unit) =>
     make("th", { scope: "col" }, text, unit ? make("span", { className: "unit" }, ` ${unit}`) : "");
   return make(

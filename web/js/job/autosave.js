@@ -11,7 +11,12 @@ const KEY = "armill-inputs";
 const FORMAT = 1;
 const PAUSE_MS = 300; // of typing, before anything is written
 
-let events = { onrefused() {}, onshared() {} };
+/** @import { JobState } from "./data.js" */
+
+/** @typedef {JobState & { typed?: Record<string, any> }} Inputs the job, and what the form holds besides */
+
+let events = { onrefused: (/** @type {boolean} */ _full) => {}, onshared() {} };
+/** @type {Inputs | undefined} */
 let waiting; // state that is not written yet
 let refused = false;
 let shared = false;
@@ -19,6 +24,7 @@ let shared = false;
 /**
  * `onrefused(full)` is called once if nothing can be kept, `onshared()` once if another tab keeps
  * inputs too.
+ * @param {typeof events} handlers
  */
 export function start(handlers) {
   events = handlers;
@@ -33,11 +39,12 @@ export function start(handlers) {
 
 /**
  * Resolves with the inputs that this tab, or else any tab, kept last; undefined if there are none.
+ * @returns {Promise<Inputs | undefined>}
  */
 export async function kept() {
   for (const store of [() => sessionStorage, () => localStorage]) {
     try {
-      const { format, state } = JSON.parse(store().getItem(KEY)) ?? {};
+      const { format, state } = JSON.parse(store().getItem(KEY) ?? "{}") ?? {};
       if (format === FORMAT && state && typeof state.job === "object") return await pickUp(state);
     } catch {
       // Denied, or not ours.
@@ -46,10 +53,16 @@ export async function kept() {
   return undefined;
 }
 
-/** Keeps inputs that have not been changed yet, for this tab alone. */
+/**
+ * Keeps inputs that have not been changed yet, for this tab alone.
+ * @param {Inputs} state
+ */
 export const keepHere = (state) => void write(() => sessionStorage, state);
 
-/** Keeps inputs, a moment from now. */
+/**
+ * Keeps inputs, a moment from now.
+ * @param {Inputs} state
+ */
 export function keep(state) {
   waiting = state;
   later();
@@ -69,7 +82,11 @@ function flush() {
   events.onrefused([here, everywhere].includes("full"));
 }
 
-/** Writes a state; true, or "full" or "denied". */
+/**
+ * Writes a state; true, or "full" or "denied".
+ * @param {() => Storage} store
+ * @param {Inputs} state
+ */
 function write(store, state) {
   try {
     store().setItem(KEY, named({ format: FORMAT, state }));

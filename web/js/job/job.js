@@ -6,7 +6,13 @@
 // fields of that part name in `when` what they need: a value of that choice, or the state of the
 // part itself ("preset", "table", "opw", "kienzle" or "hz").
 
-const MOST_POINTS = 5000; // in a field of their own: browsers take seconds to lay out more
+import { copy, frozen, listed, textOf } from "./data.js";
+
+/**
+ * @import { Field, Presets } from "../../pkg/armill.js"
+ * @import { JobData, JobState } from "./data.js"
+ */
+
 const TURN = 2 * Math.PI;
 export const OWN = "table"; // what a preset choice says when the numbers are one's own
 export const KIENZLE = "kienzle"; // the same for a material by k_c1.1 and m_c
@@ -17,34 +23,29 @@ const ENGAGEMENT = "cutting.engagement";
 const FEED_RULE = "motion.feed_rule";
 const EXTENTS = ["stock.allowance_mm", "stock.top_mm"]; // what the extents of a program give by themselves
 
-const keys = (path) => path.match(/[^.[\]]+/g);
+/** @param {string} path */
+const keys = (path) => path.match(/[^.[\]]+/g) ?? [];
+/** @param {string} path */
 const parentOf = (path) => path.slice(0, Math.max(0, path.lastIndexOf(".")));
+/** @param {string} path */
 const keyOf = (path) => path.slice(path.lastIndexOf(".") + 1);
+/** @param {{ path: string }} field */
 const decides = (field) => /\.(kind|preset)$/.test(field.path);
 
-/** A job's plain object as the text that is computed and saved. */
-export const textOf = (data) => JSON.stringify(data, null, 2);
-
-/** Plain data changed by a JSON merge patch (RFC 7386): null removes a key. */
-export function merged(data, patch) {
-  if (typeof patch !== "object" || patch === null || Array.isArray(patch)) return patch;
-  const own = typeof data === "object" && data !== null && !Array.isArray(data) ? data : {};
-  const all = { ...own };
-  for (const [key, change] of Object.entries(patch)) {
-    if (change === null) delete all[key];
-    else all[key] = merged(own[key], change);
-  }
-  return all;
-}
-
 export class Job {
+  /** @type {Field[]} */
   #fields;
+  /** @type {Presets} */
   #presets;
+  /** @type {number} */
   #model;
   #thesis; // the default job
   #drafts = new Map(); // values of fields whose shape is not chosen now, kept for the way back
+  /** @type {JobData} */
   #data;
+  /** @type {JobData | undefined} */
   #frozen; // #data as it is handed out, until the next edit
+  /** @type {string | undefined} */
   #text; // the same as text
 
   /**
@@ -53,7 +54,7 @@ export class Job {
    */
   constructor(data, { fields, presets, model, job }) {
     this.#fields = fields;
-    this.#presets = { robot: presets.robots, material: presets.materials };
+    this.#presets = presets;
     this.#model = model;
     this.#thesis = job;
     this.load(data);
@@ -71,20 +72,30 @@ export class Job {
 
   /** Time between samples [s]. */
   get sampleTime() {
-    return this.get(this.#find("motion.sample_time_s"));
+    return this.get({ path: "motion.sample_time_s" });
   }
 
-  /** Its text with another time between samples [s]. */
+  /**
+   * Its text with another time between samples [s].
+   * @param {number} seconds
+   */
   sampledEvery(seconds) {
     return textOf({ ...this.#data, motion: { ...this.#data.motion, sample_time_s: seconds } });
   }
 
-  /** The job and what is kept for the way back, as plain data of its own. */
+  /**
+   * The job and what is kept for the way back, as plain data of its own.
+   * @returns {JobState}
+   */
   get state() {
     return { job: copy(this.#data), drafts: copy(Object.fromEntries(this.#drafts)) };
   }
 
-  /** Replaces the whole job; one of an earlier model is of this one from now on. */
+  /**
+   * Replaces the whole job; one of an earlier model is of this one from now on.
+   * @param {JobData} data
+   * @param {Record<string, any>} [drafts]
+   */
   load(data, drafts = {}) {
     this.#edit();
     const own = copy(listed(data));
@@ -92,7 +103,11 @@ export class Job {
     this.#drafts = new Map(Object.entries(copy(drafts)));
   }
 
-  /** The value at `field.path`; where the job leaves it out, what then holds. */
+  /**
+   * The value at `field.path`; where the job leaves it out, what then holds.
+   * @param {Pick<Field, "path"> & Partial<Field>} field
+   * @returns {any}
+   */
   get(field) {
     const part = this.#read(parentOf(field.path));
     if (decides(field) && part === "none") return "none";
@@ -112,7 +127,11 @@ export class Job {
     return (this.#read("stock.kind") ?? "none") !== "none";
   }
 
-  /** Whether the field belongs to the job's present shape. */
+  /**
+   * Whether the field belongs to the job's present shape.
+   * @param {Field} field
+   * @returns {boolean}
+   */
   shows(field) {
     if (this.#isOtherUnit(field)) return false;
     if (!field.when) return true;
@@ -121,6 +140,11 @@ export class Job {
     return field.when.is.includes(this.#stateOf(field.when.path));
   }
 
+  /**
+   * @param {Field} field
+   * @param {any} value
+   * @returns {void}
+   */
   set(field, value) {
     this.#edit();
     if (field.path.startsWith("robot.") && field.path !== "robot.name") this.#forgetCovariance();
@@ -135,7 +159,10 @@ export class Job {
     }
   }
 
-  /** Takes the field back to its default. */
+  /**
+   * Takes the field back to its default.
+   * @param {Field} field
+   */
   reset(field) {
     this.#edit();
     const optional = this.#overrules(field) || field.when?.path === "uncertainty" || this.#isOptional(field);
@@ -143,14 +170,20 @@ export class Job {
     else this.set(field, structuredClone(field.default));
   }
 
-  /** Whether the field differs from its default. */
+  /**
+   * Whether the field differs from its default.
+   * @param {Field} field
+   */
   changed(field) {
     if (this.#read(parentOf(field.path))?.preset && !decides(field)) return this.#overrules(field);
     const [value, standard] = [this.get(field), this.#standard(field)];
     return typeof value === "string" ? value !== standard : JSON.stringify(value) !== JSON.stringify(standard);
   }
 
-  /** Another job of the same kind, from its plain object. */
+  /**
+   * Another job of the same kind, from its plain object.
+   * @param {JobData} data
+   */
   of(data) {
     const { robot: robots, material: materials } = this.#presets;
     return new Job(data, {
@@ -161,7 +194,10 @@ export class Job {
     });
   }
 
-  /** Whether another job, a plain object, was saved by an earlier model; before model 2 it named none. */
+  /**
+   * Whether another job, a plain object, was saved by an earlier model; before model 2 it named none.
+   * @param {JobData} data
+   */
   isAfter({ model = 1 }) {
     return model < this.#model;
   }
@@ -169,6 +205,7 @@ export class Job {
   /**
    * The fields in which another job, a plain object, differs: [{ field, own, other }]; undefined
    * where there is no such field.
+   * @param {JobData} data
    */
   differences(data) {
     const other = this.of(data);
@@ -178,15 +215,22 @@ export class Job {
     });
   }
 
-  /** The field that holds the same quantity in another unit, or undefined. */
+  /**
+   * The field that holds the same quantity in another unit, or undefined.
+   * @param {Field} field
+   */
   otherUnit(field) {
-    return this.#find(twin(field.path));
+    const other = twin(field.path);
+    return other && this.#find(other);
   }
 
-  /** Gives the frequency in the other unit: same value, other key. Returns the other field. */
+  /**
+   * Gives the frequency in the other unit: same value, other key. Returns the other field.
+   * @param {Field} field
+   */
   swapUnit(field) {
     this.#edit();
-    const other = this.otherUnit(field);
+    const other = /** @type {Field} */ (this.otherUnit(field));
     const value = this.get(field);
     const part = this.#read(parentOf(field.path));
     delete part[keyOf(field.path)];
@@ -212,32 +256,50 @@ export class Job {
     delete this.#data.uncertainty?.compliance_covariance;
   }
 
-  /** What holds where the job leaves a field out. */
+  /**
+   * What holds where the job leaves a field out.
+   * @param {{ path: string, default?: unknown }} field
+   */
   #standard(field) {
     if (field.path === ENGAGEMENT && this.hasStock) return FROM_STOCK;
     if (field.path === "stock.allowance_mm") return this.#read("tool.diameter_mm") ?? field.default;
     return field.default;
   }
 
-  /** Whether a field is better left out than given by its default. */
+  /**
+   * Whether a field is better left out than given by its default.
+   * @param {Field} field
+   */
   #isOptional({ path }) {
     return path === ENGAGEMENT || (this.#read("stock.kind") === "extents" && EXTENTS.includes(path));
   }
 
-  /** Leaves a field out; a radial depth is refused without the engagement that it belongs to. */
+  /**
+   * Leaves a field out; a radial depth is refused without the engagement that it belongs to.
+   * @param {string} path
+   */
   #forget(path) {
     delete this.#read(parentOf(path))?.[keyOf(path)];
     if (path === ENGAGEMENT) delete this.#data.cutting?.radial_depth_mm;
   }
 
+  /** @param {string} path */
   #find(path) {
     return this.#fields.find((field) => field.path === path);
   }
 
+  /**
+   * @param {string} path
+   * @returns {any}
+   */
   #read(path) {
     return keys(path).reduce((value, key) => value?.[key], this.#data);
   }
 
+  /**
+   * @param {string} path
+   * @param {any} value
+   */
   #write(path, value) {
     const parent = parentOf(path);
     if (parent && typeof this.#read(parent) !== "object") this.#write(parent, this.#shape(parent, new Map()));
@@ -245,6 +307,7 @@ export class Job {
     part[keyOf(path)] = value;
   }
 
+  /** @param {string} path */
   #stateOf(path) {
     const part = this.#read(path);
     if (path === "uncertainty") return this.#stiffnessKnown(part);
@@ -256,13 +319,19 @@ export class Job {
     return preset.kc11_n_mm2 !== undefined ? `${KIENZLE}-preset` : preset.orthogonal ? "orthogonal-preset" : "preset";
   }
 
-  /** In which of three ways the job says how well stiffness is known. */
+  /**
+   * In which of three ways the job says how well stiffness is known.
+   * @param {JobData} part
+   */
   #stiffnessKnown(part) {
     if (part?.compliance_covariance !== undefined) return "covariance";
     return part?.stiffness_factor !== undefined ? "factor" : "percent";
   }
 
-  /** Whether the quantity is given by this field's twin. */
+  /**
+   * Whether the quantity is given by this field's twin.
+   * @param {Field} field
+   */
   #isOtherUnit(field) {
     const other = twin(field.path);
     return other !== undefined && this.#read(other) !== undefined;
@@ -271,25 +340,40 @@ export class Job {
   /**
    * Whether a part with the `known` keys gives the quantity by this field's twin; rad/s unless Hz
    * is known.
+   * @param {Field} field
+   * @param {Map<string, any>} known
    */
   #inOtherUnit(field, known) {
     if (!this.otherUnit(field)) return false;
     return field.path.endsWith("_hz") !== known.has("frequency_hz");
   }
 
-  /** Whether the job gives a number that its preset has too. */
+  /**
+   * Whether the job gives a number that its preset has too.
+   * @param {Field} field
+   */
   #overrules(field) {
     const part = this.#read(parentOf(field.path));
     return part?.preset !== undefined && !decides(field) && part[keyOf(field.path)] !== undefined;
   }
 
-  /** The numbers behind the preset that a part of the job names. */
+  /**
+   * The numbers behind the preset that a part of the job names.
+   * @param {string} path
+   * @returns {any}
+   */
   #presetOf(path) {
     const id = this.#read(path)?.preset;
-    return this.#presets[path]?.find((preset) => preset.id === id) ?? {};
+    const { robots, materials } = this.#presets;
+    const list = path === "robot" ? robots : path === "material" ? materials : [];
+    return list.find((preset) => preset.id === id) ?? {};
   }
 
-  /** Gives the part of the job around `decider` the shape that `choice` asks for. */
+  /**
+   * Gives the part of the job around `decider` the shape that `choice` asks for.
+   * @param {Field} decider
+   * @param {string} choice
+   */
   #reshape(decider, choice) {
     const path = parentOf(decider.path);
     const known = new Map(Object.entries(this.#presetOf(path)));
@@ -312,10 +396,17 @@ export class Job {
     if (this.#read(ENGAGEMENT) === FROM_STOCK) this.#forget(ENGAGEMENT);
   }
 
-  /** An object with every field of a part that is needed when `decider` is `choice`. */
+  /**
+   * An object with every field of a part that is needed when `decider` is `choice`.
+   * @param {string} path
+   * @param {Map<string, any>} known
+   * @param {Field} [decider]
+   * @param {string} [choice]
+   */
   #shape(path, known, decider, choice) {
-    const own = OWN_FORMS.includes(choice);
+    const own = OWN_FORMS.includes(choice ?? "");
     const byPreset = decider?.path.endsWith(".preset") && !own;
+    /** @type {Record<string, any>} */
     const shape = {};
     for (const field of this.#fields) {
       const key = keyOf(field.path);
@@ -328,7 +419,7 @@ export class Job {
       const unneeded = asked && !field.when.is.includes(choice);
       if (byPreset || unneeded || this.#inOtherUnit(field, known)) continue;
       if (choice === "extents" && EXTENTS.includes(field.path)) continue;
-      const standard = field.defaults?.[choice] ?? field.default;
+      const standard = field.defaults?.[choice ?? ""] ?? field.default;
       shape[key] = structuredClone(known.get(key) ?? this.#drafts.get(draftKey(field, choice)) ?? standard);
     }
     return shape;
@@ -336,32 +427,16 @@ export class Job {
 }
 
 /**
- * A job whose polyline is too long for a text field has its points as rows of a program, the same
- * path.
+ * What a field's value is kept under: a program in one language is none in another.
+ * @param {{ path: string, defaults?: unknown }} field
+ * @param {string} [choice]
  */
-function listed(job) {
-  const { kind, points_mm } = job.path ?? {};
-  if (kind !== "polyline" || !(points_mm?.length > MOST_POINTS)) return job;
-  return { ...job, path: { kind: "csv", text: points_mm.map((point) => point.join(",")).join("\n") } };
-}
-
-/** A copy of plain data that shares its texts: a program of megabytes is never doubled. */
-function copy(value) {
-  if (Array.isArray(value)) return value.map(copy);
-  if (typeof value !== "object" || value === null) return value;
-  return Object.fromEntries(Object.entries(value).map(([key, part]) => [key, copy(part)]));
-}
-
-/** Plain data that cannot be changed at any depth. */
-function frozen(value) {
-  if (typeof value === "object" && value !== null) Object.values(value).forEach(frozen);
-  return Object.freeze(value);
-}
-
-/** What a field's value is kept under: a program in one language is none in another. */
 const draftKey = (field, choice) => (field.defaults ? `${field.path}@${choice}` : field.path);
 
-/** The path of the same quantity in another unit: a frequency is in rad/s or in Hz. */
+/**
+ * The path of the same quantity in another unit: a frequency is in rad/s or in Hz.
+ * @param {string} path
+ */
 function twin(path) {
   if (path.endsWith("frequency_rad_s")) return path.replace(/rad_s$/, "hz");
   if (path.endsWith("frequency_hz")) return path.replace(/hz$/, "rad_s");

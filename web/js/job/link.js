@@ -13,7 +13,10 @@ const LARGEST = 4_000_000; // bytes of JSON: what unfolds to more is refused, fo
  */
 export const LONGEST_LINK = 8000;
 
-/** Whether a fragment means to be a job. */
+/**
+ * Whether a fragment means to be a job.
+ * @param {string} fragment
+ */
 export const holdsJob = (fragment) => /^#?job=/.test(fragment);
 
 /**
@@ -34,6 +37,7 @@ export async function fragmentOf(json) {
 /**
  * The JSON text of the job in a fragment. Rejects with `{ code: "link", message }` if there is none
  * to be had.
+ * @param {string} fragment
  */
 export async function jobIn(fragment) {
   const [, format, body] = /^#?job=(\d+)\.([\w-]*)(?:&view=[\w-]*)?$/.exec(fragment) ?? [];
@@ -54,16 +58,25 @@ export async function jobIn(fragment) {
   }
 }
 
+/** @param {string} why */
 const broken = (why) => ({ code: "link", message: `The link could not be opened: ${why}.` });
 
+/**
+ * @param {CompressionStream | DecompressionStream} transform
+ * @param {Uint8Array<ArrayBuffer>} bytes
+ */
 const through = (transform, bytes) => new Blob([bytes]).stream().pipeThrough(transform);
 
-/** All bytes of a stream; refuses more than `most` as soon as they come. */
+/**
+ * All bytes of a stream; refuses more than `most` as soon as they come.
+ * @param {ReadableStream<Uint8Array<ArrayBuffer>>} stream
+ * @param {number} [most]
+ */
 async function read(stream, most = Infinity) {
   const reader = stream.getReader();
   const parts = [];
   let size = 0;
-  for (let { value, done } = await reader.read(); !done; { value, done } = await reader.read()) {
+  for (let { value } = await reader.read(); value; { value } = await reader.read()) {
     size += value.length;
     if (size > most) {
       reader.cancel().catch(() => {});
@@ -74,11 +87,13 @@ async function read(stream, most = Infinity) {
   return new Uint8Array(await new Blob(parts).arrayBuffer());
 }
 
+/** @param {Uint8Array} bytes */
 const toBase64 = (bytes) =>
   btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""))
     .replaceAll("+", "-")
     .replaceAll("/", "_")
     .replace(/=+$/, "");
 
+/** @param {string} text */
 const fromBase64 = (text) =>
   Uint8Array.from(atob(text.replaceAll("-", "+").replaceAll("_", "/")), (character) => character.charCodeAt(0));

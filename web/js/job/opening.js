@@ -10,10 +10,12 @@ import { nameOfFile, named } from "./name.js";
  * `openJob(file)`, `useProgram(kind, text, example)` and `wireDrop()` for the page. `session()`, `job()`
  * and `thesis()`, the default job, are asked for when they are needed; `warn(message)` says what could
  * not be opened.
+ * @param {{ core: typeof import("../core/client.js"), job(): Job, session(): Session, standard(): JobData, warn(message: string): void }} page
  */
 export function makeOpening({ core, job, session, thesis, warn }) {
   let opened = 0; // programs, to know the latest
 
+  /** @param {File | undefined} file */
   async function openJob(file) {
     byId("job-file").value = "";
     if (!file) return;
@@ -84,7 +86,7 @@ export function makeOpening({ core, job, session, thesis, warn }) {
     addEventListener("dragover", (event) => event.preventDefault());
     addEventListener("drop", (event) => {
       event.preventDefault();
-      const [file] = event.dataTransfer.files;
+      const [file] = event.dataTransfer?.files ?? [];
       if (!file) return;
       if (file.name.endsWith(".json")) openJob(file);
       else openProgram(file, useProgram, warn);

@@ -13,20 +13,33 @@ const LISTED =
   "The path has too many points for a field. They are shown as rows of points instead; the path is the same.";
 const LINKED = "Opened from the link. Undo restores your own inputs.";
 
+/**
+ * @import { Form } from "../form/form.js"
+ * @import { Inputs } from "./autosave.js"
+ * @import { JobData } from "./data.js"
+ * @import { Job } from "./job.js"
+ */
+
 export class Session {
+  /** @type {Job} */
   #job;
+  /** @type {Form} */
   #form;
   #examples;
   #core;
+  /** @type {(stepped?: boolean) => void} */
   #changed;
+  /** @type {(message: string) => void} */
   #warn;
   #history = new History();
   #found = ""; // what the focused text field held when it got the focus
+  /** @type {EventTarget | undefined} */
   #own; // the focused text field, while it holds something else
 
   /**
    * `examples` has the core's own jobs, `opening` and `job`. `changed(stepped)` is called whenever the inputs are others than before, `warn(message)` with
    * what could not be shown.
+   * @param {{ job: Job, form: Form, standard: JobData, core: { check(json: string): Promise<void> }, changed(stepped?: boolean): void, warn(message: string): void }} page
    */
   constructor({ job, form, examples, core, changed, warn }) {
     this.#job = job;
@@ -73,7 +86,10 @@ export class Session {
     }
   }
 
-  /** Shows another job; undo goes back. */
+  /**
+   * Shows another job; undo goes back.
+   * @param {JobData} job
+   */
   load(job) {
     this.#show({ job });
     this.#keep();
@@ -82,6 +98,8 @@ export class Session {
   /**
    * After an edit in the form; `group` names the field while it is typed into, `stepped` says that
    * it is rather pushed.
+   * @param {unknown} [group]
+   * @param {boolean} [stepped]
    */
   edited(group, stepped) {
     this.#history.record(this.#state, group);
@@ -90,7 +108,10 @@ export class Session {
     this.#changed(stepped);
   }
 
-  /** Undoes (`step` -1) or redoes (1) the last change. */
+  /**
+   * Undoes (`step` -1) or redoes (1) the last change.
+   * @param {1 | -1} step
+   */
   move(step) {
     const before = this.#state.job;
     const state = this.#history.move(step);
@@ -100,11 +121,16 @@ export class Session {
     this.#form.reveal(before);
   }
 
+  /** @returns {Inputs} */
   get #state() {
     return { ...this.#job.state, typed: this.#form.typed };
   }
 
-  /** Shows a state of the inputs, of a link or not, and says what there is to know about it. */
+  /**
+   * Shows a state of the inputs, of a link or not, and says what there is to know about it.
+   * @param {Inputs} state
+   * @param {boolean} [linked]
+   */
   #show(state, linked = false) {
     this.#put(state, () => this.#history.record(this.#state));
     const messages = [
@@ -115,6 +141,10 @@ export class Session {
     if (messages.length) notify(messages.join(" "));
   }
 
+  /**
+   * @param {Inputs} state
+   * @param {() => void} [then]
+   */
   #put({ job, drafts, typed }, then = () => {}) {
     this.#job.load(job, drafts);
     this.#form.reload(typed);
@@ -135,6 +165,7 @@ export class Session {
     history.replaceState(history.state, "", location.pathname + location.search + (view ? `#view=${view}` : ""));
   }
 
+  /** @param {(why: string) => void} fail */
   async #openLink(fail) {
     try {
       const text = await jobIn(location.hash);
@@ -154,13 +185,14 @@ export class Session {
     byId("undo").addEventListener("click", () => this.move(-1));
     byId("redo").addEventListener("click", () => this.move(1));
     addEventListener("hashchange", () => this.#moved());
-    addEventListener("focusin", ({ target }) => {
+    addEventListener("focusin", (/** @type {any} */ { target }) => {
       [this.#found, this.#own] = [target.value, undefined];
       this.#history.rest();
     });
     addEventListener(
       "input",
-      ({ target }) => (this.#own = target.matches(TYPED) && target.value !== this.#found ? target : undefined),
+      (/** @type {any} */ { target }) =>
+        (this.#own = target.matches(TYPED) && target.value !== this.#found ? target : undefined),
     );
     addEventListener("keydown", (event) => {
       const key = event.key.toLowerCase();

@@ -3,13 +3,19 @@
 
 const MOST = 200; // steps
 
+/** @typedef {object} State plain data */
+
 export class History {
+  /** @type {State[]} */
   #states = [];
   #at = -1;
+  /** @type {unknown} */
   #group; // edits of the same group are one step
 
   /**
    * Records what is now. Typing in one field, named by `group`, is one step until `rest` is called.
+   * @param {State} state
+   * @param {unknown} [group]
    */
   record(state, group) {
     if (same(state, this.#states[this.#at])) return;
@@ -39,6 +45,8 @@ export class History {
   /**
    * The state before (`step` -1) or after (1) this one, which it becomes; undefined if there is
    * none.
+   * @param {1 | -1} step
+   * @returns {any}
    */
   move(step) {
     const state = this.#states[this.#at + step];
@@ -52,6 +60,9 @@ export class History {
 /**
  * Whether two values of plain data are equal. Long texts are shared between states, so this is
  * quick.
+ * @param {any} a
+ * @param {any} b
+ * @returns {boolean}
  */
 function same(a, b) {
   if (a === b) return true;

@@ -1,16 +1,54 @@
 // The few lines of DOM that every module needs.
 
-export const byId = (id) => document.getElementById(id);
+/**
+ * The ids of elements whose kind matters to the code.
+ *
+ * @typedef {{
+ *   "budget-table": HTMLTableElement,
+ *   "download-columns": HTMLButtonElement,
+ *   "download-compensated": HTMLButtonElement,
+ *   "download-job": HTMLButtonElement,
+ *   "download-program": HTMLButtonElement,
+ *   "export-format": HTMLSelectElement,
+ *   "feed-figures": HTMLTableElement,
+ *   "group-frames": HTMLDetailsElement,
+ *   "group-path": HTMLDetailsElement,
+ *   "job-file": HTMLInputElement,
+ *   "open": HTMLAnchorElement,
+ *   "pin": HTMLButtonElement,
+ *   "progress": HTMLProgressElement,
+ *   "redo": HTMLButtonElement,
+ *   "remarks": HTMLDetailsElement,
+ *   "share": HTMLButtonElement,
+ *   "share-link": HTMLInputElement,
+ *   "thesis": HTMLTableElement,
+ *   "undo": HTMLButtonElement,
+ *   "wall-table": HTMLTableElement,
+ *   "warnings": HTMLDetailsElement,
+ * }} Elements
+ */
+
+/**
+ * @template {string} K
+ * @param {K} id
+ * @returns {K extends keyof Elements ? Elements[K] : HTMLElement}
+ */
+export const byId = (id) => /** @type {any} */ (document.getElementById(id));
 
 /**
  * An element with properties (or attributes, where the name has a dash or is `role`) and children.
  * Text children stay text.
+ * @template {keyof HTMLElementTagNameMap} K
+ * @param {K} tag
+ * @param {Record<string, unknown>} props
+ * @param {(Node | string)[]} children
+ * @returns {HTMLElementTagNameMap[K]}
  */
 export function make(tag, props = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(props)) {
-    if (name.includes("-") || name === "role" || name === "for") element.setAttribute(name, value);
-    else element[name] = value;
+    if (name.includes("-") || name === "role" || name === "for") element.setAttribute(name, String(value));
+    else Object.assign(element, { [name]: value });
   }
   element.append(...children);
   return element;
@@ -18,17 +56,28 @@ export function make(tag, props = {}, ...children) {
 
 const SVG = "http://www.w3.org/2000/svg";
 
-/** The same for drawings; here every property is an attribute. */
+/**
+ * The same for drawings; here every property is an attribute.
+ * @template {keyof SVGElementTagNameMap} K
+ * @param {K} tag
+ * @param {Record<string, string | number>} attributes
+ * @param {(Node | string)[]} children
+ * @returns {SVGElementTagNameMap[K]}
+ */
 export function makeSvg(tag, attributes = {}, ...children) {
   const element = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
   element.append(...children);
   return element;
 }
 
-/** Makes one stop for Tab of the buttons in `group`: arrows, Home and End move among them. */
+/**
+ * Makes one stop for Tab of the buttons in `group`: arrows, Home and End move among them.
+ * @param {HTMLElement} group
+ */
 export function rove(group) {
   const buttons = () => [...group.querySelectorAll("button")];
+  /** @param {EventTarget | null} chosen */
   const stop = (chosen) => buttons().forEach((button) => (button.tabIndex = button === chosen ? 0 : -1));
   group.addEventListener("focusin", ({ target }) => stop(target));
   group.addEventListener("keydown", (event) => {
@@ -42,8 +91,15 @@ export function rove(group) {
   stop(buttons()[0]);
 }
 
-/** Calls `action` once, `delay` ms after the last call. */
+/**
+ * Calls `action` once, `delay` ms after the last call.
+ * @template {unknown[]} A
+ * @param {(...args: A) => void} action
+ * @param {number} delay
+ * @returns {(...args: A) => void}
+ */
 export function debounced(action, delay) {
+  /** @type {number | undefined} */
   let timer;
   return (...args) => {
     clearTimeout(timer);
@@ -51,5 +107,8 @@ export function debounced(action, delay) {
   };
 }
 
-/** The core's messages start in lower case. */
+/**
+ * The core's messages start in lower case.
+ * @param {string} text
+ */
 export const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);

@@ -3,6 +3,9 @@
 import { make } from "./dom.js";
 import { choices, choose, setting } from "./settings.js";
 
+/** @import { Setting } from "./settings.js" */
+
+/** @type {{ key: Setting, title: string, labels: Record<string, string> }[]} */
 const ROWS = [
   { key: "length", title: "Lengths", labels: { mm: "mm", inch: "inch" } },
   { key: "feed", title: "Feeds", labels: { second: "per second", minute: "per minute" } },
@@ -10,7 +13,10 @@ const ROWS = [
   { key: "theme", title: "Colours", labels: { auto: "system", light: "light", dark: "dark" } },
 ];
 
-/** Fills `box` with one row of choices a setting. */
+/**
+ * Fills `box` with one row of choices a setting.
+ * @param {HTMLElement} box
+ */
 export function settingsPanel(box) {
   box.append(
     make("h2", {}, "Settings"),
@@ -23,6 +29,7 @@ export function settingsPanel(box) {
   );
 }
 
+/** @param {(typeof ROWS)[number]} row */
 function row({ key, title, labels }) {
   const options = choices(key).map((value) => {
     const input = make("input", {

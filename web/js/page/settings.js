@@ -1,6 +1,9 @@
 // What the page remembers of how it is looked at: units and theme, kept in this browser only.
 
+/** @typedef {"length" | "force" | "theme"} Setting */
+
 const KEY = "armill-settings";
+/** @type {Record<Setting, string[]>} */
 const CHOICES = {
   length: ["mm", "inch"],
   feed: ["second", "minute"],
@@ -21,7 +24,11 @@ export function choices(key) {
   return CHOICES[key] ?? (key.startsWith("scale-") ? SCALES : undefined);
 }
 
-/** Chooses a value and remembers it. */
+/**
+ * Chooses a value and remembers it.
+ * @param {Setting} key
+ * @param {string} value
+ */
 export function choose(key, value) {
   if (!choices(key)?.includes(value) || setting(key) === value) return;
   values[key] = value;
@@ -39,7 +46,10 @@ export function lend(lent) {
   Object.assign(values, lent);
 }
 
-/** Calls `follow(key, value)` whenever a setting changes; returns a function that ends it. */
+/**
+ * Calls `follow(key, value)` whenever a setting changes; returns a function that ends it.
+ * @param {(key: Setting, value: string) => void} follow
+ */
 export function onSetting(follow) {
   followers.add(follow);
   return () => followers.delete(follow);

@@ -5,10 +5,17 @@ import { byId, make, sentence } from "./dom.js";
 /** The calculator's state, which the styles depend on. */
 export const become = (state) => (byId("results").dataset.state = state);
 
-/** The line of status. */
+/**
+ * The line of status.
+ * @param {string} text
+ */
 export const say = (text) => (byId("status").textContent = text);
 
-/** Shows what is wrong, with a button for its `remedy` { label, go }, if there is one. */
+/**
+ * Shows what is wrong, with a button for its `remedy` { label, go }, if there is one.
+ * @param {string} message
+ * @param {Remedy} [remedy]
+ */
 export function warn(message, remedy) {
   const box = byId("alert");
   box.replaceChildren(make("p", {}, sentence(message)));
@@ -21,5 +28,8 @@ export function warn(message, remedy) {
 /** Nothing is wrong any more. */
 export const calm = () => byId("alert").replaceChildren();
 
-/** Whether a run takes long enough to show its progress. */
+/**
+ * Whether a run takes long enough to show its progress.
+ * @param {boolean} on
+ */
 export const slow = (on) => byId("results").classList.toggle("slow", on);

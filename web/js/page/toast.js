@@ -4,9 +4,13 @@
 import { byId, make } from "./dom.js";
 
 const SHOWN_MS = 20_000;
+/** @type {number | undefined} */
 let timer;
 
-/** Shows a message in place of the last one; an empty one only takes that away. */
+/**
+ * Shows a message in place of the last one; an empty one only takes that away.
+ * @param {string} message
+ */
 export function notify(message) {
   clearTimeout(timer);
   const box = byId("notice");

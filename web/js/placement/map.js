@@ -6,6 +6,24 @@ import { makeSvg } from "../page/dom.js";
 import { inLength, lengthUnit } from "../page/units.js";
 import { colour, gradient } from "../scene/ramp.js";
 
+/** @typedef {{ max: number, mean: number, mark: number }} Place its errors [mm], and what is wrong with it, see `MARKS` */
+
+/** @typedef {[column: number, row: number]} Cell */
+
+/**
+ * Columns and rows are positions [mm]; `best` and `current` are positions too, `cursor` is a cell.
+ *
+ * @typedef {{
+ *   columns: number[],
+ *   rows: number[],
+ *   at(column: number, row: number): Place | null,
+ *   names: string[],
+ *   current: [number, number],
+ *   best?: [number, number],
+ *   cursor: Cell | null,
+ * }} Drawn a map as it is drawn
+ */
+
 const SIZE = 600; // of the plot's longer side, in units of the drawing
 const EDGE = { left: 62, right: 12, top: 10, bottom: 44 };
 export const MARKS = ["", "near a singularity", "a joint leaves its range", "out of reach"];
@@ -15,20 +33,30 @@ const dark = () => {
   return theme === "dark" || (theme !== "light" && matchMedia("(prefers-color-scheme: dark)").matches);
 };
 
-/** What `node` is painted with: the colour of an error, `limit` being the end of the scale. */
+/**
+ * What `node` is painted with: the colour of an error, `limit` being the end of the scale.
+ * @param {number} error
+ * @param {number} limit
+ */
 const paint = (error, limit) => `rgb(${colour(limit > 0 ? error / limit : 0, dark()).join(" ")})`;
 
 export const scaleGradient = () => gradient(dark());
 
 /**
- * Draws a map { columns, rows, at(i, k) -> { max, mark }, names, current, best, cursor } into `svg`; columns and rows are positions [mm].
+ * Draws a map into `svg`; returns a function that finds the cell under a point of the drawing.
+ * @param {SVGElement} svg
+ * @param {Drawn} map
+ * @param {number} limit the end of the scale [mm]
+ * @returns {(x: number, y: number) => Cell | undefined}
  */
 export function draw(svg, map, limit) {
   const [nx, ny] = [map.columns.length, map.rows.length];
   const [wide, tall] = [span(map.columns), span(map.rows)];
   const scale = SIZE / Math.max(wide, tall);
   const [width, height] = [wide * scale, tall * scale];
+  /** @param {number} v */
   const x = (v) => EDGE.left + ((v - map.columns[0]) / step(map.columns) + 0.5) * (width / nx);
+  /** @param {number} v */
   const y = (v) => EDGE.top + height - ((v - map.rows[0]) / step(map.rows) + 0.5) * (height / ny);
   const [w, h] = [width / nx, height / ny];
   svg.setAttribute("viewBox", `0 0 ${width + EDGE.left + EDGE.right} ${height + EDGE.top + EDGE.bottom}`);
@@ -60,6 +88,7 @@ export function draw(svg, map, limit) {
       `${map.names[1]}, ${lengthUnit()}`,
     ),
   ];
+  /** @param {[number, number]} place */
   const inside = ([a, b]) =>
     a >= map.columns[0] - step(map.columns) / 2 &&
     a <= map.columns[nx - 1] + step(map.columns) / 2 &&
@@ -79,23 +108,24 @@ export function draw(svg, map, limit) {
       }),
     );
   svg.replaceChildren(patterns(), ...cells, frame, ...ticks, ...names, ...signs);
-  /** The cell under a point of the drawing, or undefined. */
   return (px, py) => {
     const [i, k] = [Math.floor((px - EDGE.left) / w), Math.floor((EDGE.top + height - py) / h)];
     return i >= 0 && i < nx && k >= 0 && k < ny ? [i, k] : undefined;
   };
 }
 
+/** @param {number[]} values */
 const step = (values) => (values.length > 1 ? values[1] - values[0] : 1);
+/** @param {number[]} values */
 const span = (values) => step(values) * values.length;
 
 const mm = (length) => convert(length, lengthUnit(), "mm");
 
 function ticksOf(values) {
-  const [low, high] = [values[0], values.at(-1)];
+  const [low, high] = [values[0], values[values.length - 1]];
   const rough = (high - low) / 5 || 1;
   const decade = 10 ** Math.floor(Math.log10(rough));
-  const every = [1, 2, 5, 10].find((n) => n * decade >= rough) * decade;
+  const every = ([1, 2, 5].find((n) => n * decade >= rough) ?? 10) * decade;
   const first = Math.ceil(low / every) * every;
   return Array.from(
     { length: Math.max(0, Math.floor((high - first) / every + 1e-9) + 1) },
@@ -103,17 +133,36 @@ function ticksOf(values) {
   );
 }
 
+/**
+ * @param {number} x
+ * @param {number} y
+ * @param {number} value
+ * @param {string} anchor
+ */
 const label = (x, y, value, anchor) =>
   makeSvg("text", { x, y, "text-anchor": anchor }, String(Math.round(value)).replace("-", "−"));
 
+/**
+ * @param {number} x
+ * @param {number} y
+ */
 const diamond = (x, y) => makeSvg("path", { class: "best", d: `M${x} ${y - 9}l9 9-9 9-9-9z` });
 
+/**
+ * @param {number} x
+ * @param {number} y
+ */
 const cross = (x, y) =>
   ["under", "over"].map((layer) =>
     makeSvg("path", { class: `current ${layer}`, d: `M${x - 13} ${y}h26M${x} ${y - 13}v26` }),
   );
 
 function patterns() {
+  /**
+   * @param {number} id
+   * @param {number} size
+   * @param {SVGElement[]} inside
+   */
   const pattern = (id, size, ...inside) =>
     makeSvg(
       "pattern",

@@ -10,7 +10,15 @@ import { lengthText, lengthUnit } from "../page/units.js";
 import { MARKS, draw, scaleGradient } from "./map.js";
 import { survey } from "./pool.js";
 
+/**
+ * @import { Present } from "../identify/panel.js"
+ * @import { Cell, Drawn } from "./map.js"
+ */
+
+/** @typedef {Drawn & { key: string | null, axes: number[], fixed: number }} Surveyed a map, the job and ranges it belongs to, and its plane */
+
 const AXES = ["x", "y", "z"];
+/** @type {Record<string, [number, number, number]>} */
 const PLANES = { xy: [0, 1, 2], xz: [0, 2, 1], yz: [1, 2, 0] };
 const STEPS = [11, 21, 31, 41];
 const CALM_MS = 400;
@@ -18,12 +26,19 @@ const CALM_MS = 400;
 /**
  * Builds the view into `node`; `job()` is the present one, `use(job)` shows another (and can be
  * undone).
+ * @param {HTMLElement} node
+ * @param {Present} present
  */
 export function makePlacement(node, { job, use }) {
-  let map = null; // { key, plane, columns, rows, values, at }
+  /** @type {Surveyed | null} */
+  let map = null;
+  /** @type {((x: number, y: number) => Cell | undefined) | null} */
   let pick = null; // from a point of the drawing to a cell
+  /** @type {Cell | null} */
   let cursor = null;
+  /** @type {AbortController | null} */
   let running = null; // AbortController of the map being computed
+  /** @type {[number, number][] | null} */
   let ranges = null; // smallest and largest x, y, z worth a look, by the core
   let typed = false;
 
@@ -37,7 +52,7 @@ export function makePlacement(node, { job, use }) {
   const fields = make(
     "div",
     { className: "placement-fields" },
-    ...[
+    .../** @type {[string, HTMLElement][]} */ ([
       ["Plane", plane],
       ["Steps", steps],
     ].map(([text, input]) => make("div", {}, make("label", { for: input.id }, text), input)),
@@ -57,13 +72,9 @@ export function makePlacement(node, { job, use }) {
     "aria-describedby": "placement-keys placement-read",
   });
   const read = make("p", { id: "placement-read", role: "status" });
-  const scale = make(
-    "div",
-    { className: "placement-scale" },
-    make("div", { className: "bar" }),
-    make("span", { className: "low" }),
-    make("span", { className: "high" }),
-  );
+  const ramp = make("div", { className: "bar" });
+  const [low, high] = ["low", "high"].map((className) => make("span", { className }));
+  const scale = make("div", { className: "placement-scale" }, ramp, low, high);
   const legend = make("ul", { className: "placement-legend" }, ...legendItems());
   const verdict = make("p", { id: "placement-verdict" });
   const best = make(
@@ -149,6 +160,7 @@ export function makePlacement(node, { job, use }) {
     if (turned >= 0) return say(`${labels[turned].textContent}: enter more than the start.`);
     const { workpiece_frame: frame, ...others } = job();
     const xyz = frame.xyz_mm;
+    cursor = null;
     // The map does not depend on where the part is now.
     const json = JSON.stringify({ ...others, workpiece_frame: { ...frame, xyz_mm: [0, 0, 0] } });
     const key = JSON.stringify([json, plane.value, steps.value, values]);
@@ -156,6 +168,10 @@ export function makePlacement(node, { job, use }) {
     running?.abort();
     const mine = (running = new AbortController());
     const count = Number(steps.value);
+    /**
+     * @param {number} from
+     * @param {number} to
+     */
     const line = (from, to) => Array.from({ length: count }, (_, n) => from + ((to - from) * n) / (count - 1));
     const [i, k, rest] = axes();
     const [columns, rows] = [line(values[0], values[1]), line(values[2], values[3])];
@@ -168,10 +184,30 @@ export function makePlacement(node, { job, use }) {
         }),
       ),
     );
+    /** @type {(Float64Array | null)[]} */
     const found = rows.map(() => null);
-    const at = (c, r) => found[r] && { max: found[r][3 * c], mean: found[r][3 * c + 1], mark: found[r][3 * c + 2] };
-    map = { key: null, axes: [i, k, rest], fixed: values[4], columns, rows, at, here: xyz };
-    cursor = null;
+    /**
+     * @param {number} column
+     * @param {number} row
+     */
+    const at = (column, row) => {
+      const numbers = found[row];
+      if (!numbers) return null;
+      const [max, mean, mark] = numbers.subarray(3 * column, 3 * column + 3);
+      return { max, mean, mark };
+    };
+    const names = [AXES[i], AXES[k]];
+    map = {
+      key: null,
+      axes: [i, k, rest],
+      fixed: values[4],
+      columns,
+      rows,
+      at,
+      names,
+      current: [xyz[i], xyz[k]],
+      cursor,
+    };
     cancel.disabled = bar.hidden = false;
     bar.value = 0;
     say("Computing the map…");
@@ -201,12 +237,19 @@ export function makePlacement(node, { job, use }) {
     show();
   }
 
+  /** @param {string} text */
   const say = (text) => (status.textContent = text);
   const soon = debounced(() => show(), 60);
 
   function show() {
     if (!map) return;
-    const places = map.rows.flatMap((_, k) => map.columns.map((_, i) => ({ i, k, ...map.at(i, k) })));
+    const { rows, columns, at } = map;
+    const places = rows.flatMap((_, k) =>
+      columns.flatMap((_, i) => {
+        const place = at(i, k);
+        return place ? [{ i, k, ...place }] : [];
+      }),
+    );
     const errors = places
       .filter(({ mark }) => mark < 3)
       .map(({ max }) => max)
@@ -219,13 +262,12 @@ export function makePlacement(node, { job, use }) {
     const [i, k, rest] = map.axes;
     map.best = top && [map.columns[top.i], map.rows[top.k]];
     map.current = [xyz[i], xyz[k]];
-    map.names = [AXES[i], AXES[k]];
     map.cursor = cursor;
     if (Math.abs(xyz[rest] - map.fixed) > 1e-9) map.current = [NaN, NaN];
     pick = draw(svg, map, limit);
-    scale.querySelector(".bar").style.setProperty("background", scaleGradient());
-    scale.querySelector(".low").textContent = "0";
-    scale.querySelector(".high").textContent = `${lengthText(limit)} ${lengthUnit()} and more`;
+    ramp.style.setProperty("background", scaleGradient());
+    low.textContent = "0";
+    high.textContent = `${lengthText(limit)} ${lengthUnit()} and more`;
     verdict.textContent = top
       ? `Best on this map: ${spot(top.i, top.k)}, at most ${lengthText(top.max)} ${lengthUnit()} off the path before compensation.`
       : errors.length
@@ -249,8 +291,8 @@ export function makePlacement(node, { job, use }) {
     `${AXES[map.axes[0]]} ${coordinate(map.columns[i])}, ${AXES[map.axes[1]]} ${coordinate(map.rows[k])} ${shownUnit("mm")}`;
 
   function tell() {
-    const at = cursor && map.at(...cursor);
-    if (!at) return void (read.textContent = "");
+    const at = cursor && map?.at(...cursor);
+    if (!cursor || !at) return void (read.textContent = "");
     const what =
       at.mark === 3
         ? MARKS[3]
@@ -258,9 +300,15 @@ export function makePlacement(node, { job, use }) {
     read.textContent = `${spot(...cursor)}: ${what}.`;
   }
 
+  /**
+   * @param {number} i
+   * @param {number} k
+   */
   function put(i, k) {
+    if (!map) return;
     const next = job();
     const xyz = [...next.workpiece_frame.xyz_mm];
+    /** @param {number} v */
     const round = (v) => Math.round(v * 1000) / 1000;
     [xyz[map.axes[0]], xyz[map.axes[1]], xyz[map.axes[2]]] = [round(map.columns[i]), round(map.rows[k]), map.fixed];
     use({ ...next, workpiece_frame: { ...next.workpiece_frame, xyz_mm: xyz } });
@@ -270,6 +318,7 @@ export function makePlacement(node, { job, use }) {
 
   function fillTable() {
     if (!map) return;
+    const { at, columns } = map;
     const head = make(
       "tr",
       {},
@@ -286,8 +335,8 @@ export function makePlacement(node, { job, use }) {
           const at = map.at(i, k);
           return make(
             "td",
-            { title: at ? MARKS[at.mark] : "" },
-            !at ? "" : at.mark === 3 ? short[3] : lengthText(at.max) + short[at.mark],
+            { title: place ? MARKS[place.mark] : "" },
+            !place ? "" : place.mark === 3 ? short[3] : lengthText(place.max) + short[place.mark],
           );
         }),
       ),
@@ -303,8 +352,9 @@ export function makePlacement(node, { job, use }) {
     );
   }
 
+  /** @param {MouseEvent} event */
   const cellAt = (event) => {
-    const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
+    const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM()?.inverse());
     return pick?.(point.x, point.y);
   };
   svg.addEventListener("pointermove", (event) => {
@@ -319,7 +369,10 @@ export function makePlacement(node, { job, use }) {
   });
   svg.addEventListener("keydown", (event) => {
     if (!map) return;
-    const move = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    /** @type {[number, number] | undefined} */
+    const move = /** @type {any} */ ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] })[
+      event.key
+    ];
     if (event.key === "Enter" && cursor && map.at(...cursor)) return put(...cursor);
     if (!move) return;
     event.preventDefault();
@@ -343,19 +396,33 @@ export function makePlacement(node, { job, use }) {
   return { look };
 }
 
+/**
+ * @param {number} value
+ * @param {number} count
+ */
 const clamp = (value, count) => Math.min(count - 1, Math.max(0, value));
 
+/**
+ * @param {string} id
+ * @param {Record<string, string>} words
+ */
 function select(id, words) {
   return make("select", { id }, ...Object.entries(words).map(([value, text]) => make("option", { value }, text)));
 }
 
 function legendItems() {
+  /** @param {SVGElement[]} inside */
   const sample = (...inside) => makeSvg("svg", { viewBox: "0 0 20 20", "aria-hidden": "true" }, ...inside);
+  /** @param {number} n */
   const mark = (n) =>
     sample(
       makeSvg("rect", { class: `swatch mark-${n}`, width: 20, height: 20 }),
       makeSvg("rect", { class: "mark", width: 20, height: 20, fill: `url(#placement-mark-${n})` }),
     );
+  /**
+   * @param {string} name
+   * @param {string} d
+   */
   const path = (name, d) =>
     sample(...["under", "over"].map((layer) => makeSvg("path", { class: `${name} ${layer}`, d })));
   return [

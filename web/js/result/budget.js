@@ -4,12 +4,17 @@
 import { byId, make } from "../page/dom.js";
 import { inLength, lengthUnit } from "../page/units.js";
 
+/** @import { Budget, Parts } from "../../pkg/armill.js" */
+
 const NAMES = ["Joint 1", "Joint 2", "Joint 3", "Joint 4", "Joint 5", "Joint 6", "Tool", "Shaping"];
 const KEYS = ["s1", "s2", "s3", "s4", "s5", "s6", "tool", "shaping"];
 const NAMED = 0.24; // share of a bar from which a part carries its name, and its short one
 const SHORT = 0.1;
 
-/** Shows the budget of a result. */
+/**
+ * Shows the budget of a result.
+ * @param {Budget} budget
+ */
 export function showBudget({ worst_mm, mean_mm, time_s, sentence }) {
   byId("budget-sentence").textContent = sentence;
   byId("budget-worst").replaceChildren(...barOf(worst_mm));
@@ -27,18 +32,36 @@ export function showBudget({ worst_mm, mean_mm, time_s, sentence }) {
   byId("budget-table").tBodies[0].replaceChildren(...rows);
 }
 
+/** @param {Parts} parts */
 const sumOf = ({ joints, tool }) => joints.reduce((sum, joint) => sum + joint, tool);
+/**
+ * @param {number} part
+ * @param {number} total
+ */
 const percent = (part, total) => (total > 0 ? signed((100 * part) / total, 0) : "–");
+/**
+ * @param {number} value
+ * @param {number} digits
+ */
 const signed = (value, digits) =>
   value
     .toFixed(digits)
     .replace(/^-(0(\.0+)?)$/, "$1")
     .replace("-", "\u2212");
 
+/**
+ * @param {string} name
+ * @param {string} key
+ * @param {number} worst
+ * @param {number} mean
+ * @param {Parts} worsts
+ * @param {Parts} means
+ */
 function row(name, key, worst, mean, worsts, means) {
   const swatch = ["sum", "total"].includes(key)
     ? []
     : [make("span", { className: `part ${key}`, "aria-hidden": "true" })];
+  /** @param {number} value */
   const number = (value) => {
     const td = make("td", {}, signed(inLength(value), lengthUnit() === "mm" ? 4 : 6));
     td.dataset.value = String(value);
@@ -57,6 +80,7 @@ function row(name, key, worst, mean, worsts, means) {
 
 /**
  * Parts that pull the tip back stand left of the line, the others right of it; all on one scale.
+ * @param {Parts} parts
  */
 function barOf(parts) {
   const all = [...parts.joints, parts.tool, parts.shaping].map((value, i) => ({ value, name: NAMES[i], key: KEYS[i] }));
@@ -64,6 +88,7 @@ function barOf(parts) {
   if (!whole) return [];
   const back = all.filter(({ value }) => value < 0);
   const out = all.filter(({ value }) => value > 0);
+  /** @param {(typeof all)[number]} part */
   const segment = ({ value, name, key }) => {
     const share = Math.abs(value) / whole;
     const part = make("span", { className: `part ${key}`, title: `${name}: ${percent(value, parts.total)} %` });

@@ -11,6 +11,17 @@ import { toleranceLine } from "./summary.js";
 
 const SHOWN = "Shown"; // what the shown result is called
 
+/**
+ * @import { Summary } from "../../pkg/armill.js"
+ * @import { Shown } from "../calculator.js"
+ */
+
+/** @typedef {{ of(summary: Summary): number, text(value: number): string }} Compared a figure that is compared */
+
+/**
+ * @param {number} value
+ * @param {(size: number) => string} text
+ */
 const signed = (value, text) => `${value < 0 ? "\u2212" : "+"}${text(Math.abs(value))}`;
 
 /** The rows: what of a summary, and as what it is read; without `text`, `of` is in words. */

@@ -5,18 +5,23 @@ import { byId, make, makeSvg } from "../page/dom.js";
 import { formatNumber } from "../page/number.js";
 import { errorText, forceText, forceUnit, lengthText, lengthUnit } from "../page/units.js";
 
+/** @import { CutFigures, Summary, WallFigures } from "../../pkg/armill.js" */
+
 const RADIUS = 34; // of the tool in the drawing
 const EDGE = 50; // half the drawing
 const DEG = Math.PI / 180;
 const EXACT = 1e-6; // angles nearer than this are a wall's [deg]
 
-/** Shows the cut of a result. */
+/**
+ * Shows the cut of a result.
+ * @param {Summary} summary
+ */
 export function showCut({ material, material_note, cut, walls, mean_force_n }) {
   const figure = () => make("figure", { className: "engagement" }, drawing(cut), make("figcaption", {}, inWords(cut)));
   byId("cut-stock").hidden = !cut.stock;
   byId("cut-stock").textContent = cut.stock ? stockSentence(cut) : "";
   byId("cut-drawing").replaceChildren(figure());
-  byId("group-cutting")?.querySelector("fieldset").append(sketchOf(figure));
+  byId("group-cutting")?.querySelector("fieldset")?.append(sketchOf(figure));
   byId("cut-material").textContent = [material, material_note].filter(Boolean).join(". ");
   byId("cut-figures").replaceChildren(
     ...figures(cut, mean_force_n).map(([name, unit, value, key]) => {
@@ -28,26 +33,38 @@ export function showCut({ material, material_note, cut, walls, mean_force_n }) {
   showWalls(walls, cut.tooth_passing_hz);
 }
 
-/** The place for the drawing below the inputs of the cut, made once. */
+/**
+ * The place for the drawing below the inputs of the cut, made once.
+ * @param {() => HTMLElement} figure
+ */
 function sketchOf(figure) {
   const place = byId("cut-sketch") ?? make("div", { id: "cut-sketch" });
   place.replaceChildren(figure());
   return place;
 }
 
+/** @param {CutFigures} cut */
 const isSlot = ({ entry_deg, exit_deg }) => entry_deg < EXACT && exit_deg > 180 - EXACT;
 
-/** Without the last bits, which sines and cosines leave. */
+/**
+ * Without the last bits, which sines and cosines leave.
+ * @param {number} value
+ */
 const tidy = (value) => Number(value.toPrecision(12));
 
-/** What kind of milling two angles are. */
+/**
+ * What kind of milling two angles are.
+ * @param {CutFigures} cut
+ */
 function wayOf(cut) {
   if (isSlot(cut)) return "Slot";
   if (cut.exit_deg > 180 - EXACT) return "Climb milling";
   return cut.entry_deg < EXACT ? "Conventional milling" : "Material ahead only";
 }
 
+/** @param {CutFigures} cut */
 function inWords(cut) {
+  /** @param {number} value */
   const angle = (value) => formatNumber(Number(value.toFixed(2)));
   const where = cut.stock ? "Where the force is largest: " : "";
   if (isAir(cut)) return `${where}no tooth cuts with its side.`;
@@ -57,19 +74,31 @@ function inWords(cut) {
   );
 }
 
-/** Whether the side of the tool touches nothing. */
+/**
+ * Whether the side of the tool touches nothing.
+ * @param {CutFigures} cut
+ */
 const isAir = ({ entry_deg, exit_deg, axial_depth_mm, stock }) =>
   stock !== undefined && (exit_deg - entry_deg < EXACT || axial_depth_mm === 0);
 
-/** What stands above the figures of a job with a stock. */
+/**
+ * What stands above the figures of a job with a stock.
+ * @param {CutFigures} cut
+ */
 const stockSentence = ({ stock }) =>
   `Engagement from the stock: ${stock}. Drawing, entry, exit, depths, chip, forces, torque, power and removal rate ` +
   "are those where the force is largest.";
 
-/** Where the drawing has the immersion angle: from the left (y), clockwise over the feed (up). */
+/**
+ * Where the drawing has the immersion angle: from the left (y), clockwise over the feed (up).
+ * @param {number} degrees
+ * @param {number} [radius]
+ */
 const at = (degrees, radius = RADIUS) => [-Math.cos(degrees * DEG) * radius, -Math.sin(degrees * DEG) * radius];
+/** @param {number[]} xy */
 const point = (xy) => xy.map((value) => value.toFixed(2)).join(" ");
 
+/** @param {CutFigures} cut */
 function toolAlone(cut) {
   const viewBox = `${-EDGE} ${-EDGE} ${2 * EDGE} ${2 * EDGE}`;
   const svg = makeSvg("svg", { viewBox, role: "img", "aria-label": inWords(cut) });
@@ -77,6 +106,7 @@ function toolAlone(cut) {
   return svg;
 }
 
+/** @param {CutFigures} cut */
 function drawing(cut) {
   if (isAir(cut)) return toolAlone(cut);
   const { entry_deg: entry, exit_deg: exit } = cut;
@@ -87,6 +117,7 @@ function drawing(cut) {
     role: "img",
     "aria-label": inWords(cut),
   });
+  /** @param {number} x */
   const side = (x) => makeSvg("rect", { class: "stays", x, y: -EDGE, width: EDGE - RADIUS, height: 2 * EDGE });
   if (entry < EXACT) svg.append(side(-EDGE));
   if (exit > 180 - EXACT) svg.append(side(RADIUS));
@@ -113,16 +144,29 @@ function drawing(cut) {
   return svg;
 }
 
-/** Name, unit, text and key of every figure. */
+/**
+ * Name, unit, text and key of every figure.
+ * @param {CutFigures} cut
+ * @param {number[]} mean
+ * @returns {[name: string, unit: string, text: string, key?: keyof CutFigures][]}
+ */
 function figures(cut, mean) {
-  const n = (key, digits) => formatNumber(tidy(cut[key]), digits);
-  const length = (key) => lengthText(tidy(cut[key]));
+  /** @param {keyof CutFigures} key */
+  const value = (key) => tidy(Number(cut[key]));
+  /**
+   * @param {keyof CutFigures} key
+   * @param {number} [digits]
+   */
+  const n = (key, digits) => formatNumber(value(key), digits);
+  /** @param {keyof CutFigures} key */
+  const length = (key) => lengthText(value(key));
   const tool =
     cut.corner_radius_mm === 0
       ? "flat end mill"
       : 2 * cut.corner_radius_mm >= cut.diameter_mm
         ? "ball nose"
         : `bull nose, corner ${length("corner_radius_mm")}`;
+  /** @type {ReturnType<typeof figures>} */
   const rows = [
     ["Tool", lengthUnit(), `${tool}, diameter ${length("diameter_mm")}`],
     ["Cutting k_tc, k_rc, k_ac", "N/mm²", [n("ktc_n_mm2", 4), n("krc_n_mm2"), n("kac_n_mm2")].join(", ")],
@@ -175,15 +219,29 @@ function figures(cut, mean) {
   return rows;
 }
 
+/**
+ * @param {WallFigures[]} walls
+ * @param {number} passing tooth passing frequency [Hz]
+ */
 function showWalls(walls, passing) {
   const section = byId("walls");
   section.hidden = walls.length === 0;
   byId("wall-passing").textContent = formatNumber(passing);
+  /**
+   * @param {number} value
+   * @param {(value: number) => string} text
+   */
   const cell = (value, text) => {
     const td = make("td", {}, text(value));
     td.dataset.value = String(value);
     return td;
   };
+  /**
+   * @param {string} name
+   * @param {number | null} force
+   * @param {number} mean
+   * @param {number | null} max
+   */
   const row = (name, force, mean, max) =>
     make(
       "tr",

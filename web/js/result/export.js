@@ -7,7 +7,7 @@ import { download } from "../page/download.js";
 const QUIET_MS = 400; // inputs that are still changing are not judged
 const LONG_MS = 3000; // longer runs are checked on export only, as a check costs several runs
 
-// Downloads other than programs: a name for the menu and for the button, the file, and how it is made.
+/** @type {Other} */
 const joints = {
   option: "joint commands as CSV",
   button: "Export joint commands",
@@ -15,6 +15,11 @@ const joints = {
   type: "text/csv",
   made: () => core.exported("joints-csv"),
 };
+/**
+ * @param {string} kind
+ * @param {string} option
+ * @returns {Other}
+ */
 const part = (kind, option) => ({
   option,
   button: "Export part",
@@ -23,6 +28,7 @@ const part = (kind, option) => ({
   made: () => core.simulatedPart(kind),
   stock: true, // of jobs with a stock
 });
+/** @type {Record<string, Other>} */
 const OTHERS = {
   "joints-csv": joints,
   "part-before": part("before", "part before, as STL"),
@@ -30,14 +36,23 @@ const OTHERS = {
   "part-nominal": part("nominal", "nominal part, as STL"),
 };
 
+/** @type {Record<string, string>} */
 let names; // controller -> name
+/** @type {string | undefined} */
 let wanted; // the controller that was chosen here, if it is not the job's
+/** @type {number | undefined} */
 let waiting; // timer
-let shown; // the result to judge: { summary, preview, took } with how long its run took [ms]
+/** @type {Shown | undefined} */
+let shown; // the result to judge
 
-/** Fills the menu of controllers; `say` and `warn` show a text. */
+/**
+ * Fills the menu of controllers; `say` and `warn` show a text.
+ * @param {Field[]} fields
+ * @param {(text: string) => void} say
+ * @param {(text: string) => void} warn
+ */
 export function makeTakeAway(fields, say, warn) {
-  const { choices } = fields.find(({ path }) => path === "program.controller");
+  const { choices = [] } = fields.find(({ path }) => path === "program.controller") ?? {};
   names = Object.fromEntries(
     choices.filter(({ value }) => value !== "brand").map(({ value, label }) => [value, label]),
   );
@@ -56,14 +71,17 @@ export function makeTakeAway(fields, say, warn) {
   byId("download-program").addEventListener("click", () => save(say, warn));
 }
 
-/** Judges a new result once it has stood for a while. */
+/**
+ * Judges a new result once it has stood for a while.
+ * @param {Shown} result
+ */
 export function judgeTakeAway(result) {
   shown = result;
   const { summary } = result;
   const stock = Boolean(summary.surface);
   for (const option of byId("export-format").options)
     if (OTHERS[option.value]?.stock) option.hidden = option.disabled = !stock;
-  if (OTHERS[wanted]?.stock && !stock) wanted = undefined;
+  if (wanted && OTHERS[wanted]?.stock && !stock) wanted = undefined;
   byId("export-format").value = wanted ?? summary.controller;
   label();
   judgeSoon(QUIET_MS);
@@ -74,6 +92,7 @@ const label = () => {
   byId("download-program").textContent = OTHERS[value]?.button ?? `Export ${names[value]}`;
 };
 
+/** @param {number} quiet [ms] */
 function judgeSoon(quiet) {
   const line = byId("as-program");
   line.textContent = "";
@@ -87,6 +106,11 @@ function judgeSoon(quiet) {
   else waiting = setTimeout(judge, quiet, line, value, core.shownJob());
 }
 
+/**
+ * @param {HTMLElement} line
+ * @param {Controller} controller
+ * @param {string | null} json
+ */
 async function judge(line, controller, json) {
   const current = () => core.shownJob() === json && byId("export-format").value === controller;
   try {
@@ -98,14 +122,21 @@ async function judge(line, controller, json) {
   }
 }
 
-/** What a program is worth, and what to look out for. */
+/**
+ * What a program is worth, and what to look out for.
+ * @param {HTMLElement} line
+ * @param {Outline} outline
+ */
 function showOutline(line, { met, sentence, remarks }) {
   line.textContent = sentence;
   line.classList.toggle("bad", !met);
   showRemarks(remarks);
 }
 
-/** In a list that an export opens: the text comes late, and until then nothing below may move. */
+/**
+ * In a list that an export opens: the text comes late, and until then nothing below may move.
+ * @param {string[]} remarks
+ */
 function showRemarks(remarks) {
   const shaper = remarks.some((remark) => remark.includes("input shaper"));
   byId("download-program").title = shaper ? remarks[0] : "";
@@ -115,13 +146,17 @@ function showRemarks(remarks) {
   byId("remarks-list").replaceChildren(...remarks.map((remark) => make("li", {}, remark)));
 }
 
+/**
+ * @param {(text: string) => void} say
+ * @param {(text: string) => void} warn
+ */
 async function save(say, warn) {
   const { value } = byId("export-format");
   const json = core.shownJob();
   try {
     const other = OTHERS[value];
     if (other) return download(other.name, other.type, await other.made());
-    const { file, outline } = await core.packageOf(value);
+    const { file, outline } = await core.packageOf(/** @type {Controller} */ (value));
     download(file.name, file.type, file.content);
     if (core.shownJob() === json) showOutline(byId("as-program"), outline);
     byId("remarks").open = outline.remarks.length > 0;

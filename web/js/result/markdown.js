@@ -5,11 +5,19 @@ import { inWords } from "../form/field-text.js";
 import { SEVERITY } from "./warnings.js";
 
 /**
+ * @import { CutFigures, Statistics, Summary, SurfaceFigures } from "../../pkg/armill.js"
+ * @import { JobData } from "../job/data.js"
+ * @import { Job } from "../job/job.js"
+ */
+
+/**
  * `job` is the Job of the result, `standard` the default job's plain object, `link` its address or
  * null.
+ * @param {{ summary: Summary, job: Job, standard: JobData, link: string | null }} shared
  */
 export function markdown({ summary, job, standard, link }) {
   const { before_mm: before, after_mm: after, passes } = summary;
+  /** @type {[name: string, error: Statistics][]} */
   const rows = [
     ["deflection alone", before.deflection],
     ["shaping alone", before.shaping],
@@ -54,10 +62,14 @@ const inStock = ({ stock, removed_cm3, air_share, largest_engaged_deg }) =>
   `Engagement from the stock: ${stock}. It loses ${formatNumber(removed_cm3)} cm³; the tool is engaged by up to ` +
   `${formatNumber(largest_engaged_deg)} deg and in the air on ${formatNumber(100 * air_share, 2)} % of its path at feed.`;
 
-/** The surface that is left. */
-const surfaceLeft = ({ worst_before_mm, worst_after_mm, after_p95_mm, worst }) =>
+/**
+ * The surface that is left.
+ * @param {SurfaceFigures} surface
+ */
+const surfaceLeft = ({ worst_before_mm = 0, worst_after_mm = 0, after_p95_mm = 0, worst }) =>
   `Surface left on the part: up to ${formatError(worst_before_mm)} mm off before compensation, in 95 of 100 at most ` +
   `${formatError(after_p95_mm)} mm after it (${formatError(worst_after_mm)} mm if every number is exact). ` +
   worst.map(({ sentence }) => `${sentence}.`).join(" ");
 
+/** @param {string} text */
 const escaped = (text) => text.replace(/[\\`*_[\]|<>]/g, "\\$&");

@@ -5,7 +5,10 @@ import { byId, make } from "../page/dom.js";
 import { formatNumber } from "../page/number.js";
 import { inLength, lengthUnit } from "../page/units.js";
 
+/** @import { Understood } from "../../pkg/armill.js" */
+
 const LANGUAGES = { gcode: "G-code", apt: "APT / CLDATA", csv: "Points" };
+/** @type {Record<string, string>} */
 const DIALECTS = {
   fanuc: " for Fanuc or Haas",
   linuxcnc: " for LinuxCNC",
@@ -16,18 +19,27 @@ const DIALECTS = {
 
 const MOST_IGNORED = 40; // words listed
 
-/** What the core understood, above the path's charts; nothing for a path that was drawn. */
+/**
+ * What the core understood, above the path's charts; nothing for a path that was drawn.
+ * @param {Understood | undefined} program
+ * @param {number} duration [s]
+ */
 export function showProgram(program, duration) {
   const box = byId("program");
   box.hidden = !program;
   if (!program) return;
+  /** @param {number} value */
   const read = (value) => String(Number(inLength(value).toFixed(lengthUnit() === "mm" ? 3 : 4))).replace("-", "\u2212");
+  /**
+   * @param {number} low
+   * @param {number} high
+   */
   const span = (low, high) => (read(low) === read(high) ? read(low) : `${read(low)} to ${read(high)}`);
   const extents = ["X", "Y", "Z"].map((axis, i) => `${axis} ${span(program.lowest_mm[i], program.highest_mm[i])}`);
   const facts = [
     [
       "Language",
-      `${LANGUAGES[program.language]}${DIALECTS[program.dialect] ?? ""}, ${program.lines} lines in ${program.unit}`,
+      `${LANGUAGES[program.language]}${DIALECTS[program.dialect ?? ""] ?? ""}, ${program.lines} lines in ${program.unit}`,
     ],
     [
       "Moves",
@@ -44,15 +56,18 @@ export function showProgram(program, duration) {
   byId("understood").replaceChildren(
     ...facts.map(([name, text]) => make("div", {}, make("dt", {}, name), make("dd", {}, text))),
   );
-  if (program.ignored.length) byId("understood").lastChild.lastChild.append(ignoredList(program.ignored));
+  if (program.ignored.length)
+    byId("understood").lastElementChild?.lastElementChild?.append(ignoredList(program.ignored));
 }
 
+/** @param {Understood["ignored"]} ignored */
 function ignoredList(ignored) {
   const rest = ignored.length - MOST_IGNORED;
   const more = rest > 0 ? [make("li", {}, `and ${rest} more`)] : [];
   return make("ul", {}, ...ignored.slice(0, MOST_IGNORED).map(ignoredItem), ...more);
 }
 
+/** @param {Understood["ignored"][number]} item */
 function ignoredItem({ word, lines }) {
   const shown = lines.slice(0, 5).map((line) => {
     const button = make("button", { type: "button", className: "quiet" }, String(line));

@@ -8,6 +8,15 @@ import { fragmentOf, LONGEST_LINK } from "../job/link.js";
 import { markdown } from "./markdown.js";
 import { formatNumber } from "../page/number.js";
 
+/**
+ * @import { Summary } from "../../pkg/armill.js"
+ * @import { JobData } from "../job/data.js"
+ * @import { Job } from "../job/job.js"
+ */
+
+/** @typedef {{ text: string, job: Job, standard: JobData, summary: Summary }} Shared */
+
+/** @type {Record<string, { title: string, note: string }>} */
 const FORMS = {
   link: {
     title: "Link",
@@ -20,7 +29,10 @@ const FORMS = {
   ...(EMBEDDABLE && { embed: { title: "Embed", note: "For a page of your own: a frame that shows this job." } }),
 };
 
-/** Makes the dialog; the function it returns opens it for `{ text, job, standard, summary }`. */
+/**
+ * Makes the dialog; the function it returns opens it for a result.
+ * @returns {(shown: Shared) => Promise<void>}
+ */
 export function shareDialog() {
   const text = make("textarea", {
     id: "share-text",
@@ -67,18 +79,29 @@ export function shareDialog() {
   );
   document.body.append(dialog);
 
+  /** @type {Shared} */
   let given; // what is shared
+  /** @type {string | null} */
   let link; // its address, or null if that is too long
+  /** @type {number} */
   let length; // of the address
 
+  /** @param {string} form */
   function show(form) {
     const lost = link === null && form !== "markdown";
     text.hidden = copy.hidden = lost;
     file.hidden = link !== null;
     said.textContent = "";
     note.textContent = link === null ? `${lost ? "" : "Without a link: "}${tooLong(length)}` : FORMS[form].note;
-    text.value = lost ? "" : form === "link" ? link : form === "embed" ? frame(link) : markdown({ ...given, link });
+    text.value = textAs(form);
     text.select();
+  }
+
+  /** @param {string} form */
+  function textAs(form) {
+    if (form === "markdown") return markdown({ ...given, link });
+    if (link === null) return "";
+    return form === "embed" ? frame(link) : link;
   }
 
   copy.addEventListener("click", async () => {
@@ -109,11 +132,15 @@ export function shareDialog() {
   };
 }
 
+/** @param {number} length */
 const tooLong = (length) =>
   `The link would have ${formatNumber(length)} characters. Mail and chat programs cut links above ` +
   `${formatNumber(LONGEST_LINK)}, so send the job as a file instead; “Open job…” reads it.`;
 
-/** The frame that shows the job of a link. */
+/**
+ * The frame that shows the job of a link.
+ * @param {string} link
+ */
 function frame(link) {
   const { hash } = new URL(link);
   return `<iframe src="${new URL(`embed.html${hash}`, link).href}" title="Armill" width="100%" height="640" loading="lazy"></iframe>`;

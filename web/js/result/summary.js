@@ -9,7 +9,16 @@ import { showSurface } from "./surface.js";
 import { showWarnings } from "./warnings.js";
 import { errorText, forceText, forceUnit, largeText, lengthText, lengthUnit } from "../page/units.js";
 
-/** Puts a number on the page: rounded to read, in full in `data-value`. */
+/** @import { Remedy, Statistics, Summary, ThesisRow, Warning } from "../../pkg/armill.js" */
+
+/** @typedef {(patch: Remedy["patch"]) => void} Apply changes the job by the merge patch of a warning's remedy */
+
+/**
+ * Puts a number on the page: rounded to read, in full in `data-value`.
+ * @param {string} id
+ * @param {number} value
+ * @param {(value: number) => string} [format]
+ */
 function put(id, value, format = formatNumber) {
   const element = byId(id);
   element.textContent = format(value);
@@ -18,11 +27,15 @@ function put(id, value, format = formatNumber) {
 
 /** Writes the chosen units wherever a figure has one. */
 export function showUnits() {
-  for (const unit of document.querySelectorAll("[data-unit]"))
+  for (const unit of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-unit]")))
     unit.textContent = unit.dataset.unit === "force" ? forceUnit() : lengthUnit();
 }
 
-/** Writes a summary; `apply(patch)` changes the job by the merge patch of a warning's remedy. */
+/**
+ * Writes a summary.
+ * @param {Summary} summary
+ * @param {Apply} apply
+ */
 export function showSummary(summary, apply) {
   const { before_mm: before, after_mm: after } = summary;
   showUnits();
@@ -48,21 +61,31 @@ export function showSummary(summary, apply) {
   byId("history").textContent = summary.history_max_mm.map((mm) => lengthText(mm)).join(" → ");
   byId("branch").textContent = summary.branch;
   byId("spin-gain").hidden = !summary.spin;
-  byId("spin-gain").lastElementChild.textContent = summary.spin?.sentence ?? "";
+  const gain = byId("spin-gain").lastElementChild;
+  if (gain) gain.textContent = summary.spin?.sentence ?? "";
   showFeedRule(summary.feed_rule);
   showSurface(summary);
   byId("fingerprint").textContent = summary.fingerprint;
   showWarnings(summary.warnings, apply);
 }
 
-/** How often the path stops, if it does. */
+/**
+ * How often the path stops, if it does.
+ * @param {Summary} summary
+ */
 const stopsText = ({ stops: { count } }) => (count ? `, ${count} ${count === 1 ? "stop" : "stops"}` : "");
 
-/** The tolerance as it was typed; in another unit, to three digits. */
+/**
+ * The tolerance as it was typed; in another unit, to three digits.
+ * @param {Summary} summary
+ */
 const toleranceText = ({ tolerance_mm }) =>
   lengthUnit() === "mm" ? plainNumber(tolerance_mm) : lengthText(tolerance_mm);
 
-/** What is known and what is not. */
+/**
+ * What is known and what is not.
+ * @param {Summary["how_sure"]} sure
+ */
 function showHowSure({ sentence, measure_first, break_even, left_out }) {
   byId("expected").textContent = sentence;
   byId("measure-first").textContent = measure_first?.sentence ?? "";
@@ -93,6 +116,10 @@ function showTolerance(summary) {
   line.dataset.converged = String(converged);
 }
 
+/**
+ * @param {Summary["before_mm"]} before
+ * @param {Statistics} after
+ */
 function showErrors(before, after) {
   const rows = { deflection: before.deflection, shaping: before.shaping, both: before.both, compensated: after };
   for (const [name, { mean, max }] of Object.entries(rows)) {

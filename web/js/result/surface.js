@@ -4,12 +4,21 @@ import { setCursor } from "../page/cursor.js";
 import { byId, make } from "../page/dom.js";
 import { lengthText, lengthUnit } from "../page/units.js";
 
-/** Writes the surface of a summary, if it has one; its places move the cursor. */
+/** @import { Summary } from "../../pkg/armill.js" */
+
+/**
+ * Writes the surface of a summary, if it has one; its places move the cursor.
+ * @param {Summary} summary
+ */
 export function showSurface({ surface, samples, duration_s }) {
   const box = byId("surface");
-  const { worst_before_mm, worst_after_mm, after_p95_mm, worst = [] } = surface ?? {};
+  const { worst_before_mm = NaN, worst_after_mm, after_p95_mm = NaN, worst = [] } = surface ?? {};
   box.hidden = worst_after_mm === undefined;
-  if (box.hidden) return;
+  if (worst_after_mm === undefined) return;
+  /**
+   * @param {string} id
+   * @param {number} value
+   */
   const put = (id, value) => {
     byId(id).textContent = lengthText(value);
     byId(id).dataset.value = String(value);

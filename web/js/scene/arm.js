@@ -3,13 +3,25 @@
 
 import { cross, dot, length, minus, plus } from "./camera.js";
 
+/** @typedef {{ origin: number[], x: number[], y: number[], z: number[] }} Frame a place and three axes */
+
+/** @typedef {{ base: Frame, joints: Frame[], tcp: Frame, workpiece: Frame }} Frames those of a pose */
+
+/** @typedef {{ model: Float32Array, top: number, tone: "link" | "joint" | "tool" }} Tube a tube, `top` times as wide at its end */
+
 const FRAME = 12; // numbers in a frame: origin, x, y, z axes
 const JOINTS = 6;
 const WIDE = 0.08; // about the largest radius of a link, as a share of the arm's length
 
-/** The frames of the core's answer. */
+/**
+ * The frames of the core's answer.
+ * @param {Float64Array} numbers
+ * @returns {Frames}
+ */
 export function framesOf(numbers) {
+  /** @param {number} i */
   const frame = (i) => {
+    /** @param {number} k */
     const at = (k) => [...numbers.subarray(i * FRAME + 3 * k, i * FRAME + 3 * k + 3)];
     return { origin: at(0), x: at(1), y: at(2), z: at(3) };
   };
@@ -26,9 +38,15 @@ export function armParts({ base, joints, tcp }, excess = []) {
   const lengths = joints.map(({ origin }, i) => length(minus(origin, stations[i].origin)));
   const size = lengths.reduce((sum, each) => sum + each, 0) || 1;
   // From the shoulder to the wrist an arm gets slimmer.
+  /** @param {number} i */
   const radius = (i) => size * [0.062, 0.056, 0.047, 0.04, 0.031, 0.021, 0.02][i];
-  // A joint that shares its place with the next one (shoulder, wrist) keeps to the side it comes
-  // from.
+  /**
+   * A joint that shares its place with the next one (shoulder, wrist) keeps to the side it comes from.
+   *
+   * @param {number[]} origin
+   * @param {number[]} z
+   * @param {number} i
+   */
   const housing = (origin, z, i) => {
     const [wide, half] = [1.14 * radius(i + 1), i === JOINTS - 1 ? 0.4 * radius(i + 1) : 1.35 * radius(i)];
     const shared = lengths[i + 1] < 1;
@@ -59,12 +77,19 @@ export function armPoints({ base, joints, tcp }) {
 /**
  * Cutter and spindle on the tool's axis; where the tip is off the flange's axis, a bracket between
  * the two.
+ * @param {Frame[]} joints
+ * @param {Frame} tcp
+ * @param {number} size
+ * @param {boolean} bare
+ * @returns {Tube[]}
  */
 function toolParts(joints, tcp, size, bare) {
   const [wrist, flange] = [joints[4].origin, joints[5].origin];
   const axis = tcp.z.map((v) => -v);
+  /** @param {number[]} point */
   const height = (point) => dot(minus(point, tcp.origin), axis);
   const top = Math.max(height(bare ? wrist : flange), 0.06 * size);
+  /** @param {number} share */
   const at = (share) => plus(tcp.origin, axis, share * top);
   const parts = [
     tubeBetween(at(0), at(0.45), 0.006 * size, 1, "tool"),
@@ -75,7 +100,15 @@ function toolParts(joints, tcp, size, bare) {
   return parts;
 }
 
-/** A tube from one point to another, `top` times as wide at its end. */
+/**
+ * A tube from one point to another, `top` times as wide at its end.
+ * @param {number[]} from
+ * @param {number[]} to
+ * @param {number} radius
+ * @param {number} top
+ * @param {Tube["tone"]} tone
+ * @returns {Tube}
+ */
 function tubeBetween(from, to, radius, top, tone) {
   const way = minus(to, from);
   const along = way.map((v) => v / (length(way) || 1));
@@ -95,7 +128,10 @@ function tubeBetween(from, to, radius, top, tone) {
   return { model, top, tone };
 }
 
-/** The shadow that a part throws straight down on the floor. */
+/**
+ * The shadow that a part throws straight down on the floor.
+ * @param {Pick<Tube, "model" | "top">} tube
+ */
 export function shadow({ model, top }) {
   const flat = Float32Array.from(model);
   for (const column of [0, 1, 2, 3]) flat[column * 4 + 2] = 0;

@@ -1,16 +1,28 @@
 // A camera that looks at a target from a direction: orbit, pan, zoom, fit. Lengths in mm, z up.
 
+/** @typedef {ArrayLike<number> & Iterable<number>} Vector three numbers */
+
+/** @typedef {[low: number[], high: number[]]} Box */
+
 const HALF = Math.tan((15 * Math.PI) / 180); // tangent of half the upright field of view
 const MARGIN = 1.08; // around what a fitted picture shows
 const RIGHT_ANGLE = Math.PI / 2;
 
-/** Directions to look from: [azimuth, elevation] in degrees. */
+/**
+ * Directions to look from: [azimuth, elevation] in degrees.
+ * @type {Record<string, [azimuth: number, elevation: number]>}
+ */
 export const VIEWS = { iso: [-58, 26], top: [-90, 90], front: [-90, 0], side: [0, 0] };
 
+/** @type {(a: Vector, b: Vector) => number} */
 export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+/** @type {(a: Vector, b: Vector) => number[]} */
 export const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+/** @type {(a: Vector, b: Vector, factor?: number) => number[]} */
 export const plus = (a, b, factor = 1) => [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]];
+/** @type {(a: Vector, b: Vector) => number[]} */
 export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+/** @type {(a: Vector) => number} */
 export const length = (a) => Math.hypot(...a);
 
 export class Camera {
@@ -32,17 +44,26 @@ export class Camera {
     return { right: [-sa, ca, 0], up: [-se * ca, -se * sa, ce], out: [ce * ca, ce * sa, se] };
   }
 
+  /**
+   * @param {number} azimuth [rad]
+   * @param {number} elevation [rad]
+   */
   orbit(azimuth, elevation) {
     this.azimuth = (this.azimuth + azimuth) % (2 * Math.PI);
     this.elevation = Math.min(RIGHT_ANGLE, Math.max(-RIGHT_ANGLE, this.elevation + elevation));
   }
 
-  /** Moves what is seen by so many pixels. */
+  /**
+   * Moves what is seen by so many pixels.
+   * @param {number} x
+   * @param {number} y
+   */
   pan(x, y) {
     const { right, up } = this.axes();
     this.target = plus(plus(this.target, right, -x * this.pixel()), up, y * this.pixel());
   }
 
+  /** @param {number} factor */
   zoom(factor) {
     this.distance = Math.min(1e6, Math.max(0.5, this.distance / factor));
   }
@@ -52,7 +73,10 @@ export class Camera {
     return (2 * HALF * this.distance) / this.height;
   }
 
-  /** Looks from one of `VIEWS`. */
+  /**
+   * Looks from one of `VIEWS`.
+   * @param {[azimuth: number, elevation: number]} view [deg]
+   */
   look([azimuth, elevation]) {
     [this.azimuth, this.elevation] = [(azimuth * Math.PI) / 180, (elevation * Math.PI) / 180];
   }
@@ -104,9 +128,13 @@ export class Camera {
 /**
  * Where a point stands in the picture [px], and its depth; a depth that is not positive is behind
  * the eye.
+ * @param {Float32Array} m the camera's matrix
+ * @param {Vector} point
+ * @param {number} width
+ * @param {number} height
  */
 export function project(m, point, width, height) {
-  const [x, y, z] = point;
+  const [x, y, z] = [point[0], point[1], point[2]];
   const w = m[3] * x + m[7] * y + m[11] * z + m[15];
   return [
     ((m[0] * x + m[4] * y + m[8] * z + m[12]) / w + 1) * 0.5 * width,

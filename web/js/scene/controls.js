@@ -4,17 +4,30 @@
 // action: pan-y`), one that starts sideways orbits; two fingers pan and pinch. The wheel zooms once
 // the picture has the focus, or with Ctrl.
 
+/** @type {Record<string, [x: number, y: number]>} */
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const TURN = Math.PI / 450; // a pixel of dragging [rad]
 const STEP = Math.PI / 36; // an arrow key [rad]
 const STILL = 4; // a press that moves less than this points [px]
 const SIDEWAYS = 10; // a finger turns the picture once it has gone this far to a side [px]; before, it may still scroll the page
 
+/** @import { Camera } from "./camera.js" */
+
+/** @typedef {{ x: number, y: number, start: number[], moved: number, free: boolean, pans: boolean }} Pointer one on the picture */
+
+/** @typedef {{ move(): void, point(x: number, y: number, pressed: boolean): void, key(key: string): boolean }} Steered */
+
 /**
- * Steers `camera` from `canvas`. `on.move()` follows a change, `on.point(x, y, pressed)` a pointer over the picture, `on.key(key)` may take
- * a key first by returning true.
+ * Steers `camera` from `canvas`. `on.move` follows a change, `on.point` a pointer over the picture, `on.key` may
+ * take a key first by returning true.
+ * @param {HTMLElement} canvas
+ * @param {Camera} camera
+ * @param {Steered} on
  */
 export function steer(canvas, camera, on) {
-  const down = new Map(); // pointers on the picture: id -> { x, y, button, moved }
+  /** @type {Map<number, Pointer>} */
+  const down = new Map(); // by the pointer's id
+  /** @param {PointerEvent} event */
   const place = ({ offsetX, offsetY }) => [offsetX, offsetY];
 
   canvas.addEventListener("pointerdown", (event) => {
@@ -45,6 +58,7 @@ export function steer(canvas, camera, on) {
     else camera.orbit(-dx * TURN, dy * TURN);
     on.move();
   });
+  /** @param {PointerEvent} event */
   const up = (event) => {
     const own = down.get(event.pointerId);
     down.delete(event.pointerId);
@@ -56,6 +70,10 @@ export function steer(canvas, camera, on) {
   /**
    * One of two fingers moves by (dx, dy): the middle moves by half of that, the distance says the
    * zoom.
+   * @param {{ x: number, y: number }} own
+   * @param {{ x: number, y: number }} other
+   * @param {number} dx
+   * @param {number} dy
    */
   function pinch(own, other, dx, dy) {
     const before = Math.hypot(own.x - other.x, own.y - other.y);
@@ -86,9 +104,12 @@ export function steer(canvas, camera, on) {
     event.preventDefault();
   });
 
-  /** What a key does to the camera; false if nothing. */
+  /**
+   * What a key does to the camera; false if nothing.
+   * @param {KeyboardEvent} event
+   */
   function step({ key, shiftKey }) {
-    const [x, y] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[key] ?? [0, 0];
+    const [x, y] = ARROWS[key] ?? [0, 0];
     if (x || y) shiftKey ? camera.pan(-x * 30, y * 30) : camera.orbit(x * STEP, y * STEP);
     else if (key === "+" || key === "=") camera.zoom(1.2);
     else if (key === "-") camera.zoom(1 / 1.2);

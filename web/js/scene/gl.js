@@ -88,15 +88,18 @@ export function painterOn(canvas) {
   return gl && new Painter(gl);
 }
 
-class Painter {
+export class Painter {
   #gl;
   #line;
   #solid;
   #tube;
+  /** @type {Line[]} */
   #lines = [];
+  /** @type {Line | undefined} */
   #piece;
   #nothing; // lines take their points from textures
 
+  /** @param {WebGL2RenderingContext} gl */
   constructor(gl) {
     this.#gl = gl;
     this.#line = program(gl, LINE_VERTEX, LINE_FRAGMENT);
@@ -116,7 +119,10 @@ class Painter {
     return this.#gl;
   }
 
-  /** The colours that values are drawn in, as a row of RGBA pixels. */
+  /**
+   * The colours that values are drawn in, as a row of RGBA pixels.
+   * @param {Uint8Array} texels
+   */
   ramp(texels) {
     const gl = this.#gl;
     gl.activeTexture(gl.TEXTURE0);
@@ -126,10 +132,12 @@ class Painter {
 
   /**
    * A line to draw later: each point joined to the next, or (`pairs`) every second one to its next.
+   * @param {Float32Array} points
+   * @param {boolean} [pairs]
    */
   line(points, pairs = false) {
     const gl = this.#gl;
-    const line = { texture: gl.createTexture(), pairs };
+    const line = { texture: gl.createTexture(), pairs, count: 0 };
     gl.bindTexture(gl.TEXTURE_2D, line.texture);
     parameters(gl, gl.NEAREST);
     this.#fill(line, points);
@@ -137,6 +145,10 @@ class Painter {
     return line;
   }
 
+  /**
+   * @param {Line} line
+   * @param {Float32Array} points
+   */
   #fill(line, points) {
     const gl = this.#gl;
     const [texels, rows] = [points.length / 4, Math.ceil(points.length / 4 / WIDTH)];
@@ -207,6 +219,8 @@ class Painter {
   /**
    * Draws one piece of a line that is not kept, from its two points; a piece without length is a
    * dot. Nothing hides it.
+   * @param {Float32Array} points
+   * @param {LineStyle} style
    */
   dot(points, style) {
     const gl = this.#gl;
@@ -227,7 +241,10 @@ class Painter {
     asBody(this.#gl, () => this.draw(line, style));
   }
 
-  /** Draws tubes in plain colour that hide nothing. */
+  /**
+   * Draws tubes in plain colour that hide nothing.
+   * @param {Solid[]} parts
+   */
   stains(parts) {
     const gl = this.#gl;
     gl.depthMask(false);
@@ -235,6 +252,10 @@ class Painter {
     gl.depthMask(true);
   }
 
+  /**
+   * @param {Solid[]} parts
+   * @param {Uniforms} style
+   */
   #tubes(parts, style) {
     const gl = this.#gl;
     gl.useProgram(this.#solid.program);
@@ -272,44 +293,53 @@ export function blended(gl, draw) {
 
 export function parameters(gl, filter) {
   for (const [key, value] of [
-    ["MIN_FILTER", filter],
-    ["MAG_FILTER", filter],
-    ["WRAP_S", gl.CLAMP_TO_EDGE],
-    ["WRAP_T", gl.CLAMP_TO_EDGE],
+    [gl.TEXTURE_MIN_FILTER, filter],
+    [gl.TEXTURE_MAG_FILTER, filter],
+    [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE],
+    [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE],
   ]) {
-    gl.texParameteri(gl.TEXTURE_2D, gl[`TEXTURE_${key}`], value);
+    gl.texParameteri(gl.TEXTURE_2D, key, value);
   }
 }
 
-/** A program of a vertex and a fragment shader, whose `set(values)` takes uniforms by name. */
+/**
+ * A program of a vertex and a fragment shader, whose `set(values)` takes uniforms by name.
+ * @param {WebGL2RenderingContext} gl
+ * @param {string[]} sources
+ */
 export function program(gl, ...sources) {
   const made = gl.createProgram();
   for (const [i, source] of sources.entries()) {
     const shader = gl.createShader(i ? gl.FRAGMENT_SHADER : gl.VERTEX_SHADER);
+    if (!shader) continue; // the context is lost
     gl.shaderSource(shader, source);
     gl.compileShader(shader);
     gl.attachShader(made, shader);
   }
   gl.linkProgram(made);
   if (!gl.getProgramParameter(made, gl.LINK_STATUS) && !gl.isContextLost()) {
-    const logs = gl.getAttachedShaders(made).map((shader) => gl.getShaderInfoLog(shader));
+    const logs = (gl.getAttachedShaders(made) ?? []).map((shader) => gl.getShaderInfoLog(shader));
     throw new Error(`The shaders do not link: ${[gl.getProgramInfoLog(made), ...logs].join(" ")}`);
   }
   const places = new Map();
+  /** @param {Uniforms} values */
   const set = (values) => {
     for (const [name, value] of Object.entries(values)) {
       if (!places.has(name)) places.set(name, gl.getUniformLocation(made, name));
       const place = places.get(name);
       if (typeof value === "number") gl.uniform1f(place, value);
       else if (value.length === 16) gl.uniformMatrix4fv(place, false, value);
-      else gl[`uniform${value.length}fv`](place, value);
+      else if (value.length === 2) gl.uniform2fv(place, value);
+      else gl.uniform3fv(place, value);
     }
   };
   return { program: made, set };
 }
 
+/** @param {WebGL2RenderingContext} gl */
 function tube(gl) {
   const numbers = [];
+  /** @param {number} i */
   const rim = (i) => [Math.cos((2 * Math.PI * i) / SIDES), Math.sin((2 * Math.PI * i) / SIDES)];
   for (let i = 0; i < SIDES; i++) {
     const [[ax, ay], [bx, by]] = [rim(i), rim(i + 1)];

@@ -110,7 +110,11 @@ export function furnish(node, on) {
       message.hidden = !words;
       stage.classList.toggle("silent", Boolean(words));
     },
-    /** Offers magnifications around the automatic one. */
+    /**
+     * Offers magnifications around the automatic one.
+     * @param {number} automatic
+     * @param {number | null} chosen
+     */
     factors(automatic, chosen) {
       const values = MAGNIFICATIONS.filter((v) => v <= Math.max(100, automatic * 20));
       factor.replaceChildren(

@@ -31,15 +31,23 @@ void main() {
   pixel = vec4(own * (0.52 + 0.5 * lit * lit), strength);
 }`;
 
+/**
+ * @import { PartMesh } from "../../pkg/armill.js"
+ * @import { Uniforms } from "./gl.js"
+ */
+
 /** Draws parts with a painter's WebGL. */
 export class PartPainter {
   #gl;
   #program;
   #scale;
+  /** @type {WebGLBuffer[]} */
   #buffers = [];
+  /** @type {Record<string, WebGLVertexArrayObject>} */
   #arrays = {}; // vertex arrays by "before" and "after"
   #count = 0;
 
+  /** @param {WebGL2RenderingContext} gl */
   constructor(gl) {
     this.#gl = gl;
     this.#program = program(gl, VERTEX, FRAGMENT);
@@ -49,7 +57,10 @@ export class PartPainter {
     this.#onScale(() => parameters(gl, gl.LINEAR));
   }
 
-  /** Runs with the scale's texture bound; lines keep theirs. */
+  /**
+   * Runs with the scale's texture bound; lines keep theirs.
+   * @param {() => void} run
+   */
   #onScale(run) {
     const gl = this.#gl;
     gl.activeTexture(gl.TEXTURE2);
@@ -58,7 +69,10 @@ export class PartPainter {
     gl.activeTexture(gl.TEXTURE1);
   }
 
-  /** The colours of deviations, as a row of RGBA pixels. */
+  /**
+   * The colours of deviations, as a row of RGBA pixels.
+   * @param {Uint8Array} texels
+   */
   colours(texels) {
     const gl = this.#gl;
     this.#onScale(() =>
@@ -66,10 +80,17 @@ export class PartPainter {
     );
   }
 
-  /** Takes over a mesh of the core. */
+  /**
+   * Takes over a mesh of the core.
+   * @param {PartMesh} mesh
+   */
   take({ places_mm, before_mm, after_mm, triangles }) {
     this.clear();
     const gl = this.#gl;
+    /**
+     * @param {number} target
+     * @param {Float32Array | Uint32Array} numbers
+     */
     const buffer = (target, numbers) => {
       const made = gl.createBuffer();
       gl.bindBuffer(target, made);
@@ -77,6 +98,11 @@ export class PartPainter {
       this.#buffers.push(made);
       return made;
     };
+    /**
+     * @param {number} index
+     * @param {number} size
+     * @param {WebGLBuffer} filled
+     */
     const slot = (index, size, filled) => {
       gl.bindBuffer(gl.ARRAY_BUFFER, filled);
       gl.enableVertexAttribArray(index);
@@ -104,7 +130,11 @@ export class PartPainter {
     [this.#buffers, this.#arrays, this.#count] = [[], {}, 0];
   }
 
-  /** Draws a side of the mesh; `style` = { camera, frame, factor, light, eye, largest }. Paths on the surface are to be seen. */
+  /**
+   * Draws a side of the mesh; `style` = { camera, frame, factor, light, eye, largest }. Paths on the surface are to be seen.
+   * @param {string} side
+   * @param {Uniforms} style
+   */
   draw(side, style) {
     const gl = this.#gl;
     if (!this.#count) return;

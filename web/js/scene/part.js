@@ -8,6 +8,12 @@ import { plus } from "./camera.js";
 import { gradient, texels } from "./diverging.js";
 import { PartPainter } from "./part-gl.js";
 
+/**
+ * @import { PartMesh, Summary } from "../../pkg/armill.js"
+ * @import { Frame } from "./arm.js"
+ * @import { Uniforms } from "./gl.js"
+ */
+
 const SIDES = [
   ["before", "Before", "The part without compensation"],
   ["after", "After", "The part after compensation"],
@@ -17,15 +23,21 @@ export class Part {
   side = "before";
   largest = 0; // deviation at the ends of the scale [mm]
   #changed;
+  /** @type {PartPainter | null} */
   #painter = null;
+  /** @type {PartMesh | null} */
   #mesh = null;
+  /** @type {number[][]} */
   #box = []; // corners of the part in its frame
   #buttons;
   #bar = make("div", { className: "bar" });
   #ends = [make("span"), make("span", { className: "middle" }, "0"), make("span")];
   #unit = make("span");
 
-  /** `changed(first)` is called when another picture is due; `first` if there was no part before. */
+  /**
+   * `changed(first)` is called when another picture is due; `first` if there was no part before.
+   * @param {(first?: boolean) => void} changed
+   */
   constructor(changed) {
     this.#changed = changed;
     this.#buttons = SIDES.map(([side, label, title]) => {
@@ -48,7 +60,10 @@ export class Part {
     this.#press();
   }
 
-  /** Offers the part of a result, if it has one, and frees that of the result before. */
+  /**
+   * Offers the part of a result, if it has one, and frees that of the result before.
+   * @param {Summary} summary
+   */
   offer({ surface }) {
     this.#mesh = null;
     this.#painter?.clear();
@@ -70,7 +85,10 @@ export class Part {
     return (this.#mesh?.triangles.length ?? 0) / 3;
   }
 
-  /** Fetches the mesh of the shown result; `isCurrent()` tells whether that is still the one to show. */
+  /**
+   * Fetches the mesh of the shown result; `isCurrent()` tells whether that is still the one to show.
+   * @param {() => boolean} isCurrent
+   */
   async load(isCurrent) {
     if (this.#mesh || !this.offered) return;
     const mesh = await core.partMesh();
@@ -82,28 +100,38 @@ export class Part {
     this.#changed(true);
   }
 
-  /** The corners of the part; `frame` is the workpiece's. */
+  /**
+   * The corners of the part; `frame` is the workpiece's.
+   * @param {Frame} frame
+   */
   corners({ origin, x, y, z }) {
+    /** @param {number[]} place */
     const place = ([a, b, c]) => plus(plus(plus(origin, x, a), y, b), z, c);
     return this.#mesh ? this.#box.map(place) : [];
   }
 
-  /** Draws with another WebGL, or with none. */
+  /**
+   * Draws with another WebGL, or with none.
+   * @param {WebGL2RenderingContext | null | undefined} gl
+   */
   drawWith(gl) {
-    this.#painter = gl && new PartPainter(gl);
-    if (gl && this.#mesh) this.#painter.take(this.#mesh);
+    this.#painter = gl ? new PartPainter(gl) : null;
+    if (this.#mesh) this.#painter?.take(this.#mesh);
   }
 
+  /** @param {boolean} dark */
   recolour(dark) {
-    this.node.closest(".scene").style.setProperty("--deviations", gradient(dark));
+    /** @type {HTMLElement | null} */ (this.node.closest(".scene"))?.style.setProperty("--deviations", gradient(dark));
     this.#painter?.colours(texels(dark));
     this.#scale(this.largest);
   }
 
+  /** @param {Uniforms} style */
   draw(style) {
     this.#painter?.draw(this.side, { ...style, largest: this.largest || 1 });
   }
 
+  /** @param {string} side */
   #choose(side) {
     this.side = side;
     this.#press();
@@ -114,6 +142,7 @@ export class Part {
     for (const button of this.#buttons) button.setAttribute("aria-pressed", String(button.dataset.side === this.side));
   }
 
+  /** @param {number} largest [mm] */
   #scale(largest) {
     this.largest = largest;
     const [low, , high] = this.#ends;
@@ -124,7 +153,10 @@ export class Part {
   }
 }
 
-/** The eight corners of the box around places. */
+/**
+ * The eight corners of the box around places.
+ * @param {Float32Array} places
+ */
 function boxOf(places) {
   const ends = [0, 1, 2].map((axis) => [Infinity, -Infinity]);
   for (let i = 0; i < places.length; i++) {
@@ -135,5 +167,8 @@ function boxOf(places) {
   return Array.from({ length: 8 }, (_, corner) => ends.map((end, axis) => end[(corner >> axis) & 1]));
 }
 
-/** A frame of the core as a matrix, column by column. */
+/**
+ * A frame of the core as a matrix, column by column.
+ * @param {Frame} frame
+ */
 export const matrixOf = ({ origin, x, y, z }) => new Float32Array([...x, 0, ...y, 0, ...z, 0, ...origin, 1]);

@@ -6,6 +6,8 @@ import { dot, length, plus } from "./camera.js";
 import { VERTEX, vertex } from "./gl.js";
 import { spacingOf } from "./spacing.js";
 
+/** @import { Box, Vector } from "./camera.js" */
+
 const ROW = 17; // numbers in a row of the core's `track`, and where its vectors start
 const [DESIRED, CLOSEST, BEFORE, AFTER, CORRECTION] = [2, 5, 8, 11, 14];
 const AT = { desired: DESIRED, closest: CLOSEST, before: BEFORE, after: AFTER, correction: CORRECTION };
@@ -21,7 +23,10 @@ export class Paths {
   cutBox = nowhere(); // the same where the tool cuts
   #spacing; // see `spacing`
 
-  /** `track` is the core's answer. */
+  /**
+   * `track` is the core's answer.
+   * @param {Float64Array} track
+   */
   constructor(track) {
     this.#track = track;
     this.count = track.length / ROW;
@@ -55,10 +60,15 @@ export class Paths {
     return Math.sqrt(x * x + y * y + z * z);
   }
 
+  /**
+   * @param {number} row
+   * @param {number} at
+   */
   #vector(row, at) {
     return this.#track.subarray(row * ROW + at, row * ROW + at + 3);
   }
 
+  /** @param {number} row */
   sample(row) {
     return this.#track[row * ROW];
   }
@@ -117,11 +127,11 @@ export class Paths {
    * The point where the tool should be, the closest point of the path to where it is, and the ways
    * from there to the tip.
    */
-  desired = (row) => this.#vector(row, DESIRED);
-  closest = (row) => this.#vector(row, CLOSEST);
-  before = (row) => this.#vector(row, BEFORE);
-  after = (row) => this.#vector(row, AFTER);
-  correction = (row) => this.#vector(row, CORRECTION);
+  desired = (/** @type {number} */ row) => this.#vector(row, DESIRED);
+  closest = (/** @type {number} */ row) => this.#vector(row, CLOSEST);
+  before = (/** @type {number} */ row) => this.#vector(row, BEFORE);
+  after = (/** @type {number} */ row) => this.#vector(row, AFTER);
+  correction = (/** @type {number} */ row) => this.#vector(row, CORRECTION);
 
   /** Where the tip is drawn `before` or `after` compensation, its deviation magnified. */
   tip = (row, side, factor) => plus(this.closest(row), this[side](row), factor);
@@ -145,7 +155,7 @@ export class Paths {
     if (this.largest < 1e-6) return 1;
     const wanted = Math.max(1, (0.1 * extent(this.box)) / this.largest);
     const decade = 10 ** Math.floor(Math.log10(wanted));
-    return [5, 2, 1].find((step) => step * decade <= wanted) * decade;
+    return ([5, 2].find((step) => step * decade <= wanted) ?? 1) * decade;
   }
 
   /** The points of a line for the painter: "desired" or "closest" ones, each with a way off it or (null) with none. */
@@ -186,6 +196,9 @@ export class Paths {
   /**
    * The row whose drawn point is nearest to a place in the picture, or -1 if none is within `reach`
    * pixels; `m` is the camera's matrix.
+   * @param {Float32Array} m
+   * @param {[x: number, y: number]} place
+   * @param {{ width: number, height: number, factor: number, shown: Record<string, boolean>, reach: number }} view
    */
   pick(m, [x, y], { width, height, factor, shown, reach }) {
     const drawn = [];

@@ -42,7 +42,10 @@ export class Player {
     this.#show();
   }
 
-  /** Takes over a run's duration [s]; what plays stops. */
+  /**
+   * Takes over a run's duration [s]; what plays stops.
+   * @param {number} seconds
+   */
   set duration(seconds) {
     this.pause();
     this.#duration = seconds;
@@ -71,7 +74,7 @@ export class Player {
     this.#label();
   }
 
-  #step = (now) => {
+  #step = (/** @type {number} */ now) => {
     if (!this.#playing) return;
     const passed = Math.max(0, now - this.#last) / 1000;
     this.#last = now;

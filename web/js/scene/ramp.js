@@ -4,7 +4,10 @@
 
 const STOPS = ["3f7fd6", "7a6fd8", "b55cb8", "d6527f", "df5b3d", "cf7a00"].map(rgb);
 
-/** Red, green and blue [0..255] of six hexadecimal digits. */
+/**
+ * Red, green and blue [0..255] of six hexadecimal digits.
+ * @param {string} hex
+ */
 export function rgb(hex) {
   return [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16));
 }

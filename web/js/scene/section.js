@@ -6,6 +6,8 @@ import { make, makeSvg } from "../page/dom.js";
 import { lineAt } from "../page/program-lines.js";
 import { lengthText, lengthUnit } from "../page/units.js";
 
+/** @import { PartSection, Summary } from "../../pkg/armill.js" */
+
 const LEGEND = [
   ["nominal", "Nominal"],
   ["before", "Before"],
@@ -15,10 +17,12 @@ const LEGEND = [
 const AIR = 0.25; // room above and below, as a part of the section's half width
 
 export class Section {
+  /** @type {Summary} */
   #summary;
   #ready = false; // whether the core may be asked
   #asked = -1; // the sample that was asked for last
   #asking = false;
+  /** @type {PartSection | null} */
   #section = null;
   #factor = 1;
   #drawing = make("div", { className: "cross-section" });
@@ -45,7 +49,10 @@ export class Section {
     new IntersectionObserver(() => this.follow()).observe(this.node);
   }
 
-  /** Offers the sections of a result, if its part can be cut. */
+  /**
+   * Offers the sections of a result, if its part can be cut.
+   * @param {Summary} summary
+   */
   offer(summary) {
     this.#summary = summary;
     this.node.hidden = !summary.surface;
@@ -62,8 +69,9 @@ export class Section {
   /** The sample at the cursor; without one, where the surface errs most. */
   get #sample() {
     const { samples, duration_s, surface } = this.#summary;
-    if (cursor() === null) return surface.worst[0]?.sample ?? 0;
-    return Math.round((Math.min(duration_s, cursor()) / (duration_s || 1)) * (samples - 1));
+    const time = cursor();
+    if (time === null) return surface?.worst[0]?.sample ?? 0;
+    return Math.round((Math.min(duration_s, time) / (duration_s || 1)) * (samples - 1));
   }
 
   /** The cursor has moved: asks the core, one question at a time. */
@@ -74,7 +82,7 @@ export class Section {
       while (this.#ready && this.#asked !== this.#sample) {
         const sample = (this.#asked = this.#sample);
         this.#section = await core.partSection(sample);
-        this.#draw(sample);
+        this.#draw(this.#section, sample);
       }
     } catch {
       this.#asked = -1; // a newer result brings its own
@@ -82,15 +90,21 @@ export class Section {
     this.#asking = false;
   }
 
-  /** Magnifies the deviation. */
+  /**
+   * Magnifies the deviation.
+   * @param {number} factor
+   */
   magnify(factor) {
     if (factor === this.#factor) return;
     this.#factor = factor;
-    if (this.#section && this.#asked >= 0) this.#draw(this.#asked);
+    if (this.#section && this.#asked >= 0) this.#draw(this.#section, this.#asked);
   }
 
-  #draw(sample) {
-    const { nominal_mm, before_mm, after_mm, tool_mm, bottom_mm } = this.#section;
+  /**
+   * @param {PartSection} section
+   * @param {number} sample
+   */
+  #draw({ nominal_mm, before_mm, after_mm, tool_mm, bottom_mm }, sample) {
     const [half, high] = [Math.abs(nominal_mm[0]), Math.max(...odd(nominal_mm), Math.min(...odd(tool_mm)))];
     const [top, low] = [high + AIR * half, bottom_mm - 0.1 * half];
     const svg = makeSvg("svg", { viewBox: [-half, -top, 2 * half, top - low].map((v) => v.toFixed(3)).join(" ") });
@@ -104,6 +118,7 @@ export class Section {
       `${where}, seen along the feed; ${lengthText(2 * half)} ${lengthUnit()} wide, ` +
       `deviation × ${this.#factor}. The part is finished.`;
     svg.setAttribute("aria-label", words);
+    /** @param {Float32Array} shifts */
     const moved = (shifts) => nominal_mm.map((v, i) => v + this.#factor * shifts[i]);
     const surface = lineOf(nominal_mm);
     svg.append(
@@ -119,13 +134,21 @@ export class Section {
   }
 }
 
+/** @param {Float32Array} pairs */
 const odd = (pairs) => pairs.filter((_, i) => i % 2);
 
-/** Pairs of a distance to the left and a height as a line of the drawing, where right and down count. */
+/**
+ * Pairs of a distance to the left and a height as a line of the drawing, where right and down count.
+ * @param {Float32Array} pairs
+ */
 function lineOf(pairs) {
   const points = [];
   for (let i = 0; i < pairs.length; i += 2) points.push(`${(-pairs[i]).toFixed(4)} ${(-pairs[i + 1]).toFixed(4)}`);
   return `M${points.join("L")}`;
 }
 
+/**
+ * @param {string} name
+ * @param {string} d
+ */
 const seriesOf = (name, d) => makeSvg("g", { class: `series ${name}` }, makeSvg("path", { d }));

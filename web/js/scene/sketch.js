@@ -5,14 +5,23 @@ import { makeSvg, make } from "../page/dom.js";
 import { formatLength } from "../page/number.js";
 import { framesOf } from "./arm.js";
 
+/**
+ * @import { Job } from "../job/job.js"
+ * @import { Frames } from "./arm.js"
+ */
+
 const [WIDTH, HEIGHT, MARGIN] = [320, 160, 16];
 
-/** The figure, and `show(job)`; `ask(json)` gives the frames of a job's arm at zero. */
+/**
+ * The figure, and `show(job)`; `ask(json)` gives the frames of a job's arm at zero.
+ * @param {(json: string) => Promise<Float64Array>} ask
+ */
 export function makeArmView(ask) {
   const svg = makeSvg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img" });
   const caption = make("figcaption", {});
   const node = make("figure", { className: "arm-view" }, svg, caption);
   let drawn = "";
+  /** @param {Job} job */
   const show = async (job) => {
     const { robot, tool_frame } = job.data;
     const wanted = JSON.stringify([robot, tool_frame]);
@@ -28,6 +37,11 @@ export function makeArmView(ask) {
   return { node, show };
 }
 
+/**
+ * @param {SVGElement} svg
+ * @param {HTMLElement} caption
+ * @param {Frames} frames
+ */
 function draw(svg, caption, { base, joints, tcp }) {
   const stations = [base, ...joints, tcp].map(({ origin: [x, , z], z: axis }) => ({ x, z, axis }));
   const [xs, zs] = [stations.map(({ x }) => x), stations.map(({ z }) => z)];
@@ -37,9 +51,16 @@ function draw(svg, caption, { base, joints, tcp }) {
     (HEIGHT - 2 * MARGIN) / Math.max(high - low, 1),
   );
   const middle = (WIDTH - scale * (left + right)) / 2;
+  /** @param {{ x: number, z: number }} point */
   const at = ({ x, z }) => [middle + scale * x, HEIGHT - MARGIN - scale * (z - low)].map((v) => Number(v.toFixed(1)));
+  /**
+   * @param {number[]} a
+   * @param {number[]} b
+   * @param {string} name
+   */
   const line = (a, b, name) => makeSvg("line", { x1: a[0], y1: a[1], x2: b[0], y2: b[1], class: name });
   const floor = at({ x: 0, z: 0 })[1];
+  /** @type {SVGElement[]} */
   const parts = [line([4, floor], [WIDTH - 4, floor], "floor")];
   stations
     .slice(1)
@@ -58,7 +79,7 @@ function draw(svg, caption, { base, joints, tcp }) {
         ),
       );
   }
-  const [tx, ty] = at(stations.at(-1));
+  const [tx, ty] = at(stations[stations.length - 1]);
   parts.push(makeSvg("circle", { cx: tx, cy: ty, r: 2.5, class: "tip" }));
   svg.replaceChildren(...parts);
   const [x, y, z] = tcp.origin.map((v) => formatLength(Math.round(v * 10) / 10));

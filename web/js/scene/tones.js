@@ -1,16 +1,23 @@
 // The page's colours, for the picture.
 
-/** The page's colours as shares of red, green and blue, and whether the page is dark. */
+/**
+ * The page's colours as shares of red, green and blue, and whether the page is dark.
+ * @param {HTMLElement} node
+ */
 export function tonesOf(node) {
   const probe = document.createElement("span");
   node.append(probe);
+  /** @param {string} token */
   const read = (token) => {
     probe.style.setProperty("color", `var(--${token})`);
-    return getComputedStyle(probe)
-      .color.match(/[\d.]+/g)
-      .slice(0, 3)
-      .map((v) => Number(v) / 255);
+    const numbers = getComputedStyle(probe).color.match(/[\d.]+/g) ?? [];
+    return numbers.slice(0, 3).map((v) => Number(v) / 255);
   };
+  /**
+   * @param {number[]} a
+   * @param {number[]} b
+   * @param {number} share
+   */
   const mixed = (a, b, share) => a.map((v, i) => v + (b[i] - v) * share);
   const [paper, ink, line, faint, accent, wrong] = ["surface", "ink", "line", "line-2", "accent", "wrong"].map(read);
   const axes = ["vermillion", "green", "blue"].map(read);

@@ -21,6 +21,15 @@ import { Section } from "./section.js";
 import { Stock } from "./stock.js";
 import { tonesOf } from "./tones.js";
 
+/**
+ * @import { Summary } from "../../pkg/armill.js"
+ * @import { Frames } from "./arm.js"
+ * @import { Box } from "./camera.js"
+ * @import { Line, LineStyle, Painter } from "./gl.js"
+ */
+
+/** @typedef {[x: number, y: number, pressed: boolean]} Pointed where the pointer is [px] */
+
 const MOST = 50_000; // points of a path that are drawn
 const REACH = 14; // how near a path a pointer must be [px]
 const STREAM_MS = 200; // while results stream in, the picture rests at least so long
@@ -28,10 +37,13 @@ const QUIET_MS = 300; // a result that has stood this long has its part simulate
 const FITTED = 400; // points of the path that a view is fitted to
 const VIEW_KEYS = { 1: "top", 2: "front", 3: "side", 4: "iso", 5: "tool", f: "fit", a: "all", 0: "fit" };
 
-/** The picture in `node`; `show(summary)` takes over a new result. */
+/**
+ * The picture in `node`; `show(summary)` takes over a new result.
+ * @param {HTMLElement} node
+ */
 export function makeScene(node) {
   const scene = new Scene(node);
-  return { show: (summary) => scene.show(summary) };
+  return { show: (/** @type {Summary} */ summary) => scene.show(summary) };
 }
 
 class Scene {
@@ -61,6 +73,7 @@ class Scene {
   #waiting; // timer for the part
   #catchUp = paced(() => this.#appear().then(painted), STREAM_MS);
 
+  /** @param {HTMLElement} node */
   constructor(node) {
     this.#node = node;
     this.#panel = furnish(node, {
@@ -112,6 +125,7 @@ class Scene {
     canvas.addEventListener("webglcontextrestored", () => (this.#begin(), this.#appear()));
   }
 
+  /** @param {Summary} summary */
   show(summary) {
     this.#summary = summary;
     this.#player.duration = summary.duration_s;
@@ -160,6 +174,10 @@ class Scene {
     if (picture) this.#recolour();
   }
 
+  /**
+   * @param {string} name
+   * @param {boolean} on
+   */
   #switch(name, on) {
     this.#shown[name] = on;
     if (name === "tube") this.#chosen.tube = on;
@@ -264,11 +282,16 @@ class Scene {
 
   /** Once a picture is often enough, however often the pointer moves. */
   #pointSoon(...where) {
-    if (!this.#pointed) requestAnimationFrame(() => (this.#point(...this.#pointed), (this.#pointed = null)));
+    if (!this.#pointed)
+      requestAnimationFrame(() => {
+        if (this.#pointed) this.#point(...this.#pointed);
+        this.#pointed = null;
+      });
     this.#pointed = where;
   }
 
-  #point(x, y, pressed) {
+  /** @param {Pointed} where */
+  #point(...[x, y, pressed]) {
     if (!this.#paths || this.#player.playing) return;
     const { width, height } = this.#camera;
     const view = { width, height, factor: this.#factor(), shown: this.#shown, reach: pressed ? 2 * REACH : REACH };
@@ -276,6 +299,7 @@ class Scene {
     if (row >= 0) this.#goTo(row);
   }
 
+  /** @param {string} key */
   #key(key) {
     if (key === " ") this.#player.toggle();
     else if (VIEW_KEYS[key.toLowerCase()]) this.#look(VIEW_KEYS[key.toLowerCase()]);
