@@ -5,16 +5,14 @@
 
 import { readFileSync, readdirSync } from "node:fs";
 import { constants, deflateSync } from "node:zlib";
+import { fragmentOf, holdsJob, jobIn } from "../../web/js/job/link.js";
 
 const [seconds, seed] = process.argv.slice(2).map(Number);
 const here = (path) => new URL(path, import.meta.url);
-// As a module, whatever this folder's package says.
-const source = readFileSync(here("../../web/js/job/link.js"));
-const { fragmentOf, holdsJob, jobIn } = await import(`data:text/javascript;base64,${source.toString("base64")}`);
 
 const LARGEST = 4_000_000; // bytes, as link.js says
 const CHARACTERS = "ABCXYZabcxyz0129-_=+/.#% \n\u00e4\u{1f600}\0";
-const TEXTS = ["", "{}", "{\"version\":1}", "\u00e4\u{1f600}\u2028", "[[[[[[", "a".repeat(70_000), "\ufeff{}"];
+const TEXTS = ["", "{}", '{"version":1}', "\u00e4\u{1f600}\u2028", "[[[[[[", "a".repeat(70_000), "\ufeff{}"];
 
 let state = seed >>> 0;
 /** A whole number below `limit`: mulberry32, by Tommy Ettinger. */
@@ -26,7 +24,9 @@ function random(limit) {
 }
 const one = (list) => list[random(list.length)];
 
-const corpus = readdirSync(here("corpus/link/")).sort().map((name) => readFileSync(here(`corpus/link/${name}`), "utf8"));
+const corpus = readdirSync(here("corpus/link/"))
+  .sort()
+  .map((name) => readFileSync(here(`corpus/link/${name}`), "utf8"));
 
 const bytesOf = (link) => Buffer.from(link.replace(/^[^.]*\./, ""), "base64url");
 const linkOf = (bytes) => `job=${1 + random(2)}.${Buffer.from(bytes).toString("base64url")}`;
@@ -35,11 +35,17 @@ function changed(bytes) {
   const copy = Buffer.from(bytes);
   const at = random(copy.length + 1);
   switch (random(5)) {
-    case 0: if (at < copy.length) copy[at] ^= 1 << random(8); return copy;
-    case 1: return copy.subarray(0, at);
-    case 2: return Buffer.concat([copy.subarray(0, at), Buffer.from([random(256)]), copy.subarray(at)]);
-    case 3: return Buffer.concat([copy, copy.subarray(at)]);
-    default: return Buffer.concat([copy.subarray(0, at), copy.subarray(Math.min(copy.length, at + 1 + random(8)))]);
+    case 0:
+      if (at < copy.length) copy[at] ^= 1 << random(8);
+      return copy;
+    case 1:
+      return copy.subarray(0, at);
+    case 2:
+      return Buffer.concat([copy.subarray(0, at), Buffer.from([random(256)]), copy.subarray(at)]);
+    case 3:
+      return Buffer.concat([copy, copy.subarray(at)]);
+    default:
+      return Buffer.concat([copy.subarray(0, at), copy.subarray(Math.min(copy.length, at + 1 + random(8)))]);
   }
 }
 
@@ -51,10 +57,12 @@ function next() {
       const at = random(link.length + 1);
       return { link: link.slice(0, at) + one([...CHARACTERS]) + link.slice(at + random(3)) };
     }
-    case 1: return { link: linkOf(changed(bytesOf(link))) };
+    case 1:
+      return { link: linkOf(changed(bytesOf(link))) };
     case 2: {
       // Whole, at every level of compression.
-      const text = one(TEXTS) + String.fromCodePoint(32 + random(0xd000)).repeat(random(60) ? random(50) : random(1 << 21));
+      const text =
+        one(TEXTS) + String.fromCodePoint(32 + random(0xd000)).repeat(random(60) ? random(50) : random(1 << 21));
       const bytes = Buffer.from(text);
       return { link: linkOf(deflateSync(bytes, { level: random(10) })), text: bytes.length > LARGEST ? null : text };
     }
@@ -88,7 +96,9 @@ async function check({ link, text }) {
 
 let tried; // what an error outside of any promise is about
 const fail = (error) => {
-  console.error(`${JSON.stringify(tried.link.slice(0, 4000))} (${tried.link.length} characters) breaks a law: ${error?.message ?? error}`);
+  console.error(
+    `${JSON.stringify(tried.link.slice(0, 4000))} (${tried.link.length} characters) breaks a law: ${error?.message ?? error}`,
+  );
   process.exit(1);
 };
 process.on("unhandledRejection", fail);

@@ -5,7 +5,10 @@ import { writeFileSync } from "node:fs";
 import init, * as armill from "armill";
 
 await init();
-const program = { ...JSON.parse(armill.default_job()), path: { kind: "gcode", text: "G21 G90 M8\nS4000 M3\nG0 X600 Y-60 Z120\nG1 Z100 F1200\nY20\nM30" } };
+const program = {
+  ...JSON.parse(armill.default_job()),
+  path: { kind: "gcode", text: "G21 G90 M8\nS4000 M3\nG0 X600 Y-60 Z120\nG1 Z100 F1200\nY20\nM30" },
+};
 const result = armill.run(armill.default_job());
 const other = armill.run(JSON.stringify(program));
 const box = { kind: "box", from_mm: [550, -100, 80], to_mm: [650, 60, 105] };
@@ -46,10 +49,28 @@ const methods = {
 };
 
 // Made-up loads on twelve poses, and a vibration that dies away: for the types of what is identified.
-const pose = (i) => [10 * i - 60, 20 + ((7 * i) % 50), 30 - ((5 * i) % 40), (15 * i) % 90, 30 + 4 * i, (20 * i) % 180, 100, 50 * ((i % 3) - 1), -80, 0.1 + 0.01 * i, 0.02 * (i % 4), -0.05];
+const pose = (i) => [
+  10 * i - 60,
+  20 + ((7 * i) % 50),
+  30 - ((5 * i) % 40),
+  (15 * i) % 90,
+  30 + 4 * i,
+  (20 * i) % 180,
+  100,
+  50 * ((i % 3) - 1),
+  -80,
+  0.1 + 0.01 * i,
+  0.02 * (i % 4),
+  -0.05,
+];
 const poses = Array.from({ length: 12 }, (_, i) => pose(i).join(",")).join("\n");
-const vibration = Array.from({ length: 2000 }, (_, i) => `${i / 1000},${Math.exp(-i / 800) * Math.cos(i / 20)}`).join("\n");
-const identified = [armill.identify_stiffness(armill.default_job(), poses, "table"), armill.identify_response(`time_s,x\n${vibration}`)];
+const vibration = Array.from({ length: 2000 }, (_, i) => `${i / 1000},${Math.exp(-i / 800) * Math.cos(i / 20)}`).join(
+  "\n",
+);
+const identified = [
+  armill.identify_stiffness(armill.default_job(), poses, "table"),
+  armill.identify_response(`time_s,x\n${vibration}`),
+];
 
 const literal = (value) => {
   if (value instanceof Float64Array) return `new Float64Array([${value.slice(0, 3)}])`;
@@ -65,12 +86,20 @@ const lines = ['import * as armill from "armill";'];
 const write = (type, values) => values.forEach((value) => lines.push(`((_: ${type}) => {})(${literal(value)});`));
 for (const [name, values] of Object.entries(answers)) write(`ReturnType<typeof armill.${name}>`, values);
 for (const [name, values] of Object.entries(methods)) write(`ReturnType<armill.Run["${name}"]>`, values);
-write('ReturnType<armill.Identified["summary"]>', identified.map((each) => each.summary()));
-write('ReturnType<armill.Identified["chart"]>', identified.map((each) => each.chart({ width: 640, height: 300 })));
+write(
+  'ReturnType<armill.Identified["summary"]>',
+  identified.map((each) => each.summary()),
+);
+write(
+  'ReturnType<armill.Identified["chart"]>',
+  identified.map((each) => each.chart({ width: 640, height: 300 })),
+);
 writeFileSync("values.ts", `${lines.join("\n")}\n`);
 
 // Whatever a run offers was asked for: what is new has to be added above.
-const offered = Object.getOwnPropertyNames(armill.Run.prototype).filter((name) => !["constructor", "free", "__destroy_into_raw"].includes(name));
+const offered = Object.getOwnPropertyNames(armill.Run.prototype).filter(
+  (name) => !["constructor", "free", "__destroy_into_raw"].includes(name),
+);
 const missing = offered.filter((name) => !(name in methods));
 if (missing.length) throw new Error(`not tried: ${missing.join(", ")}`);
 
@@ -80,4 +109,12 @@ try {
 } catch ({ code, field, message }) {
   Object.assign(refused, { code, field, message });
 }
-console.log(JSON.stringify({ version: armill.version(), model: armill.model(), fingerprint: result.fingerprint(), samples: result.column("time_s").length, refused }));
+console.log(
+  JSON.stringify({
+    version: armill.version(),
+    model: armill.model(),
+    fingerprint: result.fingerprint(),
+    samples: result.column("time_s").length,
+    refused,
+  }),
+);

@@ -227,10 +227,10 @@ export class Calculator {
     if (this.shown.preview) {
       this.#become("preview");
       this.#view.say(`A preview of ${samples} samples`);
-    }
-    if (!current) return; // shown, but of an earlier edit
-    this.#become("current");
-    this.#view.say(`${samples} samples in ${formatNumber(took / 1000, 2)} s`);
+    } else if (current) {
+      this.#become("current");
+      this.#view.say(`${samples} samples in ${formatNumber(took / 1000, 2)} s`);
+    } else this.#become("computing"); // shown, but of an earlier edit
   }
 
   /** @param {Failure} error */

@@ -8,6 +8,7 @@ use crate::audit;
 use crate::browser::{self, Driver};
 use crate::docs;
 use crate::fuzz;
+use crate::javascript;
 use crate::npm;
 use crate::server::Server;
 use crate::site;
@@ -19,6 +20,9 @@ use crate::workspace::{self, WASM, cargo, run};
 /// If a check fails, or a tool is missing and cannot be installed.
 pub(crate) fn all() -> Result<()> {
     native()?;
+    step("layout of the JavaScript", javascript::layout)?;
+    step("types of the JavaScript", javascript::types)?;
+    step("tests in Node", javascript::tests)?;
     step("tests in the browser", || {
         browser::driver()?;
         run(&mut cargo(&["test", "--locked", "--target", WASM, "--test", "web"])?)
@@ -41,7 +45,7 @@ pub(crate) fn all() -> Result<()> {
     })
 }
 
-/// Runs the checks that need no browser.
+/// Runs the checks that need neither Node nor a browser.
 ///
 /// # Errors
 /// As for [`all`].

@@ -5,6 +5,7 @@ mod workspace;
 mod site;
 mod docs;
 mod npm;
+mod javascript;
 mod server;
 mod browser;
 mod checks;
@@ -27,8 +28,8 @@ usage: cargo xtask <command>
   docs             build the documentation, with the calculator in it, in target/docs
   picture          take the README's picture of the page, docs/page.png
   npm              make the package for npm in target/npm
-  test             check formatting and lints, run all tests: native, in the browser, through the page
-  test --native    only what needs no browser
+  test             check formatting, lints and types, run all tests: native, in Node, in the browser, through the page
+  test --native    only what needs neither Node nor a browser
   bench [samples]  time stages and whole jobs, natively and in Chromium, and kinematics beside other crates: about ten minutes
                    for the sizes 20000,200000,1000000, a minute for one
   audit            check licences and sources of all dependencies, and known vulnerabilities

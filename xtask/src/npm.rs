@@ -12,9 +12,9 @@ use crate::workspace::{self, output, program, run};
 /// Debian's packages of Node and npm.
 const PACKAGES: [&str; 2] = ["nodejs", "npm"];
 
-/// The npm packages that the tests use, with their versions. Neither needs another package; the
-/// page contains none of them.
-const TOOLS: [(&str, &str); 2] = [("axe-core", "4.14.1"), ("typescript", "7.0.2")];
+/// The npm packages that the checks use, with their versions. None needs another package, but for the
+/// compiler that TypeScript has for each kind of machine; the page contains none of them.
+const TOOLS: [(&str, &str); 3] = [("axe-core", "4.14.1"), ("prettier", "3.10.1"), ("typescript", "7.0.2")];
 
 /// Makes the package in `target/npm` and returns that folder.
 ///
@@ -79,8 +79,8 @@ pub(crate) fn tools() -> Result<PathBuf> {
         let names = TOOLS.map(|(name, version)| format!("{name}@{version}"));
         install(&folder, &names.each_ref().map(String::as_str)).with_context(|| {
             format!(
-                "{} could not be fetched from the npm registry; `cargo xtask test --native` does not need them",
-                names.join(" and ")
+                "{} could not be fetched from the npm registry; `cargo xtask test --native` needs none of them",
+                names.join(", ")
             )
         })?;
     }
@@ -116,9 +116,9 @@ fn npm() -> Result<Command> {
     let version = output("node", &["--version"]).unwrap_or_default();
     let major = version.trim_start_matches('v').split('.').next().and_then(|major| major.parse::<u32>().ok());
     ensure!(
-        major.is_some_and(|major| major >= 18) && program("npm").is_some(),
-        "the tests of the npm package and of accessibility need Node 18 or newer and npm: install `{}` and `{}` \
-         (Debian's names), or run `cargo xtask test --native`",
+        major.is_some_and(|major| major >= 20) && program("npm").is_some(),
+        "the checks of the JavaScript, of the npm package and of accessibility need Node 20 or newer and npm: install \
+         `{}` and `{}` (Debian's names), or run `cargo xtask test --native`",
         PACKAGES[0],
         PACKAGES[1]
     );
