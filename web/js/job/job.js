@@ -7,6 +7,7 @@
 // part itself ("preset", "table", "opw", "kienzle" or "hz").
 
 import { copy, frozen, listed, textOf } from "./data.js";
+import { decides, draftKey, keyOf, keysOf, parentOf, twin } from "./field-path.js";
 
 /**
  * @import { Field, Presets } from "../../pkg/armill.js"
@@ -22,15 +23,6 @@ const OWN_FORMS = [OWN, "opw", KIENZLE]; // a robot's may be ortho-parallel para
 const ENGAGEMENT = "cutting.engagement";
 const FEED_RULE = "motion.feed_rule";
 const EXTENTS = ["stock.allowance_mm", "stock.top_mm"]; // what the extents of a program give by themselves
-
-/** @param {string} path */
-const keys = (path) => path.match(/[^.[\]]+/g) ?? [];
-/** @param {string} path */
-const parentOf = (path) => path.slice(0, Math.max(0, path.lastIndexOf(".")));
-/** @param {string} path */
-const keyOf = (path) => path.slice(path.lastIndexOf(".") + 1);
-/** @param {{ path: string }} field */
-const decides = (field) => /\.(kind|preset)$/.test(field.path);
 
 export class Job {
   /** @type {Field[]} */
@@ -293,7 +285,7 @@ export class Job {
    * @returns {any}
    */
   #read(path) {
-    return keys(path).reduce((value, key) => value?.[key], this.#data);
+    return keysOf(path).reduce((value, key) => value?.[key], this.#data);
   }
 
   /**
@@ -424,21 +416,4 @@ export class Job {
     }
     return shape;
   }
-}
-
-/**
- * What a field's value is kept under: a program in one language is none in another.
- * @param {{ path: string, defaults?: unknown }} field
- * @param {string} [choice]
- */
-const draftKey = (field, choice) => (field.defaults ? `${field.path}@${choice}` : field.path);
-
-/**
- * The path of the same quantity in another unit: a frequency is in rad/s or in Hz.
- * @param {string} path
- */
-function twin(path) {
-  if (path.endsWith("frequency_rad_s")) return path.replace(/rad_s$/, "hz");
-  if (path.endsWith("frequency_hz")) return path.replace(/hz$/, "rad_s");
-  return undefined;
 }

@@ -7,6 +7,7 @@ import { shownUnit, shownValue } from "../form/shown.js";
 import { formatNumber, plainNumber } from "../page/number.js";
 import { onSetting } from "../page/settings.js";
 import { lengthText, lengthUnit } from "../page/units.js";
+import { legendItems } from "./legend.js";
 import { MARKS, draw, scaleGradient } from "./map.js";
 import { survey } from "./pool.js";
 
@@ -408,28 +409,4 @@ const clamp = (value, count) => Math.min(count - 1, Math.max(0, value));
  */
 function select(id, words) {
   return make("select", { id }, ...Object.entries(words).map(([value, text]) => make("option", { value }, text)));
-}
-
-function legendItems() {
-  /** @param {SVGElement[]} inside */
-  const sample = (...inside) => makeSvg("svg", { viewBox: "0 0 20 20", "aria-hidden": "true" }, ...inside);
-  /** @param {number} n */
-  const mark = (n) =>
-    sample(
-      makeSvg("rect", { class: `swatch mark-${n}`, width: 20, height: 20 }),
-      makeSvg("rect", { class: "mark", width: 20, height: 20, fill: `url(#placement-mark-${n})` }),
-    );
-  /**
-   * @param {string} name
-   * @param {string} d
-   */
-  const path = (name, d) =>
-    sample(...["under", "over"].map((layer) => makeSvg("path", { class: `${name} ${layer}`, d })));
-  return [
-    [path("current", "M2 10h16M10 2v16"), "the part now"],
-    [path("best", "M10 2l8 8-8 8-8-8z"), "best place"],
-    [mark(1), MARKS[1]],
-    [mark(2), MARKS[2]],
-    [mark(3), MARKS[3]],
-  ].map(([picture, text]) => make("li", {}, picture, text));
 }
