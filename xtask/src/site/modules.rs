@@ -16,6 +16,8 @@
 //! A script may share modules with an earlier one: it imports `module_form` from there, so that
 //! both have the same instance.
 //!
+//! Doc comments are left out: they are types, for those who change a module.
+//!
 //! # The dialect
 //!
 //! It accepts these statements of the module syntax, each starting in the first column of a line:
@@ -40,8 +42,8 @@
 //! These are not detected, so avoid them: only the first name of `export const a = 1, b = 2` is
 //! exported; an import or export that is indented, or follows another statement on its line, stays
 //! as it is and fails in the browser; a line that starts with `import ` or `export ` counts as a
-//! statement even in a comment or a template; `import()` and `import.meta.url` start from the
-//! joined script.
+//! statement even in a comment or a template, one that starts with `/**` as a comment even in a
+//! template; `import()` and `import.meta.url` start from the joined script.
 
 use std::path::{Path, PathBuf};
 
@@ -136,6 +138,17 @@ impl Module {
         let mut module = Module { imports: Vec::new(), exports: Vec::new(), body: String::new() };
         let mut lines = text.lines();
         while let Some(line) = lines.next() {
+            if is_doc_comment(line) {
+                let mut end = line;
+                while !end.contains("*/") {
+                    end = lines.next().context("a comment does not end")?;
+                }
+                ensure!(
+                    end.trim_end().ends_with("*/"),
+                    "something follows a doc comment on its last line: {end}"
+                );
+                continue;
+            }
             if line.starts_with("import ") || line.starts_with("export {") {
                 let mut statement = line.to_owned();
                 while !statement.contains(';') {
@@ -187,6 +200,12 @@ impl Module {
         self.imports.push(target);
         Ok(())
     }
+}
+
+/// Whether a doc comment starts here, and nothing else is on its lines. (A cast is in front of a value.)
+fn is_doc_comment(line: &str) -> bool {
+    let line = line.trim();
+    line.starts_with("/**") && (!line.contains("*/") || line.ends_with("*/"))
 }
 
 /// The items of `a, b as c`: each name, and its name on the other side.
@@ -284,6 +303,20 @@ mod tests {
         assert!(later.text.starts_with(start), "{}", later.text);
         assert!(later.text.contains("const { x: x } = module_js_both;"), "{}", later.text);
         assert!(later.shared().ends_with("export { module_js_own, module_js_later };\n"));
+    }
+
+    #[test]
+    fn doc_comments_stay_behind_and_casts_do_not() {
+        let text = "/** One line. */\nconst a = 1;\n  /**\n   * @type {import(\"./b.js\").B}\n   */\nexport const b = a; // said\n\
+                    /** @type {any} */ (b).c = 2;\nf(/** @type {A} */ (a));\n";
+        assert_eq!(
+            bundled(&[("a.js", text)]).unwrap(),
+            "\"use strict\";\nconst module_a = {};\n{\nconst a = 1;\nconst b = a; // said\n\
+             /** @type {any} */ (b).c = 2;\nf(/** @type {A} */ (a));\nObject.assign(module_a, { b });\n}\n"
+        );
+        for text in ["/** never ends\n", "/**\n * code behind it is lost */ f();\n"] {
+            assert!(bundled(&[("a.js", text)]).is_err(), "{text}");
+        }
     }
 
     #[test]
