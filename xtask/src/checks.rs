@@ -1,8 +1,9 @@
 //! Every check that a change has to pass.
 
+use std::thread;
 use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
 
 use crate::audit;
 use crate::browser::{self, Driver};
@@ -19,16 +20,23 @@ use crate::workspace::{self, WASM, cargo, run};
 /// # Errors
 /// If a check fails, or a tool is missing and cannot be installed.
 pub(crate) fn all() -> Result<()> {
-    native()?;
-    step("layout of the JavaScript", javascript::layout)?;
-    step("types of the JavaScript", javascript::types)?;
-    step("tests in Node", javascript::tests)?;
+    before_tests()?;
+    // Linking the site's core is the work of one thread for a minute or two, and so are many native tests.
+    thread::scope(|scope| {
+        let browser = scope.spawn(for_the_browser);
+        native_tests()?;
+        browser
+            .join()
+            .map_err(|_| anyhow!("compiling for the browser panicked"))?
+            .context("compiling for the browser")
+    })?;
+    javascript()?;
     step("tests in the browser", || {
         browser::driver()?;
         run(&mut cargo(&["test", "--locked", "--target", WASM, "--test", "web"])?)
     })?;
     step("tests of the npm package", || {
-        run(cargo(&["test", "--locked", "--features", "page", "--test", "npm"])?
+        run(cargo(&["test", "--locked", "--test", "npm"])?
             .env("ARMILL_NPM_PROJECT", npm::project()?)
             .env("ARMILL_NPM_TOOLS", npm::tools()?))
     })?;
@@ -37,7 +45,7 @@ pub(crate) fn all() -> Result<()> {
         let docs = Server::start_plain(&docs::build()?)?;
         let server = Server::start_anywhere(&site::build()?)?;
         let driver = Driver::start()?;
-        run(cargo(&["test", "--locked", "--features", "page", "--test", "page"])?
+        run(cargo(&["test", "--locked", "--test", "page"])?
             .env("ARMILL_SITE_URL", &server.url)
             .env("ARMILL_DOCS_URL", &docs.url)
             .env("ARMILL_NPM_TOOLS", npm::tools()?)
@@ -45,21 +53,50 @@ pub(crate) fn all() -> Result<()> {
     })
 }
 
+/// Runs the checks of the page's code that need no browser.
+///
+/// # Errors
+/// As for [`all`].
+pub(crate) fn javascript() -> Result<()> {
+    step("layout of the JavaScript", javascript::layout)?;
+    step("types of the JavaScript", javascript::types)?;
+    step("tests in Node", javascript::tests)
+}
+
+/// Compiles the site and the tests of the boundary.
+fn for_the_browser() -> Result<()> {
+    site::build()?;
+    run(&mut cargo(&["test", "--locked", "--target", WASM, "--test", "web", "--no-run"])?)
+}
+
 /// Runs the checks that need neither Node nor a browser.
 ///
 /// # Errors
 /// As for [`all`].
 pub(crate) fn native() -> Result<()> {
+    before_tests()?;
+    native_tests()
+}
+
+/// Whatever can be said before a test runs, and the native tests compiled.
+fn before_tests() -> Result<()> {
     step("formatting", || {
         workspace::add_linters()?;
         run(&mut cargo(&["fmt", "--all", "--check"])?)
     })?;
-    step("lints, native", || lint(&["--workspace", "--all-targets", "--features", "page"]))?;
+    step("lints, native", || {
+        lint(&["--workspace", "--all-targets"])?;
+        lint(&["--workspace", "--test", "page", "--test", "npm"])
+    })?;
     step("lints, WebAssembly", || {
         workspace::add_wasm_target()?;
         lint(&["--target", WASM, "--package", "armill", "--lib", "--test", "web"])
     })?;
     step("licences, sources and known vulnerabilities of dependencies", audit::audit)?;
+    step("native tests, compiled", || run(&mut cargo(&["test", "--locked", "--no-run"])?))
+}
+
+fn native_tests() -> Result<()> {
     step("native tests", || run(&mut cargo(&["test", "--locked"])?))?;
     step("tests of this tool", || run(&mut cargo(&["test", "--locked", "--package", "xtask"])?))
 }

@@ -30,6 +30,7 @@ usage: cargo xtask <command>
   npm              make the package for npm in target/npm
   test             check formatting, lints and types, run all tests: native, in Node, in the browser, through the page
   test --native    only what needs neither Node nor a browser
+  test --javascript  only the page's code: its layout, its types, its tests in Node
   bench [samples]  time stages and whole jobs, natively and in Chromium, and kinematics beside other crates: about ten minutes
                    for the sizes 20000,200000,1000000, a minute for one
   audit            check licences and sources of all dependencies, and known vulnerabilities
@@ -58,6 +59,7 @@ fn run(arguments: &[String]) -> Result<()> {
         ["npm"] => npm::package().map(|_| ()),
         ["test"] => checks::all(),
         ["test", "--native"] => checks::native(),
+        ["test", "--javascript"] => checks::javascript(),
         ["bench"] => bench::bench("20000,200000,1000000"),
         ["bench", sizes] => bench::bench(sizes),
         ["fuzz"] => fuzz::fuzz(None, 60),
