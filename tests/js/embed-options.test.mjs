@@ -39,10 +39,10 @@ test("what there is none of is refused, with its name and what there is", () => 
   ])
     assert.throws(
       () => optionsIn(fragment),
-      (error) => error.message.includes(name) && /none of \w+/.test(error.message),
+      (error) => error.message.includes(name) && /not one of \w+/.test(error.message),
     );
-  assert.throws(() => fieldsIn(core.fields, ["motoin"]), /inputs "motoin", which is none of none, .*motion/);
-  assert.throws(() => chartsIn([{ name: "a", view: "v" }], ["b"]), /charts "b", which is none of none, v, a/);
+  assert.throws(() => fieldsIn(core.fields, ["motoin"]), /inputs "motoin", which is not one of none, .*motion/);
+  assert.throws(() => chartsIn([{ name: "a", view: "v" }], ["b"]), /charts "b", which is not one of none, v, a/);
 });
 
 test("inputs are picked by group, by part and by field, each once", () => {

@@ -2,14 +2,8 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import {
-  formatError,
-  formatLength,
-  formatNumber,
-  parseNumber,
-  plainNumber,
-  stepped,
-} from "../../web/js/page/number.js";
+import { NotAQuantity, convert, isPlain, readQuantity } from "../../web/js/form/quantity.js";
+import { formatError, formatLength, formatNumber, plainNumber, stepped } from "../../web/js/page/number.js";
 import { one, random } from "./common.mjs";
 
 /** What a person would type for a text that is read: plain minus, no gaps, powers as e. */
@@ -30,7 +24,10 @@ function* numbers() {
 }
 
 test("a field's text is the number again, to the last bit", () => {
-  for (const value of numbers()) assert.equal(parseNumber(plainNumber(value)), value);
+  for (const value of numbers()) {
+    assert.equal(readQuantity(plainNumber(value)), value);
+    assert.ok(isPlain(plainNumber(value)));
+  }
 });
 
 test("a figure is as near as its digits say", () => {
@@ -76,9 +73,48 @@ test("what is read as a number, and what is not", () => {
     ["+.5", 0.5],
     ["7.", 7],
   ])
-    assert.equal(parseNumber(text), value, text);
-  for (const text of ["", "-", ".", "1,000.5", "1.2.3", "1e", "0x10", "Infinity", "NaN", "1 mm", "--1", "١"])
-    assert.ok(Number.isNaN(parseNumber(text)), text);
+    assert.equal(readQuantity(text), value, text);
+  for (const text of ["", "-", ".", "1,000", "1.2.3", "1e", "0x10", "Infinity", "NaN", "1 mm", "1/0", "1 2", "(1", "١"])
+    assert.throws(() => readQuantity(text), NotAQuantity, text);
+});
+
+test("units are converted by their definitions", () => {
+  for (const [text, unit, value] of [
+    ["1/2 in", "mm", 12.7], // an inch is 25.4 mm
+    ["1 1/2 in", "mm", 38.1],
+    ["6000 mm/min", "mm/s", 100],
+    ["60 rpm", "Hz", 1],
+    ["1 m/s²", "mm/s²", 1000],
+    ["1 Nm", "N mm", 1000],
+    ["1 GPa", "MPa", 1000],
+    ["2*(10+5)", "mm", 30],
+    ["1 in + 0.6 mm", "mm", 26],
+    ["12.5 %", "%", 12.5],
+  ])
+    assert.equal(readQuantity(text, unit), value, text);
+  assert.equal(readQuantity("2", "mm", "in"), 50.8, "a bare number is in the unit that is shown");
+  for (const unit of ["s", "deg", "N", "%", ""]) assert.throws(() => readQuantity("1 mm", unit), NotAQuantity, unit);
+  const next = random(8);
+  for (const [a, b] of [
+    ["mm", "in"],
+    ["mm/s", "in/min"],
+    ["N", "lbf"],
+    ["deg", "rad"],
+  ])
+    for (let k = 0; k < 100; k++) {
+      const value = next() * 1000;
+      // Each way is rounded to 15 digits.
+      assert.ok(Math.abs(convert(convert(value, a, b), b, a) - value) <= 2e-14 * value, `${value} ${a}`);
+    }
+});
+
+test("a comma that may separate decimals or thousands is asked about, with both readings", () => {
+  assert.throws(
+    () => readQuantity("1,000 mm", "mm"),
+    (error) =>
+      error instanceof NotAQuantity && error.readings.map((each) => readQuantity(each, "mm")).join() === "1000,1",
+  );
+  assert.equal(readQuantity("1,000.5"), 1000.5);
 });
 
 test("a step is in the second digit, and the way back is the way", () => {

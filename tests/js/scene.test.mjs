@@ -12,6 +12,9 @@ import { armill, one, random } from "./common.mjs";
 const near = (a, b, size = 1e-9) => assert.ok(Math.abs(a - b) <= size, `${a} is not ${b}`);
 const run = armill.run(armill.default_job());
 
+/** The corners of a box. */
+const cornersOf = ([low, high]) => Array.from({ length: 8 }, (_, c) => low.map((v, i) => ((c >> i) & 1 ? high[i] : v)));
+
 /** A camera somewhere, with a picture of some shape. */
 function someCamera(next) {
   const camera = new Camera();
@@ -60,8 +63,8 @@ describe("the camera", () => {
       const camera = someCamera(next);
       const low = [next() * 100, next() * 100, next() * 100];
       const high = low.map((v) => v + 1 + next() * 500);
-      camera.fit([low, high]);
-      const corners = Array.from({ length: 8 }, (_, c) => low.map((v, i) => ((c >> i) & 1 ? high[i] : v)));
+      const corners = cornersOf([low, high]);
+      camera.fit(corners);
       const seen = corners.map((corner) => project(camera.matrix(), corner, camera.width, camera.height));
       for (const [x, y, depth] of seen)
         assert.ok(x >= 0 && x <= camera.width && y >= 0 && y <= camera.height && depth > 0, `${x}, ${y}, ${depth}`);
@@ -162,7 +165,7 @@ describe("the paths", () => {
     // The track has some of the samples only.
     const { max } = run.summary().before_mm.both;
     assert.ok(paths.largest <= max + 1e-9 && paths.largest > 0.9 * max);
-    const [low, high] = paths.box(0);
+    const [low, high] = paths.box;
     for (let row = 0; row < paths.count; row++)
       paths.desired(row).forEach((v, i) => assert.ok(v >= low[i] && v <= high[i]));
   });
@@ -180,7 +183,7 @@ describe("the paths", () => {
   test("the magnification is round, and shows the deviation as up to a tenth of the path", () => {
     const factor = paths.factor();
     assert.match(String(factor), /^[125]0*$/);
-    const [low, high] = paths.box(0);
+    const [low, high] = paths.box;
     const share = (factor * paths.largest) / Math.max(...high.map((v, i) => v - low[i]));
     assert.ok(share <= 0.1 + 1e-9 && share > 0.03, `${share}`);
   });
@@ -190,7 +193,7 @@ describe("the paths", () => {
     for (let k = 0; k < 50; k++) {
       const camera = someCamera(next);
       const factor = one(next, [1, 10, 100]);
-      camera.fit(paths.box(factor));
+      camera.fit(cornersOf(paths.box));
       const { width, height } = camera;
       const m = camera.matrix();
       const place = [width * (0.3 + 0.4 * next()), height * (0.3 + 0.4 * next())];

@@ -33,7 +33,8 @@ import { formatNumber } from "./page/number.js";
  *
  * @typedef {{
  *   flawed: boolean,
- *   problem: { message: string, go(): void } | undefined,
+ *   reload(): void,
+ *   problem: { message: string, go(): void, limit?: { label: string, go(): void } } | undefined,
  *   clearErrors(): void,
  *   showError(error: Failure): boolean,
  * }} Inputs
@@ -70,7 +71,7 @@ export const STATES = ["empty", "computing", "preview", "current", "stale", "sto
  * A form that is not built yet.
  * @type {Inputs}
  */
-const NO_FORM = { flawed: false, problem: undefined, clearErrors() {}, showError: () => false };
+const NO_FORM = { flawed: false, problem: undefined, clearErrors() {}, reload() {}, showError: () => false };
 
 export class Calculator {
   /** @type {State} */

@@ -6,7 +6,8 @@ import { setCharts, showPanel } from "./chart/panel.js";
 import * as core from "./core/client.js";
 import { chartsIn, fieldsIn, isLinked, jobOf, optionsIn } from "./embed-options.js";
 import { Form } from "./form/form.js";
-import { Job, merged } from "./job/job.js";
+import { merged } from "./job/data.js";
+import { Job } from "./job/job.js";
 import { fragmentOf } from "./job/link.js";
 import { byId } from "./page/dom.js";
 import { lend } from "./page/settings.js";
@@ -19,7 +20,7 @@ import { showWarnings } from "./result/warnings.js";
 import { makeScene } from "./scene/view.js";
 
 /**
- * @import { Summary } from "../pkg/armill.js"
+ * @import { Remedy, Summary } from "../pkg/armill.js"
  * @import { Shown } from "./calculator.js"
  * @import { Failure } from "./core/client.js"
  * @import { Options } from "./embed-options.js"
@@ -45,22 +46,26 @@ const calculator = new Calculator(core, {
 
 /**
  * After every edit; the way to the whole page takes the inputs along.
- * @param {unknown} _
+ * @param {string} [_typing]
  * @param {boolean} [stepped]
  */
-function edited(_, stepped) {
+function edited(_typing, stepped) {
   origin = "";
   link();
   calculator.edited(stepped);
 }
 
-/** Applies the remedy of a warning. */
+/**
+ * Applies the remedy of a warning.
+ * @param {Remedy["patch"]} patch
+ */
 function remedy(patch) {
   job.load(merged(job.data, patch));
   calculator.form.reload();
   edited();
 }
 
+/** @param {Partial<Failure>} error */
 function cannotStart(error) {
   byId("verdict").textContent = "The calculator could not start.";
   status.become("stale");
@@ -83,6 +88,7 @@ function show({ summary, charts }) {
   }
 }
 
+/** @param {Summary} summary */
 function showFigures({ verdict, verdict_state, how_sure, before_mm, after_mm, cut, warnings, fingerprint }) {
   byId("stock").hidden = !cut.stock;
   byId("stock").textContent = cut.stock ? `Engagement from the stock: ${cut.stock}.` : "";
@@ -90,7 +96,7 @@ function showFigures({ verdict, verdict_state, how_sure, before_mm, after_mm, cu
   byId("results").dataset.verdict = verdict_state;
   byId("expected").textContent = how_sure.sentence;
   showWarnings(warnings, remedy);
-  for (const [row, { mean, max }] of [
+  for (const [row, { mean, max }] of /** @type {[string, Summary["after_mm"]][]} */ ([
     [".before", before_mm.both],
     [".after", after_mm],
   ])) {

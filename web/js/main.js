@@ -33,6 +33,13 @@ import { makeArmView } from "./scene/sketch.js";
 import { makeScene } from "./scene/view.js";
 import { begun } from "./start.js";
 
+/**
+ * @import { ChartEntry, Summary } from "../pkg/armill.js"
+ * @import { Shown, State } from "./calculator.js"
+ * @import { Failure } from "./core/client.js"
+ * @import { JobData } from "./job/data.js"
+ */
+
 const FILES = ["download-compensated", "download-columns", "download-program", "export-format", "all-figures"];
 const OF_RESULT = [...FILES, "share", "pin"];
 
@@ -42,8 +49,11 @@ await begun;
 let job;
 /** @type {Session} */
 let session;
+/** @type {ReturnType<typeof makeTabs>} */
 let tabs;
+/** @type {string} */
 let arm; // the robot of the inputs, by its key
+/** @type {{ job: JobData, opening: JobData }} */
 let examples; // the core's own jobs: `opening`, and `job`, the thesis's
 
 const present = { job: () => job?.data, use: (/** @type {JobData} */ changed) => session.load(changed) };
@@ -52,7 +62,10 @@ const placement = makePlacement(byId("placement"), present);
 const identify = makeIdentify(byId("identify"), present);
 const armView = makeArmView((text) => core.armAtZero(text));
 const calculator = new Calculator(core, { ...status, become, show, progress, remedyFor });
-const compare = makeCompare({ shown: () => calculator.shown, load: (changed) => session.load(changed) });
+const compare = makeCompare({
+  shown: () => calculator.shown,
+  load: (changed) => session.load(changed),
+});
 const showTitle = makeTitle(
   () => job,
   () => session,
@@ -66,14 +79,24 @@ const opening = makeOpening({
 });
 
 /**
+ * @param {string} id of a button or a choice
+ * @param {boolean} disabled
+ */
+function disable(id, disabled) {
+  const control = /** @type {HTMLButtonElement} */ (byId(id));
+  control.disabled = disabled;
+}
+
+/**
  * A result of other inputs than those on the page is shared with its own, but not milled.
  * @param {State} state
  */
 function become(state) {
   status.become(state);
-  if (state === "stale") for (const id of FILES) byId(id).disabled = true;
+  if (state === "stale") for (const id of FILES) disable(id, true);
 }
 
+/** @param {number} fraction */
 function progress(fraction) {
   byId("progress").value = fraction;
 }
@@ -94,7 +117,7 @@ function show(shown) {
   judgeTakeAway(shown);
   identify.look();
   placement.look();
-  for (const id of OF_RESULT) byId(id).disabled = shown.preview;
+  for (const id of OF_RESULT) disable(id, shown.preview);
 }
 
 /** Figures and tables of the shown result, in the units of the settings. */
@@ -120,12 +143,17 @@ async function takeLines({ program, duration_s, samples }) {
   }
 }
 
-/** Opens the view of a chart and brings it into sight. */
+/**
+ * Opens the view of a chart and brings it into sight.
+ * @param {string} view
+ * @param {string} name
+ */
 function showChart(view, name) {
   tabs.choose(view);
   requestAnimationFrame(() => byId(`chart-${name}`)?.scrollIntoView({ block: "nearest" }));
 }
 
+/** @param {Failure} error */
 function remedyFor({ code, field }) {
   if (!["unreachable", "branch-ends"].includes(code) && field !== "path") return undefined;
   return { label: "Place the path in front of this robot", go: placeInFront };
@@ -153,14 +181,21 @@ function edited(stepped) {
   if (!calculator.form.flawed) armView.show(job);
 }
 
-/** After an edit in the form: another robot has neither the tool's frame nor the part's place of the last. */
+/**
+ * After an edit in the form: another robot has neither the tool's frame nor the part's place of the last.
+ * @param {string} [typing]
+ * @param {boolean} [stepped]
+ */
 function typed(typing, stepped) {
   const { preset } = job.data.robot;
   if (preset && preset !== arm) ask(job.data, "robot");
   session.edited(typing, stepped);
 }
 
-/** On a phone the inputs fold away; elsewhere they always show. */
+/**
+ * On a phone the inputs fold away; elsewhere they always show.
+ * @param {boolean} away
+ */
 function foldInputs(away) {
   byId("inputs").classList.toggle("open", !away);
   byId("inputs-toggle").setAttribute("aria-expanded", String(!away));
@@ -182,7 +217,7 @@ async function save(format, name) {
 /** All figures of the thesis, as they are for the shown result: drawings and values in one archive. */
 async function saveFigures() {
   try {
-    const figures = figuresIn(calculator.shown.charts);
+    const figures = figuresIn(calculator.shown?.charts ?? []);
     const texts = await chartTexts(figures.map(({ name }) => name));
     const files = figures.flatMap(({ number, name }) =>
       ["svg", "csv"].map((format) => [`fig-${number}-${name}.${format}`, texts.get(name)[format]]),
@@ -220,7 +255,7 @@ function wire() {
   byId("inputs-toggle").addEventListener("click", () => foldInputs(byId("inputs").classList.contains("open")));
   byId("form").addEventListener("submit", (event) => event.preventDefault());
   wireResultTools();
-  fixChart(byId("curve").querySelector(".charts"), "before-after");
+  fixChart(/** @type {HTMLElement} */ (byId("curve").querySelector(".charts")), "before-after");
   tabs = makeTabs((panel) => {
     showPanel(panel);
     rememberPanels({ tab: panel.id.replace("panel-", "") });
@@ -228,7 +263,7 @@ function wire() {
     if (panel.id === "panel-identify") identify.look();
     if (panel.id === "panel-placement") placement.look();
   });
-  if (!tabs.show(viewIn(location.hash)) && !tabs.show(openPanels().tab)) showPanel(tabs.current());
+  if (!tabs.show(viewIn(location.hash) ?? "") && !tabs.show(openPanels().tab ?? "")) showPanel(tabs.current());
 }
 
 /** What is done with the shown result as a whole: shared, pinned, read in other units. */
@@ -236,8 +271,9 @@ function wireResultTools() {
   /** @param {(shown: Shown) => void} act */
   const withShown = (act) => () => calculator.shown && act(calculator.shown);
   const share = shareDialog();
-  byId("share").addEventListener("click", () =>
-    share({ ...calculator.shown, job: calculator.shown.job, standard: examples.job }),
+  byId("share").addEventListener(
+    "click",
+    withShown((shown) => share({ ...shown, job: shown.job, standard: examples.job })),
   );
   settingsPanel(byId("settings"));
   followTheme();

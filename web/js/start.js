@@ -3,7 +3,7 @@
 
 import { kept } from "./job/autosave.js";
 import * as core from "./core/client.js";
-import { textOf } from "./job/job.js";
+import { textOf } from "./job/data.js";
 import { exampleIn, holdsJob } from "./job/link.js";
 import { applyTheme } from "./page/theme.js";
 

@@ -7,25 +7,46 @@ import { ends } from "./view.js";
 
 let apart = false; // whether a result of another duration is drawn with the shown one
 
-/** Takes over whether results of different durations are compared: those line up by length only. */
+/**
+ * Takes over whether results of different durations are compared: those line up by length only.
+ * @param {boolean} whether
+ */
 export const setApart = (whether) => void (apart = whether);
 
+/** @import { ChartUnits, Over } from "../../pkg/armill.js" */
+
+/** @returns {Over} */
 const automatic = () => (apart ? "length" : "time");
 
-/** What holds for a chart that has the axes `list`. */
+/**
+ * What holds for a chart that has the axes `list`.
+ * @param {Over[]} list
+ * @returns {Over}
+ */
 export function overIn(list) {
-  const chosen = setting("over") === "auto" ? automatic() : setting("over");
+  const chosen = setting("over") === "auto" ? automatic() : /** @type {Over} */ (setting("over"));
   return list.includes(chosen) ? chosen : "time";
 }
 
-/** Chooses an axis for all charts. What would hold anyway is no choice: it may change again. */
+/**
+ * Chooses an axis for all charts. What would hold anyway is no choice: it may change again.
+ * @param {Over} over
+ */
 export const chooseOver = (over) => choose("over", over === automatic() ? "auto" : over);
 
-/** The range of one axis as the range of another that shows the same samples; null for all. */
+/**
+ * The range of one axis as the range of another that shows the same samples; null for all.
+ * @param {[number, number] | null} range
+ * @param {Over} from
+ * @param {Over} to
+ * @returns {Promise<[number, number] | null>}
+ */
 export async function carried(range, from, to) {
   if (!range) return null;
   try {
-    const values = async (over) => (await core.chartData("coordinates", { length: setting("length"), over }))[0].values;
+    const length = /** @type {ChartUnits["length"]} */ (setting("length"));
+    /** @param {Over} over */
+    const values = async (over) => (await core.chartData("coordinates", { length, over }))[0].values;
     const [before, after] = [await values(from), await values(to)];
     const [low, high] = ends(before, { min: range[0], max: range[1] }).map((index) => after[index]);
     return high > low ? [low, high] : null;

@@ -4,6 +4,11 @@
 import { makeSvg } from "../page/dom.js";
 import { fractionOf } from "./view.js";
 
+/**
+ * @import { Chart } from "../../pkg/armill.js"
+ * @import { Axis } from "./view.js"
+ */
+
 const MOST_LETTERS = 3; // curves of a result that have its letter each
 const LETTER_PX = 14; // height of a letter with some room
 const SPILL = 4; // what a line at the edge needs beside the plot [px]
@@ -38,6 +43,10 @@ export function drawingOf(chart) {
 /**
  * Puts a pinned result's curves below those of this drawing, whose axes are the same. Its letter stands
  * at them: at each, or where they are many at the first.
+ * @param {SVGElement} svg
+ * @param {SVGElement} other
+ * @param {string} letter
+ * @param {Chart["plot"]} area
  */
 export function layBelow(svg, other, letter, area) {
   const curves = ":scope > g:has(.series)";
@@ -50,7 +59,12 @@ export function layBelow(svg, other, letter, area) {
   }
 }
 
-/** Writes a letter at a curve, each letter at a place of its own along the plot. */
+/**
+ * Writes a letter at a curve, each letter at a place of its own along the plot.
+ * @param {Element} layer
+ * @param {string} letter
+ * @param {Chart["plot"]} area
+ */
 function mark(layer, letter, { left, top, width }) {
   const wanted = left + width * (0.1 + 0.15 * (letter.charCodeAt(0) - "A".charCodeAt(0)));
   const at = placeOn([...layer.querySelectorAll("polyline")].map(pointsOf), wanted);
@@ -58,27 +72,36 @@ function mark(layer, letter, { left, top, width }) {
   const y = at[1] - top > LETTER_PX ? at[1] - 4 : at[1] + LETTER_PX; // above the curve, if that is in the plot
   layer
     .querySelector(".series")
-    .append(makeSvg("text", { class: "letter", x: at[0], y, "text-anchor": "middle" }, letter));
+    ?.append(makeSvg("text", { class: "letter", x: at[0], y, "text-anchor": "middle" }, letter));
 }
 
+/** @param {Element} line */
 const pointsOf = (line) =>
-  line
-    .getAttribute("points")
+  String(line.getAttribute("points"))
     .split(" ")
     .map((point) => point.split(",").map(Number));
 
-/** The point of these lines at `x`, or their nearest end. */
+/**
+ * The point of these lines at `x`, or their nearest end.
+ * @param {number[][][]} lines
+ * @param {number} x
+ */
 function placeOn(lines, x) {
   for (const line of lines)
     for (let k = 1; k < line.length; k++) {
       const [[x0, y0], [x1, y1]] = [line[k - 1], line[k]];
       if (x0 <= x && x <= x1 && x1 > x0) return [x, y0 + ((x - x0) / (x1 - x0)) * (y1 - y0)];
     }
-  const ends = lines.flatMap((line) => [line[0], line.at(-1)]);
+  const ends = lines.flatMap((line) => [line[0], line[line.length - 1]]);
   return ends.sort((a, b) => Math.abs(a[0] - x) - Math.abs(b[0] - x))[0];
 }
 
-/** Moves and stretches the data of a drawing to where they stand with the axes `x` and `y`. */
+/**
+ * Moves and stretches the data of a drawing to where they stand with the axes `x` and `y`.
+ * @param {SVGElement} svg
+ * @param {Chart} chart
+ * @param {{ x: Axis, y: Axis }} axes
+ */
 export function moveDrawing(svg, { plot, x: drawnX, y: drawnY }, { x, y }) {
   const [left, right] = [fractionOf(drawnX, x.min), fractionOf(drawnX, x.max)];
   const [low, high] = [fractionOf(drawnY, y.min), fractionOf(drawnY, y.max)];

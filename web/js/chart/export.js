@@ -19,23 +19,35 @@ const MARGIN = 12;
 const TITLE = 28; // height of the title's line
 const LINE = 20; // and of one of the legend
 
+/** @import { Content } from "./readout.js" */
+
 /**
  * A chart as a file "svg", "png" or "csv", { type, content }: of what is shown, { chart, data, times,
  * hidden }, the drawing `svg` and the legend on the page.
+ * @param {string} format
+ * @param {Content & { times: ArrayLike<number> }} content
+ * @param {SVGElement} svg
+ * @param {HTMLElement} legend
  */
 export async function fileOf(format, { chart, data, times, hidden }, svg, legend) {
   if (format === "csv") {
     const timed = times === data[0].values;
     return { type: "text/csv", content: csvText(timed ? data : [{ key: "time_s", values: times }, ...data]) };
   }
+  /** @type {{ label: string, sample: SVGElement }[]} */
   const entries = chart.series
     .filter(({ key }) => !hidden.includes(key))
     .map((series) => ({
       label: series.label,
-      sample: legend.querySelector(`[data-key="${CSS.escape(series.key)}"] .sample`) ?? sample(series),
+      sample:
+        /** @type {SVGElement | null} */ (legend.querySelector(`[data-key="${CSS.escape(series.key)}"] .sample`)) ??
+        sample(series),
     }));
   for (const entry of legend.querySelectorAll(".pinned"))
-    entries.push({ label: entry.textContent, sample: entry.querySelector(".sample") });
+    entries.push({
+      label: String(entry.textContent),
+      sample: /** @type {SVGElement} */ (entry.querySelector(".sample")),
+    });
   const text = svgText(chart, svg, entries);
   return format === "svg"
     ? { type: "image/svg+xml", content: text }
@@ -45,6 +57,9 @@ export async function fileOf(format, { chart, data, times, hidden }, svg, legend
 /**
  * The chart as SVG text with title and legend, looking as it does now. `legend` is [{ label, sample
  * }].
+ * @param {Chart} chart
+ * @param {SVGElement} plot
+ * @param {{ label: string, sample: SVGElement }[]} legend
  */
 function svgText(chart, plot, legend) {
   const style = getComputedStyle(plot);
@@ -116,7 +131,11 @@ function dressed(element) {
   return copy.tagName === "svg" && element.classList.contains("sample") ? makeSvg("g", {}, ...copy.childNodes) : copy;
 }
 
-/** The drawing as a PNG of twice its size. */
+/**
+ * The drawing as a PNG of twice its size.
+ * @param {string} svg
+ * @returns {Promise<Blob>}
+ */
 async function pngOf(svg) {
   const address = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
   try {
@@ -133,7 +152,10 @@ async function pngOf(svg) {
   }
 }
 
-/** Every sample of the chart's columns; the units stand in the header. */
+/**
+ * Every sample of the chart's columns; the units stand in the header.
+ * @param {{ key: string, values: ArrayLike<number> }[]} data
+ */
 function csvText(data) {
   const rows = [data.map(({ key }) => key).join(",")];
   for (let k = 0; k < data[0].values.length; k++) rows.push(data.map(({ values }) => values[k]).join(","));

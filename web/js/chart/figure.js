@@ -21,11 +21,29 @@ import { drawnTogether } from "./together.js";
 import { toolbar } from "./toolbar.js";
 import { between, ends, fractionOf, nearest, ranged, scaled, scan, shifted, valueAt } from "./view.js";
 
+/**
+ * @import { Axis, Chart, ChartColumn, ChartEntry, ChartOptions, ChartUnits, ChartValues, Over } from "../../pkg/armill.js"
+ * @import { Pointed } from "./gestures.js"
+ * @import { Content } from "./readout.js"
+ * @import { Range } from "./view.js"
+ * @import { Beside } from "./together.js"
+ */
+
+/**
+ * What draws a chart and has its values.
+ *
+ * @typedef {{
+ *   chart(name: string, options: ChartOptions): Promise<Chart>,
+ *   chartData(name: string, units: ChartValues): Promise<ChartColumn[]>,
+ * }} Values
+ */
+
 const LOWEST_PX = 120; // of a chart that fills its place
 const REACH_PX = 60; // a path in space is read off from no further away
 
 export class Figure {
   fills = false; // whether it is as high as its place instead of as suits its width
+  /** @type {Beside[]} */
   beside = []; // pinned results, { letter, name, chart(name, options) }, that are drawn with it
   #plot = make("div", { className: "drawing", tabIndex: 0, role: "slider", "aria-describedby": "chart-keys" });
   #table = make("div", { className: "chart-table", tabIndex: 0, role: "region", hidden: true });
@@ -39,10 +57,12 @@ export class Figure {
   #values;
   /** @type {any} */
   #svg = null;
-  #chart = null; // as drawn last
+  /** @type {Chart} */
+  #chart = /** @type {any} */ (null); // as drawn last
   selecting = false; // whether a drag selects
   #picker;
   #samples;
+  /** @type {{ x: Range | null, y: Range | null }} */
   #view = { x: null, y: null }; // ranges asked for; null: all
   /** @type {number | null} */
   #index = null; // the sample at the cursor
@@ -54,12 +74,13 @@ export class Figure {
   /** @type {Promise<void> | null} */
   #drawing = null;
   #drawnAt = { width: 0, height: 0 };
+  /** @type {{ width: number, height: number } | null} */
   #room = null; // to draw in, measured when it may have changed: to ask makes the browser lay out the page
 
   /**
    * `link(figure, range)` is called when the range of time changes, to take the other charts along.
    * `values` draws it and has its values: the shown result.
-   * @param {Pick<ChartEntry, "name" | "title" | "figure" | "kind">} entry
+   * @param {Pick<ChartEntry, "name" | "title" | "figure" | "kind"> & { over?: Over[] }} entry
    * @param {(figure: Figure, range: Range | null) => void} link
    * @param {Values} [values]
    */
@@ -70,7 +91,7 @@ export class Figure {
       axis: () => this.#axes.x,
       content: () => this.#content,
       samples: this.#samples,
-      lengths: () => values.column("arc_length_mm"),
+      lengths: () => shownOf(values).column("arc_length_mm"),
       mark: () => this.#chart && this.#mark(),
     });
     this.axes = over; // what it can be drawn over
@@ -126,10 +147,11 @@ export class Figure {
       this.#drawnAt = size;
       if (!this.fills) this.#plot.style.setProperty("min-height", `${size.height}px`);
       const { x, y } = this.#view;
+      /** @type {ChartOptions} */
       const options = {
         ...size,
         ...this.#request,
-        ...(!this.plane && { scale: setting(`scale-${this.name}`) }),
+        ...(!this.plane && { scale: /** @type {ChartOptions["scale"]} */ (setting(`scale-${this.name}`)) }),
         hidden: this.#legend.hidden,
         ...(x && { x_range: x }),
         ...(y && { y_range: y }),
@@ -166,6 +188,7 @@ export class Figure {
     return { width, height: Math.round(height) };
   }
 
+  /** @param {{ own: Chart, others: { pin: Beside, chart: Chart }[] }} drawn */
   #show({ own: chart, others }) {
     this.#chart = chart;
     this.#svg = drawingOf(chart);
@@ -178,7 +201,10 @@ export class Figure {
     this.#caption.textContent = chart.description;
     this.#legend.show(
       chart.series,
-      others.map(({ pin: { letter, name } }) => ({ letter, name })),
+      others.map(({ pin: { letter, name } }) => ({
+        letter,
+        name,
+      })),
     );
     this.#tools.show(chart, this.over, this.axes);
     this.#move();
@@ -229,7 +255,10 @@ export class Figure {
     if (moved && !linked && this.kind === "time") this.#link(this, x);
   }
 
-  /** Draws by decades or in even steps from now on; a range of values chosen on the other scale goes. */
+  /**
+   * Draws by decades or in even steps from now on; a range of values chosen on the other scale goes.
+   * @param {any} log
+   */
   #rescale(log) {
     choose(`scale-${this.name}`, log ? "log" : "linear");
     this.zoom(undefined, null);
@@ -392,7 +421,7 @@ export class Figure {
   clear() {
     this.#before = undefined;
     this.#set(null);
-    if (stretch()) setStretch(null);
+    if (stretch()) setStretch(null, null, false);
   }
 
   /**
@@ -420,12 +449,19 @@ export class Figure {
     this.#keep(last ? to : from);
   }
 
-  /** The first and the last sample that are seen. */
+  /**
+   * The first and the last sample that are seen.
+   * @param {ArrayLike<number>} values
+   * @param {Axis} x
+   */
   #ends(values, x) {
     return this.plane ? [0, values.length - 1] : ends(values, x);
   }
 
-  /** Sets the cursor to stay, and brings it into view. */
+  /**
+   * Sets the cursor to stay, and brings it into view.
+   * @param {number} index
+   */
   #keep(index) {
     this.#set(index);
     this.#stay();
@@ -454,7 +490,7 @@ export class Figure {
     if ((this.overRun ? time : this.#local) === null) return this.#at(null);
     if (!this.#data && !(await this.#samples.fetch())) return;
     if (!this.overRun) this.#at(this.#local);
-    else if (time === cursor()) this.#at(nearest(this.#times, time));
+    else if (time === cursor()) this.#at(nearest(this.#times, Number(time)));
   }
 
   /** @param {number | null} index */
@@ -465,7 +501,7 @@ export class Figure {
     this.#mark();
     const line = this.#line;
     const time = this.#times !== this.#data?.[0].values ? this.#times : null; // beside what it is drawn over
-    this.#readout.show({ ...this.#content, time }, this.#index, line, () => showLine(line));
+    this.#readout.show({ ...this.#content, time }, this.#index, line, () => this.go());
     this.#tell();
   }
 
@@ -495,32 +531,43 @@ export class Figure {
     this.#marks.stretch(this.#content, this.#axes, this.#picker.samples());
   }
 
+  /** @returns {ChartColumn[]} */
   get #data() {
-    return this.#samples.data;
+    return /** @type {any} */ (this.#samples.data); // those who need them wait for them
   }
 
+  /** @returns {Float64Array} */
   get #times() {
-    return this.#samples.times;
+    return /** @type {any} */ (this.#samples.times);
   }
 
-  /** The values, and the time of each sample. */
+  /**
+   * The values, and the time of each sample.
+   * @returns {Promise<[ChartColumn[], Float64Array]>}
+   */
   async #ask() {
     const timed = !this.axes.length || this.over === "time";
-    const times = timed ? null : this.#values.column("time_s");
+    const times = timed ? null : shownOf(this.#values).column("time_s");
     const data = await this.#values.chartData(this.name, this.#request);
     return [data, (await times) ?? data[0].values];
   }
 
   // -- Selection of a stretch, see select.js --
 
+  /**
+   * @param {[number, number] | null} a
+   * @param {[number, number] | null} b
+   * @param {boolean} complete
+   */
   select(a, b, complete) {
-    return this.#picker.drag(a[0], b[0], complete);
+    if (a && b) return this.#picker.drag(a[0], b[0], complete);
   }
 
   markEnd() {
     if (this.kind === "time") return this.#picker.markEnd(this.#index);
   }
 
+  /** @param {boolean} complete */
   followStretch(complete) {
     return this.#picker.follow(complete);
   }
@@ -555,11 +602,19 @@ export class Figure {
     return { svg: svg.content, csv: csv.content };
   }
 
+  /** @param {string} format */
   #file(format) {
     return fileOf(format, { ...this.#content, times: this.#times }, this.#svg, this.#legend.node);
   }
 }
 
+/**
+ * Charts over the run are drawn by the shown result alone, which has its columns too.
+ * @param {Values} values
+ */
+const shownOf = (values) => /** @type {typeof core} */ (values);
+
+/** @param {HTMLElement} element */
 const roomIn = ({ clientWidth, clientHeight }) => ({ width: clientWidth, height: clientHeight });
 
 /** @returns {ChartUnits} */

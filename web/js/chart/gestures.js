@@ -6,6 +6,12 @@
 // token and `drag(token, dx, dy, scale, place)`: the view as it was when grabbed, moved; `zoomed`;
 // `select(a, b, complete)` and `markEnd()` for a stretch, by dragging if `selecting`.
 
+/** @import { Figure } from "./figure.js" */
+
+/** @typedef {[x: number, y: number]} Point in pixels, or as fractions of the plot: across and up */
+
+/** @typedef {{ clientX: number, clientY: number }} Pointed an event, as far as it says where */
+
 const CLICK_PX = 4; // a press that moves less is a click
 const THIN_PX = 12; // a box thinner than this zooms one axis only
 const WHEEL = 0.0015; // exponent of the zoom for each pixel of the wheel
@@ -68,7 +74,7 @@ export function listen(plot, chart) {
     const before = held;
     release(event);
     if (before?.kind === "scrub" || (before?.kind === "box" && !before.moved)) chart.pin(chart.place(event, true));
-    else if (before?.corners) chart.zoomBox(...before.corners);
+    else if (before?.corners) chart.zoomBox(before.corners[0], before.corners[1]);
     else if (before?.kind === "select" && before.moved)
       chart.select(chart.place(before.start, true), chart.place(event, true), true);
     else if (before?.kind === "select") chart.pin(chart.place(event, true));

@@ -31,7 +31,11 @@ export class Legend {
     return this.#keys.filter((key) => this.#hidden.has(key));
   }
 
-  /** Takes over the series of a drawing, and the pinned results, { letter, name }, whose curves are below. */
+  /**
+   * Takes over the series of a drawing, and the pinned results, { letter, name }, whose curves are below.
+   * @param {Series[]} series
+   * @param {{ letter: string, name: string }[]} pinned
+   */
   show(series, pinned) {
     const said = JSON.stringify([series, pinned]);
     if (this.node.dataset.series === said) return; // buttons keep the focus
@@ -89,7 +93,10 @@ function entry(series) {
   return make("li", {}, button);
 }
 
-/** A pinned result has one colour in all its curves, and the dashes of theirs. */
+/**
+ * A pinned result has one colour in all its curves, and the dashes of theirs.
+ * @param {{ letter: string, name: string }} given
+ */
 const pinnedEntry = ({ letter, name }) =>
   make(
     "li",

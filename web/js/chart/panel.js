@@ -9,8 +9,9 @@ import { onSetting } from "../page/settings.js";
 import { onStretch } from "../page/stretch.js";
 
 /**
- * @import { ChartEntry } from "../../pkg/armill.js"
- * @import { Values } from "./figure.js"
+ * @import { ChartEntry, Over } from "../../pkg/armill.js"
+ * @import { Beside } from "./together.js"
+ * @import { Pin } from "../result/pinned.js"
  * @import { Range } from "./view.js"
  */
 
@@ -18,11 +19,16 @@ import { onStretch } from "../page/stretch.js";
 let available = []; // of the shown result
 /** @type {HTMLElement | null} */
 let panel = null;
+/** @type {{ place: HTMLElement, name: string } | null} */
 let fixed = null; // { place, name }: the chart that is always in sight
 let turn = 0; // drawing that is no longer the latest one stops
+/** @type {Beside[]} */
 let beside = []; // pinned results that are drawn with the shown one
+/** @type {Over} */
 let over = "time"; // what all charts over the run are drawn over
+/** @type {Range | null} */
 let range = null; // of that
+/** @type {Map<string, Figure>} */
 const figures = new Map(); // chart name -> Figure
 
 /**
@@ -39,24 +45,37 @@ export function setCharts(list) {
 /**
  * Draws the curves of pinned results, { letter, name, chart(name, options) }, with those of the shown
  * one; `apart` if they take longer or shorter.
+ * @param {Pin[]} pins
+ * @param {boolean} apart
  */
 export function setBeside(pins, apart) {
   setApart(apart);
   followOver();
+  /** @param {Pick<Pin, "letter" | "name" | "text">} pin */
   const state = (pin) => `${pin.letter} ${pin.name} ${pin.text}`;
   if (pins.map(state).join() === beside.map(state).join()) return;
-  beside = pins.map((pin) => ({ ...pin, chart: (...how) => pin.chart(...how) }));
+  beside = pins.map((pin) => ({
+    ...pin,
+    chart: (name, options) => pin.chart(name, options),
+  }));
   for (const figure of figures.values()) figure.beside = beside;
   draw();
 }
 
-/** Draws the chart `name` in `place`, as large as that is, whichever panel is shown. */
+/**
+ * Draws the chart `name` in `place`, as large as that is, whichever panel is shown.
+ * @param {HTMLElement} place
+ * @param {string} name
+ */
 export function fixChart(place, name) {
   fixed = { place, name };
   resized.observe(place);
 }
 
-/** Charts of the shown result as texts, name -> { svg, csv }, drawn out of sight at the width of a page. */
+/**
+ * Charts of the shown result as texts, name -> { svg, csv }, drawn out of sight at the width of a page.
+ * @param {string[]} names
+ */
 export async function chartTexts(names) {
   const place = make("div", { className: "charts unseen", "aria-hidden": "true" });
   document.body.append(place);
@@ -74,7 +93,10 @@ export async function chartTexts(names) {
   return texts;
 }
 
-/** Draws the charts of `shown`, and again whenever its width changes. */
+/**
+ * Draws the charts of `shown`, and again whenever its width changes.
+ * @param {HTMLElement} shown
+ */
 export function showPanel(shown) {
   if (panel) resized.unobserve(panel);
   panel = shown;
@@ -87,7 +109,7 @@ onCursor((time, from) => {
   for (const figure of figures.values()) if (figure !== from && figure.overRun) figure.follow(time);
 });
 
-onStretch((from, complete) => {
+onStretch((_, complete) => {
   for (const figure of figures.values()) if (figure.kind === "time") figure.followStretch(complete);
 });
 
@@ -119,7 +141,11 @@ async function followOver() {
   draw();
 }
 
-/** Zooming one chart over time takes the others along. */
+/**
+ * Zooming one chart over time takes the others along.
+ * @param {Figure} from
+ * @param {Range | null} x
+ */
 function link(from, x) {
   range = x;
   for (const figure of figures.values()) if (figure !== from && figure.kind === "time") figure.zoom(x, undefined, true);
@@ -135,7 +161,6 @@ function figureOf(entry) {
     if (figure.kind === "time") figure.zoom(range, null, true);
     figures.set(entry.name, figure);
   }
-  const figure = figures.get(entry.name);
   figure.axes = entry.over ?? [];
   return figure;
 }
@@ -151,7 +176,8 @@ async function draw() {
   const view = panel.id.replace("panel-", "");
   const always = available.filter(({ name }) => name === fixed?.name).map(figureOf);
   const shown = available.filter((chart) => chart.view === view && chart.name !== fixed?.name).map(figureOf);
-  if (always.length) put(fixed.place, always);
+  if (fixed && always.length) put(fixed.place, always);
+  /** @type {HTMLElement | null} */
   const place = panel.querySelector(".charts");
   if (place) put(place, shown);
   for (const figure of [...always, ...shown]) {
@@ -164,7 +190,11 @@ async function draw() {
   }
 }
 
-/** Has a place hold these figures, in this order. */
+/**
+ * Has a place hold these figures, in this order.
+ * @param {HTMLElement} place
+ * @param {Figure[]} list
+ */
 function put(place, list) {
   const as = list.every((figure, i) => place.children[i] === figure.node) && place.children.length === list.length;
   if (!as) place.replaceChildren(...list.map((figure) => figure.node));

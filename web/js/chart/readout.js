@@ -24,10 +24,14 @@ export function read(value, unit, places = PLACES[unit] ?? 4) {
   return value !== 0 && Number(text) === 0 ? formatNumber(value, 2) : text.replace("-", "\u2212");
 }
 
-/** A value of the first axis with the digits that tell it from its neighbours; of a line, its number. */
+/**
+ * A value of the first axis with the digits that tell it from its neighbours; of a line, its number.
+ * @param {{ key?: string, values: ArrayLike<number> }} column
+ * @param {number} index
+ */
 export function readAlong({ key, values }, index) {
   if (key === "program_line") return String(Math.floor(values[index]));
-  const step = values.length > 2 ? (values.at(-1) - values[0]) / (values.length - 1) : 1;
+  const step = values.length > 2 ? (values[values.length - 1] - values[0]) / (values.length - 1) : 1;
   return read(values[index], "", Math.min(6, Math.max(0, Math.ceil(-Math.log10(step) - 1e-6))));
 }
 
@@ -47,12 +51,17 @@ export class Readout {
   /**
    * Shows a sample, or none if `index` is null: also its time, if `time` has them. `line` is the
    * program's, `go` leads there.
+   * @param {Content & { time?: ArrayLike<number> | null }} content
+   * @param {number | null} index
+   * @param {number | null | undefined} [line]
+   * @param {() => void} [go]
    */
   show({ chart, data, hidden, time }, index, line, go) {
     if (index === null) return this.node.replaceChildren();
     const [first] = data;
     const at = make("b", {}, readAlong(first, index));
-    at.dataset.value = first.values[index];
+    at.dataset.value = String(first.values[index]);
+    /** @type {HTMLElement[]} */
     const parts = [make("span", {}, `${first.label} `, at, first.unit && ` ${first.unit}`)];
     if (time) parts.push(make("span", {}, `Time ${readAlong({ values: time }, index)} s`));
     columnsOf(chart, data).forEach((columns, i) => {
@@ -70,7 +79,7 @@ export class Readout {
     if (data[1]?.unit) parts[parts.length - 1].append(` ${data[1].unit}`);
     if (line) {
       const button = make("button", { type: "button", className: "quiet" }, `line ${line} of the program`);
-      button.addEventListener("click", go);
+      if (go) button.addEventListener("click", go);
       parts.push(button);
     }
     this.node.replaceChildren(...parts);
@@ -124,7 +133,12 @@ export class Marks {
     this.#dots.replaceChildren(...dots);
   }
 
-  /** Marks the samples between two, or none. */
+  /**
+   * Marks the samples between two, or none.
+   * @param {Pick<Content, "chart" | "data">} content
+   * @param {{ x: Axis }} axes
+   * @param {[number, number] | null} samples
+   */
   stretch({ chart, data }, { x }, samples) {
     this.#stretch.classList.toggle("on", Boolean(samples));
     if (!samples) return;
@@ -135,7 +149,10 @@ export class Marks {
     set(this.#stretch, { x: left + from * width, y: top, width: Math.max(1, (to - from) * width), height });
   }
 
-  /** Draws the box from one corner to another [px], or none. */
+  /**
+   * Draws the box from one corner to another [px], or none.
+   * @param {[number, number][] | null} corners
+   */
   box(corners) {
     this.#box.classList.toggle("on", Boolean(corners));
     if (!corners) return;

@@ -1,14 +1,22 @@
 // The values of a chart, fetched when they are first needed.
 
+/** @import { ChartColumn } from "../../pkg/armill.js" */
+
+/** @typedef {[data: ChartColumn[], times: Float64Array | null]} Found */
+
 export class Samples {
   /** As columns, the first axis first; null until they are there. */
-  data = null;
+  data = /** @type {ChartColumn[] | null} */ (null);
   /** The time of each sample [s], of a chart over the run. */
-  times = null;
+  times = /** @type {Float64Array | null} */ (null);
   #ask;
+  /** @type {Promise<Found | null> | null} */
   #fetching = null;
 
-  /** `ask()` resolves with `[data, times]`. */
+  /**
+   * `ask()` resolves with `[data, times]`.
+   * @param {() => Promise<Found>} ask
+   */
   constructor(ask) {
     this.#ask = ask;
   }

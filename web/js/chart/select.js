@@ -4,15 +4,34 @@ import { isHome, setStretch, stretch } from "../page/stretch.js";
 import { Selection } from "./selection.js";
 import { ends, nearest, valueAt } from "./view.js";
 
+/**
+ * @import { Axis } from "../../pkg/armill.js"
+ * @import { Content } from "./readout.js"
+ * @import { Samples } from "./samples.js"
+ */
+
+/**
+ * @typedef {{
+ *   axis(): Pick<Axis, "min" | "max" | "log">,
+ *   content(): Content,
+ *   samples: Samples,
+ *   lengths(): Promise<ArrayLike<number>>,
+ *   mark(): void,
+ * }} Of
+ */
+
 export class Picker {
   #figure;
   #of;
+  /** @type {number | null} */
   #anchor = null; // the sample at which keys began
-  #selection = new Selection(() => setStretch(null));
+  #selection = new Selection(() => setStretch(null, null, false));
 
   /**
    * `of` has what is shown: `axis()`, `content()`, `samples`, `lengths()` resolving with the path lengths
    * [mm], and `mark()` to draw the marks again.
+   * @param {import("./figure.js").Figure} figure
+   * @param {Of} of
    */
   constructor(figure, of) {
     this.#figure = figure;
@@ -28,37 +47,58 @@ export class Picker {
   samples() {
     const { times } = this.#of.samples;
     const range = this.#figure.kind === "time" && times ? stretch() : null;
-    return range && range.map((time) => nearest(times, time));
+    return range && times && /** @type {[number, number]} */ (range.map((time) => nearest(times, time)));
   }
 
-  /** Selects between two fractions of the plot. */
+  /**
+   * Selects between two fractions of the plot.
+   * @param {number} a
+   * @param {number} b
+   * @param {boolean} complete
+   */
   async drag(a, b, complete) {
-    if (!(await this.#of.samples.fetch())) return;
+    const { samples } = this.#of;
+    if (!(await samples.fetch()) || !samples.data) return;
     const axis = this.#of.axis();
-    const [min, max] = [Math.min(a, b), Math.max(a, b)].map((fraction) => valueAt(axis, fraction));
-    this.#choose(ends(this.#of.samples.data[0].values, { min, max }), complete);
+    const [min, max] = [valueAt(axis, Math.min(a, b)), valueAt(axis, Math.max(a, b))];
+    const [from, to] = ends(samples.data[0].values, { min, max });
+    this.#choose([from, to], complete);
   }
 
-  /** Begins at a sample, by default the first that is seen; the next time it ends there. */
+  /**
+   * Begins at a sample, by default the first that is seen; the next time it ends there.
+   * @param {number | null} index
+   */
   async markEnd(index) {
-    if (!(await this.#of.samples.fetch())) return;
-    const at = index ?? ends(this.#of.samples.data[0].values, this.#of.axis())[0];
+    const { samples } = this.#of;
+    if (!(await samples.fetch()) || !samples.data) return;
+    const at = index ?? ends(samples.data[0].values, this.#of.axis())[0];
     const begun = this.#anchor;
     this.#anchor = begun === null ? at : null;
     this.#choose([begun ?? at, at], begun !== null);
   }
 
-  /** While keys select, the stretch goes with the cursor. */
+  /**
+   * While keys select, the stretch goes with the cursor.
+   * @param {number | null} index
+   */
   extend(index) {
     if (this.#anchor !== null && index !== null) this.#choose([this.#anchor, index], false);
   }
 
+  /**
+   * @param {[number, number]} pair
+   * @param {boolean} complete
+   */
   #choose([a, b], complete) {
     const { times } = this.#of.samples;
-    setStretch([times[Math.min(a, b)], times[Math.max(a, b)]], this, complete);
+    if (times) setStretch([times[Math.min(a, b)], times[Math.max(a, b)]], this, complete);
   }
 
-  /** Marks the selected stretch; once it is complete its statistics stand where it was selected. */
+  /**
+   * Marks the selected stretch; once it is complete its statistics stand where it was selected.
+   * @param {boolean} complete
+   */
   async follow(complete) {
     const range = stretch();
     if (!range || !isHome(this)) this.#anchor = null;
@@ -67,7 +107,7 @@ export class Picker {
     this.#of.mark();
     if (!range || !isHome(this) || !complete) return;
     const lengths = await this.#of.lengths().catch(() => null);
-    if (lengths && this.#of.samples.data && range === stretch())
-      this.#selection.show(this.#of.content(), this.#of.samples.times, lengths, this.samples());
+    const [{ times }, ends] = [this.#of.samples, this.samples()];
+    if (lengths && times && ends && range === stretch()) this.#selection.show(this.#of.content(), times, lengths, ends);
   }
 }

@@ -7,7 +7,10 @@ import { inLength, lengthUnit } from "../page/units.js";
 import { columnsOf, read } from "./readout.js";
 import { statisticsOf } from "./statistics.js";
 
+/** @type {Record<"mean" | "max" | "rms" | "p95", string>} */
 const HEADS = { mean: "Mean", max: "Max", rms: "RMS", p95: "95 %" };
+
+const NAMES = /** @type {(keyof typeof HEADS)[]} */ (Object.keys(HEADS));
 
 export class Selection {
   node = make("section", { className: "stretch", hidden: true, "aria-label": "Selected stretch" });
@@ -16,7 +19,10 @@ export class Selection {
   #said = make("span", { role: "status" });
   #text = "";
 
-  /** `remove()` is called when the stretch is no longer wanted. */
+  /**
+   * `remove()` is called when the stretch is no longer wanted.
+   * @param {() => void} remove
+   */
   constructor(remove) {
     const copy = make("button", { type: "button", className: "quiet" }, "Copy");
     copy.addEventListener("click", () => this.#copy());
@@ -25,7 +31,13 @@ export class Selection {
     this.node.append(make("header", {}, this.#title, this.#said, copy, gone), this.#table);
   }
 
-  /** Shows the samples from one index to another, with their times and path lengths [mm]. */
+  /**
+   * Shows the samples from one index to another, with their times and path lengths [mm].
+   * @param {{ chart: import("../../pkg/armill.js").Chart, data: import("../../pkg/armill.js").ChartColumn[], hidden: string[] }} given
+   * @param {ArrayLike<number>} times
+   * @param {ArrayLike<number>} lengths
+   * @param {[number, number]} pair
+   */
   show({ chart, data, hidden }, times, lengths, [from, to]) {
     const where = whereIs(times, lengths, from, to);
     const rows = columnsOf(chart, data).flatMap((columns, i) => {
@@ -46,7 +58,7 @@ export class Selection {
       chart.title,
       where,
       ["Series", ...Object.values(HEADS), "Unit"].join("\t"),
-      ...rows.map(({ label, found, unit }) => [label, ...Object.keys(HEADS).map((key) => found[key]), unit].join("\t")),
+      ...rows.map(({ label, found, unit }) => [label, ...NAMES.map((name) => found[name]), unit].join("\t")),
     ].join("\n");
     this.node.hidden = false;
   }
@@ -61,15 +73,22 @@ export class Selection {
       await navigator.clipboard.writeText(`${this.#text}\n`);
       this.#said.textContent = "Copied.";
     } catch {
-      getSelection().selectAllChildren(this.node);
+      getSelection()?.selectAllChildren(this.node);
       this.#said.textContent =
         "This browser does not let the page copy. The text is selected: copy it with Ctrl+C or ⌘C.";
     }
   }
 }
 
-/** Where a stretch is and how long. */
+/**
+ * Where a stretch is and how long.
+ * @param {ArrayLike<number>} times
+ * @param {ArrayLike<number>} lengths
+ * @param {number} from
+ * @param {number} to
+ */
 function whereIs(times, lengths, from, to) {
+  /** @param {number} value */
   const number = (value) => formatNumber(value, 4);
   const length = inLength(lengths[to] - lengths[from]);
   const lines = [lineAt(times[from]), lineAt(times[to])].filter(Boolean);
@@ -80,8 +99,9 @@ function whereIs(times, lengths, from, to) {
   );
 }
 
+/** @param {{ key: string, label: string, unit: string, found: Record<string, number> }} given */
 function rowOf({ key, label, unit, found }) {
-  const cells = Object.keys(HEADS).map((name) => {
+  const cells = NAMES.map((name) => {
     const cell = make("td", {}, read(found[name], unit));
     cell.dataset.value = String(found[name]);
     return cell;

@@ -3,6 +3,9 @@
 /**
  * Mean, maximum, root mean square and 95 % quantile of the values from one index to another, both
  * included; undefined if none of them is a number.
+ * @param {Float64Array} values
+ * @param {number} from
+ * @param {number} to
  */
 export function statisticsOf(values, from, to) {
   const sorted = Float64Array.from(values.subarray(from, to + 1).filter(Number.isFinite)).sort();
@@ -16,7 +19,11 @@ export function statisticsOf(values, from, to) {
   return { mean: sum / count, max: sorted[count - 1], rms: Math.sqrt(squares / count), p95: quantile(sorted, 0.95) };
 }
 
-/** The quantile of sorted values, linear between them (JCGM 101:2008, 7.7, D.1), as the core takes it. */
+/**
+ * The quantile of sorted values, linear between them (JCGM 101:2008, 7.7, D.1), as the core takes it.
+ * @param {ArrayLike<number>} sorted
+ * @param {number} share
+ */
 function quantile(sorted, share) {
   const last = sorted.length - 1;
   const place = Math.min(last, Math.max(0, share * sorted.length - 0.5));

@@ -2,10 +2,21 @@
 
 import { make, makeSvg, rove } from "../page/dom.js";
 
+/** @import { Over } from "../../pkg/armill.js" */
+
 /**
  * What the buttons do.
  *
- * @typedef {{ zoomIn(): void, zoomOut(): void, reset(): void, table(on: boolean): void, save(format: string): void }} Tools
+ * @typedef {{
+ *   zoomIn(): void,
+ *   zoomOut(): void,
+ *   reset(): void,
+ *   table(on: boolean): void,
+ *   save(format: string): void,
+ *   log(on: boolean): void,
+ *   over(axis: Over): void,
+ *   select(on: boolean): void,
+ * }} Tools
  */
 
 /** @type {Record<string, string>} */
@@ -17,6 +28,7 @@ const ICONS = {
   select: "M6 3V17M14 3V17M6 10H14M8.5 7.5L6 10L8.5 12.5M11.5 7.5L14 10L11.5 12.5",
   save: "M10 3V12M6 9L10 13L14 9M4 16H16",
 };
+/** @type {Record<Over, [name: string, note: string]>} */
 const OVER = { time: ["Time", "since the start"], length: ["Length", "of the path"], line: ["Line", "of the program"] };
 
 /** @param {string} name */
@@ -26,14 +38,30 @@ const icon = (name) =>
 /**
  * The toolbar as `{ node, show }`; `act` has what its buttons do: `zoomIn`, `zoomOut`, `reset`,
  * `table(on)`, `save(format)`, `log(on)`, `over(axis)`, `select(on)`.
+ * @param {string} title
+ * @param {Tools} act
  */
 export function toolbar(title, act) {
+  /**
+   * @param {string} label
+   * @param {string | Node} face
+   * @param {(made: HTMLButtonElement) => void} action
+   */
   const button = (label, face, action) => {
     const made = make("button", { type: "button", title: label, "aria-label": label }, face);
     made.addEventListener("click", () => action(made));
     return made;
   };
+  /**
+   * @param {HTMLButtonElement} made
+   * @param {boolean} on
+   */
   const press = (made, on) => made.setAttribute("aria-pressed", String(on));
+  /**
+   * @param {string} label
+   * @param {string | Node} face
+   * @param {(on: boolean) => void} action
+   */
   const toggle = (label, face, action) => {
     const made = button(label, face, () => {
       press(made, made.getAttribute("aria-pressed") !== "true");
@@ -66,7 +94,12 @@ export function toolbar(title, act) {
     along.node,
   );
 
-  /** Shows a drawing's scale, where there are two to choose from, and what it is drawn over of `list`. */
+  /**
+   * Shows a drawing's scale, where there are two to choose from, and what it is drawn over of `list`.
+   * @param {{ y: { log: boolean, floor?: number } }} given
+   * @param {import("../../pkg/armill.js").Over} over
+   * @param {import("../../pkg/armill.js").Over[]} list
+   */
   function show({ y }, over, list) {
     log.hidden = !y.log && y.floor === undefined;
     press(log, y.log);
@@ -83,18 +116,28 @@ export function toolbar(title, act) {
   return { node: bar, show };
 }
 
-/** A button that opens a menu of choices; `choose(key)` is called with the one that is taken. */
+/**
+ * A button that opens a menu of choices; `choose(key)` is called with the one that is taken.
+ * @param {HTMLButtonElement} button
+ * @param {(key: any) => void} choose
+ */
 function menuButton(button, choose) {
   const menu = make("div", { className: "menu", hidden: true });
   const node = make("span", { className: "has-menu" }, button, menu);
+  /** @param {boolean} on */
   const open = (on) => {
     menu.hidden = !on;
     button.setAttribute("aria-expanded", String(on));
-    if (on) (menu.querySelector("[aria-current]") ?? menu.firstChild).focus();
+    /** @type {HTMLElement | null} */
+    const item = menu.querySelector("[aria-current]") ?? menu.querySelector("button");
+    if (on) item?.focus();
   };
   button.setAttribute("aria-expanded", "false");
-  button.addEventListener("click", () => open(menu.hidden));
-  node.addEventListener("focusout", ({ relatedTarget }) => node.contains(relatedTarget) || open(false));
+  button.addEventListener("click", () => open(Boolean(menu.hidden)));
+  node.addEventListener(
+    "focusout",
+    ({ relatedTarget }) => node.contains(/** @type {Node | null} */ (relatedTarget)) || open(false),
+  );
   node.addEventListener("keydown", (event) => {
     if (event.key !== "Escape" || menu.hidden) return;
     event.stopPropagation();
@@ -102,7 +145,11 @@ function menuButton(button, choose) {
     button.focus();
   });
 
-  /** Offers `choices`, key: [name, note]; `current` is marked. */
+  /**
+   * Offers `choices`, key: [name, note]; `current` is marked.
+   * @param {Record<string, string[]>} choices
+   * @param {string} [current]
+   */
   function offer(choices, current) {
     const items = Object.entries(choices).map(([key, [name, note]]) => {
       const item = make(

@@ -15,6 +15,10 @@ const DIGITS = 1e-8; // and of the values themselves: what a double still tells 
 export const valueAt = ({ min, max, log }, fraction) =>
   log ? min * (max / min) ** fraction : min + fraction * (max - min);
 
+/**
+ * @param {Pick<Axis, "min" | "max" | "log"> & { floor?: number }} axis
+ * @param {number} value
+ */
 export const fractionOf = ({ min, max, log, floor = 0 }, value) =>
   log ? Math.log(Math.max(value, floor) / min) / Math.log(max / min) : (value - min) / (max - min);
 
@@ -80,7 +84,11 @@ export function nearest(values, value) {
   return low > 0 && value - values[low - 1] < values[low] - value ? low - 1 : low;
 }
 
-/** The same among values in any order: of equals the first, or the last. */
+/**
+ * The same among values in any order: of equals the first, or the last.
+ * @param {ArrayLike<number>} values
+ * @param {number} value
+ */
 export function scan(values, value, last = false) {
   let [best, least] = [0, Infinity];
   for (let k = 0; k < values.length; k++) {
@@ -90,5 +98,9 @@ export function scan(values, value, last = false) {
   return best;
 }
 
-/** The indices at the ends of a range, with all that stand there. */
+/**
+ * The indices at the ends of a range, with all that stand there.
+ * @param {ArrayLike<number>} values
+ * @param {{ min: number, max: number }} given
+ */
 export const ends = (values, { min, max }) => [scan(values, min), scan(values, max, true)];

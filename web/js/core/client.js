@@ -11,20 +11,20 @@ const LARGE = 100_000; // samples: a Worker that has held more is not used again
 const CANCELLED = { code: "cancelled", message: "Cancelled." };
 
 /**
- * @import { ChartEntry, ChartOptions, ChartUnits, Controller, Field, Format, Presets, Summary } from "../../pkg/armill.js"
+ * @import { ChartEntry, ChartOptions, ChartValues, Controller, Field, Format, Presets, Summary } from "../../pkg/armill.js"
  * @import { JobData } from "../job/data.js"
  */
 
 /**
  * What a form is built from.
  *
- * @typedef {{ version: string, model: number, job: JobData, fields: Field[], presets: Presets, formats: Format[] }} Hello
+ * @typedef {{ version: string, model: number, job: JobData, opening: JobData, fields: Field[], presets: Presets, formats: Format[] }} Hello
  */
 
 /**
  * An error as data: the core's, or `fatal` where its Worker cannot be used any more.
  *
- * @typedef {{ code: string, message: string, field?: string, line?: number, column?: number, fatal?: boolean }} Failure
+ * @typedef {{ code: string, message: string, field?: string, line?: number, column?: number, fatal?: boolean, value?: number, min?: number, max?: number, unit?: string }} Failure
  */
 
 /** @typedef {{ fraction: number, stage: string }} Progress of a run; the fraction is 0 to 1 */
@@ -62,6 +62,7 @@ let since = null; // when the run in progress began
 let compiled; // promise of the core's module: every Worker starts from the same one
 /** @type {Promise<Hello> | undefined} */
 let hello; // promise of what a form is built from
+/** @type {{ json?: string, result: Promise<Result>, since?: number } | undefined} */
 let foreseen; // { json, result, since } of a speculative run
 let lasted = 0; // how long the shown result took [ms]
 /** @type {string | null} */
@@ -92,9 +93,12 @@ export function start(handlers) {
   return load();
 }
 
-/** Begins to compute a job before the page is ready to ask for it. */
+/**
+ * Begins to compute a job before the page is ready to ask for it.
+ * @param {string} [json]
+ */
 export function foresee(json) {
-  const early = { json, result: spare.ask("run", json), since: performance.now() };
+  const early = { json, result: (spare ??= spawn()).ask("run", json), since: performance.now() };
   early.result.catch(() => {
     if (foreseen === early) foreseen = undefined; // asked for, it runs again and says why it fails
   });
@@ -147,10 +151,16 @@ export const placeInFront = (json) => (spare ??= spawn()).ask("place", json);
  */
 export const proposedStock = (json) => (spare ??= spawn()).ask("stock", json);
 
-/** Resolves with what a job's program says of its cut, keys of `cutting`, or undefined. */
+/**
+ * Resolves with what a job's program says of its cut, keys of `cutting`, or undefined.
+ * @param {string} json
+ */
 export const proposedCutting = (json) => (spare ??= spawn()).ask("cutting", json);
 
-/** The thesis's printed figures beside ours; they are the default job's, whatever is shown. */
+/**
+ * The thesis's printed figures beside ours; they are the default job's, whatever is shown.
+ * @type {() => Promise<import("../../pkg/armill.js").ThesisRow[]>}
+ */
 export const thesis = () => (spare ??= spawn()).ask("thesis");
 
 /**
@@ -167,7 +177,7 @@ export const chart = (name, options) => askShown("chart", name, options);
 /**
  * The values that a chart of the shown result is drawn from: its first axis, then each series,
  * every sample.
- * @type {(name: string, units: ChartUnits) => Promise<import("../../pkg/armill.js").ChartColumn[]>}
+ * @type {(name: string, units: ChartValues) => Promise<import("../../pkg/armill.js").ChartColumn[]>}
  */
 export const chartData = (name, units) => askShown("data", name, units);
 
@@ -180,6 +190,7 @@ export const column = (key) => askShown("column", key);
 /**
  * The arm at a sample of the shown result: `frames` of base, joints, TCP and workpiece, and by how much each joint is
  * beyond its range, `excess` [deg], empty if no ranges are known.
+ * @param {number} sample
  */
 export const pose = (sample) => askShown("pose", sample);
 
@@ -229,16 +240,23 @@ export const packaged = (controller) => askShown("packaged", controller);
  */
 export const packageOf = (controller) => askShown("package", controller);
 
-/** Texts as one zip archive, `files` of [path, text]. */
+/**
+ * Texts as one zip archive, `files` of [path, text].
+ * @param {any} folder
+ * @param {any} files
+ */
 export const zip = (folder, files) =>
   askShown(
     "zip",
     folder,
-    files.map(([path]) => path),
-    files.map(([, text]) => text),
+    files.map((/** @type {[string]} */ [path]) => path),
+    files.map((/** @type {[any, string]} */ [, text]) => text),
   );
 
-/** Smallest and largest x, y, z [mm] of places for the part that are worth a look. */
+/**
+ * Smallest and largest x, y, z [mm] of places for the part that are worth a look.
+ * @type {(json: string) => Promise<Float64Array>}
+ */
 export const extent = (json) => (spare ??= spawn()).ask("extent", json);
 
 /** The job of the shown result, as JSON text. */

@@ -4,10 +4,14 @@
 
 const MOST = 150_000; // samples in memory at a time, unless a single run has more
 
-/** Answers about held runs; `core()` is the core. */
+/**
+ * Answers about held runs; `core()` is the core.
+ * @param {any} core
+ */
 export function heldRuns(core) {
   const held = new Map(); // id -> { json, run, samples }, what was used last at the end
 
+  /** @param {string} id */
   function runOf(id) {
     const one = held.get(id);
     held.delete(id);
@@ -20,7 +24,10 @@ export function heldRuns(core) {
     return one.run;
   }
 
-  /** Lets go of runs, those not used for longest first, until `more` samples fit beside the rest. */
+  /**
+   * Lets go of runs, those not used for longest first, until `more` samples fit beside the rest.
+   * @param {any} more
+   */
   function makeRoom(more) {
     const kept = [...held.values()].filter(({ run }) => run);
     let samples = kept.reduce((sum, one) => sum + one.samples, more);
@@ -32,18 +39,27 @@ export function heldRuns(core) {
     }
   }
 
+  /** @param {string} id */
   function drop(id) {
     held.get(id)?.run?.free();
     held.delete(id);
   }
 
   return {
+    /**
+     * @param {string} id
+     * @param {string} json
+     */
     hold(id, json) {
       drop(id);
       held.set(id, { json, run: null, samples: 0 });
       return runOf(id).summary();
     },
     drop,
-    held_chart: (id, name, options) => runOf(id).chart(name, options),
+    held_chart: (
+      /** @type {string} */ id,
+      /** @type {string} */ name,
+      /** @type {import("../../pkg/armill.js").ChartOptions} */ options,
+    ) => runOf(id).chart(name, options),
   };
 }

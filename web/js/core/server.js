@@ -3,6 +3,23 @@
 
 import { heldRuns } from "./held-runs.js";
 
+/**
+ * @import * as Armill from "../../pkg/armill.js"
+ * @import { ChartOptions, ChartUnits, Controller, Package } from "../../pkg/armill.js"
+ * @import { Failure } from "./client.js"
+ */
+
+/** @typedef {typeof Armill} Core the module that wasm-bindgen made */
+
+/** @typedef {Omit<Package, "files"> & { files: string[] }} Outline a package with the names of its files */
+
+/**
+ * @typedef {{
+ *   file: { name: string, type: string, content: string | Uint8Array<ArrayBuffer> },
+ *   outline: Outline,
+ * }} PackageFile what to save of a package, and how it runs
+ */
+
 const PROGRESS_MS = 40;
 const ROWS = 20_000; // of a file written at a time
 

@@ -12,13 +12,41 @@ import { searchList } from "./search-list.js";
 import { shownUnit } from "./shown.js";
 import { makeSlider } from "./slider.js";
 
+/** @import { Field } from "../../pkg/armill.js" */
+
+/**
+ * `read` gives the value or throws a `Mistake`; `at(rest)` gives the input that an error path such as
+ * "[1].a_mm" means. `mark` and `show` are for texts alone, `step` for numbers.
+ *
+ * @typedef {{
+ *   node: HTMLElement,
+ *   inputs: any[],
+ *   read(): any,
+ *   write(value: any): void,
+ *   at(rest: string): HTMLElement,
+ *   mark?(line: number): void,
+ *   show?(line: number): void,
+ *   step?(count: number): void,
+ *   understood?(): string,
+ *   relabel?(): void,
+ *   slider?: HTMLElement,
+ *   unit?(): string,
+ *   meaning?(): string,
+ * }} Editor
+ */
+
+/** @typedef {Pick<Field, "path"> & Partial<Field> & { default?: any }} Edited what an editor needs to know of a field */
+
 /** The order in which tables of the field print a row. */
 const DH_ORDER = ["alpha_deg", "a_mm", "d_mm", "theta_offset_deg", "joint_sign", "offset_deg"];
 
 const RANGE = ["lowest", "highest"];
 const XYZ = ["x", "y", "z"].map((name) => [name, "mm"]);
 
-/** Tables of any length: the end of their path, and name and unit of each column. */
+/**
+ * Tables of any length: the end of their path, and name and unit of each column.
+ * @type {Record<string, string[][]>}
+ */
 const ROWS = {
   "stock.points_mm": [
     ["x", "mm"],
@@ -38,13 +66,20 @@ const ROWS = {
   loads_kg_mm: [["link", ""], ["mass", "kg"], ...XYZ],
 };
 
+/** @param {string} path */
 export const idOf = (path) => path.replaceAll(".", "-");
 
-/** The editor of a field; `badges` are those of the libraries' entries, `brand()` says whose robot the job has. */
+/**
+ * The editor of a field; `badges` are those of the libraries' entries, `brand()` says whose robot the job has.
+ * @param {Field} field
+ * @param {{ badges: Map<string, import("./badges.js").Badge[]>, brand: () => string }} given
+ * @returns {Editor}
+ */
 export function editorFor(field, { badges, brand }) {
-  if (field.path.endsWith(".preset")) return searchList(idOf(field.path), field.choices, badges);
+  if (field.path.endsWith(".preset")) return searchList(idOf(field.path), field.choices ?? [], badges);
   const columns = Object.keys(ROWS).find((ending) => field.path.endsWith(ending));
-  if (columns) return rowsEditor(idOf(field.path), ROWS[columns], { lines: field.default.length ? 8 : 2 });
+  if (columns)
+    return rowsEditor(idOf(field.path), ROWS[columns], { lines: /** @type {any[]} */ (field.default).length ? 8 : 2 });
   if (field.path.endsWith("_frame.rpy_deg"))
     return orientationEditor(idOf(field.path), brand, { spindle: field.path === "tool_frame.rpy_deg" });
   if (field.kind === "number" && field.choices) return numberOrWord(field, field.choices[0]);
@@ -75,7 +110,7 @@ function single(input, read, write) {
  */
 function number(field) {
   const cell = numberCell(idOf(field.path), field.unit, field.kind === "integer");
-  const slider = field.usual && makeSlider(cell, field.unit, field.usual);
+  const slider = field.usual && makeSlider(cell, field.unit ?? "", field.usual);
   return {
     ...cell,
     node: cell.input,
@@ -129,7 +164,7 @@ function numberOrWord(field, { value: word, label }) {
  * @returns {Editor}
  */
 function choice(field) {
-  const options = field.choices.map(({ value, label }) => make("option", { value }, label));
+  const options = (field.choices ?? []).map(({ value, label }) => make("option", { value }, label));
   const input = make("select", { id: idOf(field.path) }, ...options);
   return single(
     input,
@@ -211,7 +246,7 @@ function wordOrVector(field) {
       reveal();
     },
     at: (rest) => (rest ? own.at(rest) : select),
-    understood: () => (select.value === "" ? own.understood() : ""),
+    understood: () => (select.value === "" ? (own.understood?.() ?? "") : ""),
   };
 }
 
@@ -227,12 +262,20 @@ function table(field) {
   const columns =
     typeof sample !== "object" ? [null] : Object.keys(sample).sort((a, b) => DH_ORDER.indexOf(a) - DH_ORDER.indexOf(b));
   const named = columns[0] !== null && !Array.isArray(sample);
+  /** @param {number} row */
   const rowName = (row) => (field.path.startsWith("robot.") ? `J${row + 1}` : `${row + 1}`);
-  const cells = field.default.map((_, row) =>
-    columns.map((key) => numberCell(`${id}-${row}${key === null ? "" : `-${key}`}`, named ? unitIn(key) : field.unit)),
+  const cells = field.default.map((/** @type {any} */ _, /** @type {any} */ row) =>
+    columns.map((key) =>
+      numberCell(`${id}-${row}${key === null ? "" : `-${key}`}`, named ? unitIn(String(key)) : field.unit),
+    ),
   );
-  const body = cells.map((row, i) =>
-    make("tr", {}, make("th", { scope: "row" }, rowName(i)), ...row.map(({ input }) => make("td", {}, input))),
+  const body = cells.map((/** @type {any} */ row, /** @type {number} */ i) =>
+    make(
+      "tr",
+      {},
+      make("th", { scope: "row" }, rowName(i)),
+      ...row.map((/** @type {{ input: HTMLInputElement }} */ { input }) => make("td", {}, input)),
+    ),
   );
   const heads = columns.map(() => make("th", { scope: "col" }));
   const head = columns[0] === null ? "" : make("thead", {}, make("tr", {}, make("td"), ...heads));
@@ -240,23 +283,25 @@ function table(field) {
     columns.forEach((key, column) => {
       const name = key === null ? "" : named ? heading(key) : sample.length === 2 ? RANGE[column] : rowName(column);
       heads[column].textContent = name;
-      cells.forEach((row, i) =>
+      cells.forEach((/** @type {any} */ row, /** @type {number} */ i) =>
         row[column].input.setAttribute("aria-label", [rowName(i), name].filter(Boolean).join(", ")),
       );
     });
   relabel();
   return {
     node: make("table", { id, className: "cells" }, head, make("tbody", {}, ...body)),
-    inputs: cells.flat().map(({ input }) => input),
+    inputs: cells.flat().map((/** @type {{ input: HTMLInputElement }} */ { input }) => input),
     read: () =>
-      cells.map((row) => {
-        const values = row.map((cell) => cell.read());
+      cells.map((/** @type {any} */ row) => {
+        const values = row.map((/** @type {import("./number-cell.js").Cell} */ cell) => cell.read());
         if (columns[0] === null) return values[0];
         return Array.isArray(sample) ? values : Object.fromEntries(columns.map((key, i) => [key, values[i]]));
       }),
     write: (rows) =>
-      cells.forEach((row, i) =>
-        row.forEach((cell, c) => cell.write(columns[c] === null ? rows[i] : rows[i]?.[columns[c]])),
+      cells.forEach((/** @type {any} */ row, /** @type {number} */ i) =>
+        row.forEach((/** @type {import("./number-cell.js").Cell} */ cell, /** @type {number} */ c) =>
+          cell.write(columns[c] === null ? rows[i] : rows[i]?.[columns[c]]),
+        ),
       ),
     at(rest) {
       const row = cells[indexIn(rest)] ?? cells[0];
@@ -310,7 +355,12 @@ function lengths(field) {
     },
     write(value) {
       scalars.forEach((key, i) => cells[i].write(value[key]));
-      joints.write(value.joint_sign.map((sign, i) => ({ joint_sign: sign, offset_deg: value.joint_offset_deg[i] })));
+      joints.write(
+        value.joint_sign.map((/** @type {any} */ sign, /** @type {number} */ i) => ({
+          joint_sign: sign,
+          offset_deg: value.joint_offset_deg[i],
+        })),
+      );
     },
     at(rest) {
       const scalar = inputs[scalars.findIndex((key) => rest.startsWith(`.${key}`))];
@@ -324,7 +374,7 @@ function lengths(field) {
         )
       );
     },
-    understood: () => [allUnderstood(cells), joints.understood()].filter(Boolean).join(", "),
+    understood: () => [allUnderstood(cells), joints.understood?.()].filter(Boolean).join(", "),
     relabel: joints.relabel,
   };
 }
@@ -358,12 +408,19 @@ function program() {
   };
 }
 
+/** @param {string} rest */
 const indexIn = (rest) => Number(/^\[(\d+)\]/.exec(rest)?.[1] ?? 0);
 
-/** The unit that a key such as "a_mm" ends in, if it has one. */
+/**
+ * The unit that a key such as "a_mm" ends in, if it has one.
+ * @param {string} key
+ */
 const unitIn = (key) => /_(mm|deg)$/.exec(key)?.[1] ?? "";
 
-/** "theta_offset_deg" as a column heading: "theta offset, deg". */
+/**
+ * "theta_offset_deg" as a column heading: "theta offset, deg".
+ * @param {string} key
+ */
 function heading(key) {
   if (key === "joint_sign") return "sign";
   const at = key.lastIndexOf("_");

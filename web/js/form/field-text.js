@@ -31,14 +31,28 @@ export function withOwn(field) {
  */
 const choiceLabel = (field, value) => field.choices?.find((choice) => choice.value === value)?.label ?? String(value);
 
-const numberIn = (unit) => (value) => plainNumber(shownValue(value, unit));
+/** @param {string} unit */
+const numberIn = (unit) => (/** @type {number} */ value) => plainNumber(shownValue(value, unit));
 
-/** A number with the unit that it is shown in. */
+/**
+ * A number with the unit that it is shown in.
+ * @param {number} value
+ * @param {string} unit
+ */
 export const quantity = (value, unit) => [numberIn(unit)(value), shownUnit(unit)].filter(Boolean).join(" ");
 
+/**
+ * @param {number} value
+ * @param {string} unit
+ */
 const saved = (value, unit) => [plainNumber(value), unit].filter(Boolean).join(" ");
 
-/** A value in a few words, with its unit or name; nothing for tables and texts. */
+/**
+ * A value in a few words, with its unit or name; nothing for tables and texts.
+ * @param {Field} field
+ * @param {any} value
+ * @returns {string}
+ */
 export function brief(field, value) {
   if (field.kind === "set") return value.map((/** @type {string} */ one) => choiceLabel(field, one)).join(" + ");
   if (field.choices && typeof value === "string") return choiceLabel(field, value);
@@ -49,6 +63,9 @@ export function brief(field, value) {
 /**
  * A value in words: numbers with their unit, of tables and texts only how long they are. `asSaved` keeps the units of
  * the job.
+ * @param {Field} field
+ * @param {any} value
+ * @returns {string}
  */
 export function inWords(field, value, { asSaved = false } = {}) {
   if (value === undefined) return "–";
@@ -63,14 +80,20 @@ export function inWords(field, value, { asSaved = false } = {}) {
   return value.includes("\n") ? `${value.trimEnd().split("\n").length} lines` : value;
 }
 
-/** The core's error about a number out of range, where another unit is shown than it names. */
-export function outOfRange({ code, field: path, value, min, max, unit }) {
+/**
+ * The core's error about a number out of range, where another unit is shown than it names.
+ * @param {import("../core/client.js").Failure} error
+ */
+export function outOfRange({ code, field: path, value = NaN, min = -Infinity, max = Infinity, unit = "" }) {
   if (code !== "out-of-range" || shownUnit(unit) === unit) return undefined;
   const [is, low, high] = [value, min, max].map((number) => quantity(number, unit));
   return `${path} is ${is}; it must be ${low} to ${high}`;
 }
 
-/** The default in words. */
+/**
+ * The default in words.
+ * @param {Field} field
+ */
 export const asText = (field) =>
   ["table", "text"].includes(field.kind) ? "its default" : inWords(field, field.default);
 
@@ -82,7 +105,7 @@ export function helpText(field) {
   const { min, max, kind } = field;
   const mixed = field.unit.includes(", "); // a table whose range holds in the job's own units
   const number = numberIn(mixed ? "" : field.unit);
-  const boundless = min <= -1e6 && max >= 1e6; // only there to keep arithmetic finite
+  const boundless = min !== undefined && max !== undefined && min <= -1e6 && max >= 1e6; // only there to keep arithmetic finite
   const range =
     boundless || (mixed && shownUnits(field.unit) !== field.unit)
       ? ""

@@ -19,6 +19,8 @@ import { shownUnits } from "./shown.js";
  * @import { Editor } from "./editors.js"
  */
 
+/** @typedef {{ label: string, go(): void }} Limit the nearest number that is allowed */
+
 /**
  * A field on the page: `mistake` says that what is typed is no value, `line` which line of a text is wrong.
  *
@@ -30,7 +32,12 @@ import { shownUnits } from "./shown.js";
  *   error: HTMLElement,
  *   note: HTMLElement,
  *   notes: Record<string, string>,
+ *   unit: HTMLElement,
+ *   help: HTMLElement,
+ *   understood: HTMLElement,
  *   mistake: boolean,
+ *   message: string,
+ *   limit?: Limit,
  *   line?: number,
  * }} Row
  */
@@ -52,6 +59,7 @@ const GROUPS = {
   uncertainty: "How sure",
   program: "Program",
 };
+/** @type {Record<string, string>} */
 const BRANDS = { kuka: "KUKA", abb: "ABB", staubli: "Stäubli", fanuc: "FANUC" };
 const OPEN = ["path", "motion"]; // the groups that most visits change
 
@@ -83,7 +91,7 @@ export class Form {
     for (const field of fields.map(withOwn)) {
       if (!this.#groups.has(field.group)) this.#addGroup(parent, field.group);
       const row = this.#row(field, editorFor(field, { badges, brand: () => this.#brand() }), notes);
-      this.#groups.get(field.group).body.append(row.node);
+      this.#groups.get(field.group)?.body.append(row.node);
       this.#rows.push(row);
     }
     this.refresh();
@@ -156,7 +164,10 @@ export class Form {
     this.#digest();
   }
 
-  /** Puts an error of the core beside its field. False if it has none here. */
+  /**
+   * Puts an error of the core beside its field. False if it has none here.
+   * @param {Failure} error
+   */
   showError(error) {
     const { field: path, message, line, column } = error;
     this.clearErrors();
@@ -173,10 +184,16 @@ export class Form {
     return true;
   }
 
-  /** The nearest number that is allowed, and how to take it: { label, go }. */
-  #limitOf({ field, editor }, { code, value, min, max }) {
+  /**
+   * The nearest number that is allowed, and how to take it: { label, go }.
+   * @param {Row} row
+   * @param {Failure} error
+   * @returns {Limit | undefined}
+   */
+  #limitOf({ field, editor }, { code, value = NaN, min, max }) {
     if (code !== "out-of-range" || field.kind === "vector" || editor.inputs.length > 1) return undefined;
-    const nearest = value < min ? min : max;
+    const nearest = min !== undefined && value < min ? min : max;
+    if (nearest === undefined) return undefined;
     const go = () => {
       this.#job.set(field, nearest);
       this.#changed();
@@ -204,13 +221,20 @@ export class Form {
     this.#groups.set(name, { details, digest, body });
   }
 
+  /**
+   * @param {Field} field
+   * @param {Record<string, string>} notes
+   * @param {Editor} editor
+   * @returns {Row}
+   */
   #row(field, editor, notes) {
     const id = idOf(field.path);
     const grouped = editor.node.getAttribute("role") === "group" || editor.node.tagName === "TABLE";
     const title = make(grouped ? "span" : "label", { className: "label", id: `${id}-label` }, field.label);
     if (grouped) editor.node.setAttribute("aria-labelledby", title.id);
-    else title.htmlFor = editor.inputs[0].id;
-    const unit = this.#job.otherUnit(field) ? this.#unitButton(field) : make("span", { className: "unit" });
+    else title.setAttribute("for", editor.inputs[0].id);
+    const other = this.#job.otherUnit(field);
+    const unit = other ? this.#unitButton(field, other) : make("span", { className: "unit" });
     if (field.unit) title.append(" ", unit);
     const reset = make("button", { type: "button", className: "reset" }, "↺");
     const help = make("p", { className: "help", id: `${id}-help`, hidden: true });
@@ -232,16 +256,19 @@ export class Form {
       help,
       note,
     );
+    /** @type {Row} */
     const row = { field, editor, node, reset, unit, help, understood, error, note, notes, mistake: false, message: "" };
     label(row);
     // Some assistive tools and drivers choose an option with "change" alone.
     const kind = editor.inputs.some(({ tagName }) => tagName === "SELECT") ? "change" : "input";
-    node.addEventListener(kind, ({ target, detail }) =>
-      this.#edited(row, kind === "change" || isBox(target) ? undefined : field.path, detail === "stepped"),
-    );
+    node.addEventListener(kind, (event) => {
+      const { target, detail } = /** @type {CustomEvent} */ (event);
+      const box = isBox(/** @type {HTMLInputElement} */ (target));
+      this.#edited(row, kind === "change" || box ? undefined : field.path, detail === "stepped");
+    });
     const frame = /^(.*_frame)\./.exec(field.path)?.[1];
     if (frame) node.addEventListener("paste", (event) => this.#paste(frame, event));
-    if (editor.step) scrub(title, (count) => editor.step(count));
+    if (editor.step) scrub(title, (count) => editor.step?.(count));
     reset.addEventListener("click", () => {
       this.#setError(row, "");
       this.#job.reset(field);
@@ -261,8 +288,11 @@ export class Form {
     this.refresh();
   }
 
-  #unitButton(field) {
-    const other = this.#job.otherUnit(field);
+  /**
+   * @param {Field} field
+   * @param {Field} other
+   */
+  #unitButton(field, other) {
     const button = make("button", { type: "button", className: "unit", title: `Give it in ${other.unit}` }, field.unit);
     button.setAttribute("aria-label", `${field.unit}; give it in ${other.unit} instead`);
     button.addEventListener("click", () => {
@@ -278,21 +308,32 @@ export class Form {
     return BRANDS[this.#job.valueAt("program.controller")] ?? this.#preset()?.maker;
   }
 
-  /** A whole frame, as a controller writes it, is taken at once. */
+  /**
+   * A whole frame, as a controller writes it, is taken at once.
+   * @param {string} frame
+   * @param {ClipboardEvent} event
+   */
   #paste(frame, event) {
-    const found = frameIn(event.clipboardData.getData("text/plain"), this.#brand());
-    const keys = Object.keys(found ?? {});
-    const rows = keys.map((key) => this.#rows.find(({ field }) => field.path === `${frame}.${key}`));
-    if (!found || rows.includes(undefined)) return;
-    event.preventDefault();
-    rows.forEach((row, i) => {
-      this.#setError(row, "");
-      this.#job.set(row.field, found[keys[i]]);
-      row.editor.write(found[keys[i]]);
+    const found = frameIn(event.clipboardData?.getData("text/plain") ?? "", this.#brand());
+    const parts = Object.entries(found ?? {}).flatMap(([key, value]) => {
+      const row = this.#rows.find(({ field }) => field.path === `${frame}.${key}`);
+      return row ? [{ row, value }] : [];
     });
+    if (parts.length < 2) return; // not of a frame, or the form does not show all of it
+    event.preventDefault();
+    for (const { row, value } of parts) {
+      this.#setError(row, "");
+      this.#job.set(row.field, value);
+      row.editor.write(value);
+    }
     this.#changed();
   }
 
+  /**
+   * @param {Row} row
+   * @param {string} [typing]
+   * @param {boolean} [stepped]
+   */
   #edited(row, typing, stepped) {
     this.#take(row);
     this.#changed(typing, stepped);
@@ -310,11 +351,16 @@ export class Form {
       if (!(error instanceof Mistake)) throw error;
       this.#setError(row, error.message, error.input);
       row.mistake = true;
-      row.error.append(...error.readings.map((reading) => this.#readingButton(error.input, reading)));
+      const { input, readings } = error;
+      if (input) row.error.append(...readings.map((reading) => this.#readingButton(input, reading)));
     }
   }
 
-  /** One of the things that an ambiguous number may mean. */
+  /**
+   * One of the things that an ambiguous number may mean.
+   * @param {HTMLInputElement | HTMLTextAreaElement} input
+   * @param {string} reading
+   */
   #readingButton(input, reading) {
     const button = make("button", { type: "button", className: "reading" }, reading);
     button.addEventListener("click", () => {
@@ -325,6 +371,10 @@ export class Form {
     return button;
   }
 
+  /**
+   * @param {Row} row
+   * @param {any[]} texts
+   */
   #retype(row, texts) {
     row.editor.inputs.forEach((input, i) => {
       input.disabled = false;
@@ -440,7 +490,10 @@ export class Form {
   }
 }
 
-/** Writes what a row says of itself, in the units of the settings. */
+/**
+ * Writes what a row says of itself, in the units of the settings.
+ * @param {Row} row
+ */
 function label({ field, editor, unit, reset, help }) {
   if (unit.tagName !== "BUTTON") unit.textContent = shownUnits(editor.unit?.() ?? field.unit);
   reset.title = `Back to ${asText(field)}`;
@@ -448,7 +501,11 @@ function label({ field, editor, unit, reset, help }) {
   help.textContent = [helpText(field), editor.meaning?.()].filter(Boolean).join(" ");
 }
 
-/** Shows and hides a field's help. Screen readers have it with the field in either case. */
+/**
+ * Shows and hides a field's help. Screen readers have it with the field in either case.
+ * @param {Field} field
+ * @param {HTMLElement} help
+ */
 function helpButton(field, help) {
   const button = make(
     "button",

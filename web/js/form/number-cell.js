@@ -8,6 +8,11 @@ import { shownUnit, shownValue, typedAsShown, typedValue } from "./shown.js";
 
 /** What is wrong with what was typed, in which input, and the texts that it may have meant. */
 export class Mistake extends Error {
+  /**
+   * @param {string} message
+   * @param {HTMLInputElement | HTMLTextAreaElement} [input]
+   * @param {string[]} [readings]
+   */
   constructor(message, input, readings = []) {
     super(message);
     this.input = input;
@@ -15,7 +20,24 @@ export class Mistake extends Error {
   }
 }
 
-/** What `read` returns; what is no quantity becomes a Mistake of `input`. */
+/**
+ * @typedef {{
+ *   input: HTMLInputElement,
+ *   read(): number,
+ *   write(value: number | undefined): void,
+ *   step(count: number): void,
+ *   push(shown: number): void,
+ *   understood(): string,
+ *   relabel(): void,
+ * }} Cell
+ */
+
+/**
+ * What `read` returns; what is no quantity becomes a Mistake of `input`.
+ * @template T
+ * @param {HTMLInputElement | HTMLTextAreaElement} input
+ * @param {() => T} read
+ */
 export function mistaken(input, read) {
   try {
     return read();
@@ -28,9 +50,12 @@ export function mistaken(input, read) {
 /**
  * An input for a number of the job in `unit`: `{ input, read(), write(value), step(count), push(shown), understood(), relabel() }`. read()
  * throws a Mistake; understood() is what was read of an expression, "" of a plain number.
+ * @param {string} id
+ * @returns {Cell}
  */
 export function numberCell(id, unit = "", whole = false) {
   const input = make("input", { id, type: "text", inputMode: whole ? "numeric" : "decimal", className: "value" });
+  /** @type {{ text: string, value?: number }} */
   let written = { text: "" };
 
   function read() {
@@ -40,25 +65,33 @@ export function numberCell(id, unit = "", whole = false) {
     return value;
   }
 
+  /** @param {number | undefined} value */
   function write(value) {
     written = { text: typeof value === "number" ? plainNumber(shownValue(value, unit)) : "", value };
     input.value = written.text;
   }
 
-  /** Changes the number by some steps at once: an "input" whose detail says that nothing is being typed. */
+  /**
+   * Changes the number by some steps at once: an "input" whose detail says that nothing is being typed.
+   * @param {number} count
+   */
   function step(count) {
     let value = shownOr(undefined);
     if (value === undefined) return;
-    for (let i = 0; i < Math.abs(count); i++) value = stepped(value, Math.sign(count), whole);
+    for (let i = 0; i < Math.abs(count); i++) value = stepped(value, count > 0 ? 1 : -1, whole);
     push(value);
   }
 
+  /** @param {number} value */
   function push(value) {
     input.value = plainNumber(value);
     input.dispatchEvent(new CustomEvent("input", { bubbles: true, detail: "stepped" }));
   }
 
-  /** What is typed, in the shown unit; `otherwise` where that is no quantity. */
+  /**
+   * What is typed, in the shown unit; `otherwise` where that is no quantity.
+   * @param {undefined} [otherwise]
+   */
   function shownOr(otherwise) {
     try {
       return typedAsShown(input.value, unit);
@@ -73,7 +106,7 @@ export function numberCell(id, unit = "", whole = false) {
   }
 
   input.addEventListener("keydown", (event) => {
-    const direction = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    const direction = event.key === "ArrowUp" ? 1 : event.key === "ArrowDown" ? -1 : 0;
     if (!direction || event.altKey || event.ctrlKey || event.metaKey || shownOr(undefined) === undefined) return;
     event.preventDefault();
     step(direction);
@@ -90,12 +123,17 @@ export function numberCell(id, unit = "", whole = false) {
   }
 
   /** Writes what it was given in the units of the settings; what is being typed stays. */
-  const relabel = () => input.value === written.text && write(written.value);
+  const relabel = () => {
+    if (input.value === written.text) write(written.value);
+  };
 
   return { input, read, write, step, push, understood, relabel };
 }
 
-/** What was understood of several cells, of those that hold more than plain numbers. */
+/**
+ * What was understood of several cells, of those that hold more than plain numbers.
+ * @param {Cell[]} cells
+ */
 export const allUnderstood = (cells) =>
   cells
     .map((cell) => cell.understood())

@@ -4,14 +4,25 @@ import { make } from "../page/dom.js";
 import { Mistake, allUnderstood, numberCell } from "./number-cell.js";
 import { CONVENTIONS, strayLength } from "./orientation.js";
 
-/** How a spindle sits on a flange: its z axis, out of the tool, along the flange's or across it. */
+/**
+ * @import { Editor } from "./editors.js"
+ * @import { Convention } from "./orientation.js"
+ */
+
+// How a spindle sits on a flange: its z axis, out of the tool, along the flange's or across it.
+
+/** @type {Record<string, { label: string, rpy_deg: number[] }>} */
 const SPINDLES = {
   along: { label: "Spindle along the flange axis", rpy_deg: [0, 0, 0] },
   x: { label: "Spindle at 90°, towards the flange’s +X", rpy_deg: [0, 90, 0] },
   "minus-x": { label: "Spindle at 90°, towards the flange’s −X", rpy_deg: [0, -90, 0] },
 };
 
-/** An editor for roll, pitch and yaw; `brand()` says who counts them, `spindle` offers how a spindle may sit. */
+/**
+ * An editor for roll, pitch and yaw; `brand()` says who counts them, `spindle` offers how a spindle may sit.
+ * @param {string} id
+ * @param {() => string} brand
+ */
 export function orientationEditor(id, brand, { spindle = false } = {}) {
   const angles = [0, 1, 2].map((i) => numberCell(`${id}-${i}`, "deg"));
   const quaternion = CONVENTIONS.ABB.ids.map((name) => numberCell(`${id}-${name}`));
@@ -23,7 +34,9 @@ export function orientationEditor(id, brand, { spindle = false } = {}) {
   const menu = spindle ? spindleMenu(id, choose) : undefined;
   const node = make("div", { id, className: "orientation", role: "group" }, ...sets.map((set) => set.node));
   if (menu) node.prepend(menu);
+  /** @type {Convention} */
   let convention;
+  /** @type {{ rpy: number[], values: number[] }} */
   let held = { rpy: [0, 0, 0], values: [] };
 
   const cells = () => (convention.names.length === 4 ? quaternion : angles);
@@ -43,6 +56,7 @@ export function orientationEditor(id, brand, { spindle = false } = {}) {
     }
   }
 
+  /** @param {number[]} rpy */
   function write(rpy) {
     follow();
     held = { rpy, values: convention.of(rpy) };
@@ -58,6 +72,7 @@ export function orientationEditor(id, brand, { spindle = false } = {}) {
     return convention.rpy(values);
   }
 
+  /** @param {number[]} rpy */
   function choose(rpy) {
     write(rpy);
     node.dispatchEvent(new CustomEvent("input", { bubbles: true }));
@@ -68,14 +83,18 @@ export function orientationEditor(id, brand, { spindle = false } = {}) {
     inputs: [...angles, ...quaternion].map(({ input }) => input),
     read,
     write,
-    at: (rest) => cells()[Number(/^\[(\d)\]/.exec(rest)?.[1] ?? 0)].input,
+    at: (/** @type {string} */ rest) => cells()[Number(/^\[(\d)\]/.exec(rest)?.[1] ?? 0)].input,
     understood: () => allUnderstood(cells()),
     unit: () => (convention?.names.length === 4 ? "" : "deg"),
     meaning: () => convention?.meaning ?? "",
   };
 }
 
-/** The usual ways to mount a spindle; `choose(rpy)` is called with the chosen one. */
+/**
+ * The usual ways to mount a spindle; `choose(rpy)` is called with the chosen one.
+ * @param {string} id
+ * @param {(rpy: number[]) => void} choose
+ */
 function spindleMenu(id, choose) {
   const menu = make(
     "select",

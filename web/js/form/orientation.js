@@ -6,12 +6,28 @@ const PLACES = 10; // of a degree or of a quaternion: the last bits of sines and
 const UNIT = 1e-3; // how far from 1 the length of a quaternion may be: they are typed with four digits or more
 
 const ANGLES = ["roll", "pitch", "yaw"];
+/** @param {number[]} values */
 const same = (values) => [...values];
+/**
+ * @template T
+ * @param {T[]} values
+ */
 const reversed = ([a, b, c]) => [c, b, a];
+
+/**
+ * @typedef {{
+ *   names: string[],
+ *   ids: string[],
+ *   meaning: string,
+ *   of(rpy: number[]): number[],
+ *   rpy(values: number[]): number[],
+ * }} Convention
+ */
 
 /**
  * By brand: the names of the values; which angle of the job each is nearest to, for their ids; what they mean; `of(rpy)`
  * and its inverse `rpy(values)`.
+ * @type {Record<string, Convention>}
  */
 export const CONVENTIONS = {
   other: { names: ANGLES, ids: ANGLES, meaning: "", of: same, rpy: same },
@@ -52,15 +68,22 @@ export const CONVENTIONS = {
   },
 };
 
-/** Length of a quaternion, if that is too far from 1 to be a rotation; undefined otherwise. */
+/**
+ * Length of a quaternion, if that is too far from 1 to be a rotation; undefined otherwise.
+ * @param {number[]} q
+ */
 export function strayLength(q) {
   const length = Math.hypot(...q);
   return Math.abs(length - 1) <= UNIT ? undefined : length;
 }
 
+/** @param {number[]} values */
 const rounded = (values) => values.map((value) => Number(value.toFixed(PLACES)) + 0);
 
-/** R = Rz Ry Rx, by rows. */
+/**
+ * R = Rz Ry Rx, by rows.
+ * @param {number[]} values
+ */
 function matrix([roll, pitch, yaw]) {
   const [[sr, cr], [sp, cp], [sy, cy]] = [roll, pitch, yaw].map((angle) => [
     Math.sin(angle * DEG),
@@ -73,9 +96,13 @@ function matrix([roll, pitch, yaw]) {
   ];
 }
 
+/** @param {number[][]} m */
 const transposed = (m) => m.map((_, i) => m.map((row) => row[i]));
 
-/** Roll is found after undoing yaw, so that the three belong together where pitch is 90 deg as well. */
+/**
+ * Roll is found after undoing yaw, so that the three belong together where pitch is 90 deg as well.
+ * @param {number[][]} m
+ */
 function rollPitchYaw(m) {
   const level = Math.hypot(m[0][0], m[1][0]);
   const yaw = level < 1e-12 ? 0 : Math.atan2(m[1][0], m[0][0]);
@@ -84,9 +111,13 @@ function rollPitchYaw(m) {
   return [roll, Math.atan2(-m[2][0], level), yaw].map((angle) => angle / DEG);
 }
 
-/** About x, the new y, the new z: the transpose turns by their negatives about z, y, x. */
+/**
+ * About x, the new y, the new z: the transpose turns by their negatives about z, y, x.
+ * @param {number[][]} m
+ */
 const movingXyz = (m) => rollPitchYaw(transposed(m)).map((angle) => -angle);
 
+/** @param {number[]} rpy */
 function quaternion(rpy) {
   const [[sr, cr], [sp, cp], [sy, cy]] = rpy.map((angle) => [Math.sin((angle * DEG) / 2), Math.cos((angle * DEG) / 2)]);
   const q = [
@@ -99,8 +130,10 @@ function quaternion(rpy) {
   return q.map((value) => sign * value);
 }
 
+/** @param {number[]} q */
 const normalised = (q) => q.map((value) => value / Math.hypot(...q));
 
+/** @param {number[]} values */
 const matrixOf = ([w, x, y, z]) => [
   [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
   [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],

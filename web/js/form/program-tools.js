@@ -11,7 +11,7 @@ import { listing } from "./program-text.js";
 
 /** @typedef {{ file: string, kind: string, title: string, note: string, stock?: Stock, tool?: object }} Example a program of the site */
 
-/** @typedef {(kind: string, text: string, example?: Example) => Promise<boolean>} Use makes a program the path of the job */
+/** @typedef {(kind: string, text: string, example?: Partial<Example>) => Promise<boolean>} Use makes a program the path of the job */
 
 /** @type {Promise<Example[]> | undefined} */
 let examplesListed;

@@ -5,7 +5,14 @@
 //   product = power { ["*" | "/"] power }      "2 mm" is a product, and so is "mm/min"
 //   power   = sign power | (number | unit | "(" sum ")") ["²" | "³"]
 
-/** What each unit is in others; null for the base units that all are made of. */
+/** @typedef {{ value: number, kind: string }} Measure a value in base units, and the kind of quantity that it is of */
+
+/** @typedef {{ text?: string, number?: number, unit?: string, sign?: string }} Token */
+
+/**
+ * What each unit is in others; null for the base units that all are made of.
+ * @type {Record<string, string | null>}
+ */
 const UNITS = {
   mm: null,
   µm: "0.001 mm",
@@ -38,9 +45,13 @@ const UNITS = {
   "%": null,
 };
 
+/** @type {Record<string, string>} */
 const ALIASES = { um: "µm", μm: "µm", inch: "in", '"': "in", "″": "in", "°": "deg", sec: "s", "1/min": "rpm" };
 
-/** The kinds of quantity that fields have: a name, and the units to suggest. */
+/**
+ * The kinds of quantity that fields have: a name, and the units to suggest.
+ * @type {[name: string, units: string[]][]}
+ */
 const KINDS = [
   ["a length", ["mm", "cm", "m", "in", "ft"]],
   ["a speed", ["mm/s", "mm/min", "m/min", "in/s", "in/min"]],
@@ -66,6 +77,10 @@ const TOKEN = new RegExp(
 
 /** What is wrong with a typed number; `readings` are the texts it may have meant. */
 export class NotAQuantity extends Error {
+  /**
+   * @param {string} message
+   * @param {string[]} [readings]
+   */
   constructor(message, readings = []) {
     super(message);
     this.readings = readings;
@@ -75,6 +90,7 @@ export class NotAQuantity extends Error {
 /**
  * The value of `text` in `unit` ("" for a plain number). A number without a unit is one in `plainUnit`.
  * Throws NotAQuantity.
+ * @param {string} text
  */
 export function readQuantity(text, unit = "", plainUnit = unit) {
   const typed = text.trim();
@@ -90,18 +106,34 @@ export function readQuantity(text, unit = "", plainUnit = unit) {
   return rounded((value * given.value) / wanted.value, 15); // 1.1 in are 27.94 mm, not 27.939999999999998
 }
 
-/** A value of one unit in another of the same kind, to some digits. */
+/**
+ * A value of one unit in another of the same kind, to some digits.
+ * @param {number} value
+ * @param {string} from
+ * @param {string} to
+ */
 export const convert = (value, from, to, digits = 15) =>
   from === to ? value : rounded((value * unitOf(from).value) / unitOf(to).value, digits);
 
-/** Whether a text is a number and nothing else, written the way the page writes numbers. */
+/**
+ * Whether a text is a number and nothing else, written the way the page writes numbers.
+ * @param {string} text
+ */
 export const isPlain = (text) => /^\s*[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?\s*$/i.test(text);
 
+/**
+ * @param {number} value
+ * @param {number} digits
+ */
 const rounded = (value, digits) => Number(value.toPrecision(digits));
 
 // A kind of quantity is the product of base units as a text, such as "mm1 s-1"; "" is a plain number.
 const PLAIN = "";
 
+/**
+ * @param {Measure} a
+ * @param {Measure} b
+ */
 function times(a, b, sign = 1) {
   const powers = Object.fromEntries(a.kind.split(" ").filter(Boolean).map(parsedPower));
   for (const [base, power] of b.kind.split(" ").filter(Boolean).map(parsedPower))
@@ -114,20 +146,31 @@ function times(a, b, sign = 1) {
   return { value: sign > 0 ? a.value * b.value : a.value / b.value, kind };
 }
 
+/**
+ * @param {string} text
+ * @returns {[base: string, power: number]}
+ */
 const parsedPower = (text) => {
-  const [, base, power] = /^(.*?)(-?\d+)$/.exec(text);
+  const [, base, power] = /^(.*?)(-?\d+)$/.exec(text) ?? [];
   return [base, Number(power)];
 };
 
+/** @type {Map<string, Measure>} */
 const known = new Map();
 
-/** A unit, as a field states it or as it is typed. */
+/**
+ * A unit, as a field states it or as it is typed.
+ * @param {string} name
+ */
 function unitOf(name) {
   if (!known.has(name)) known.set(name, name === "" ? { value: 1, kind: PLAIN } : evaluated(ALIASES[name] ?? name));
-  return known.get(name);
+  return /** @type {Measure} */ (known.get(name));
 }
 
-/** A unit by the name that was typed; undefined if there is none. Only where it is no other's does case not matter. */
+/**
+ * A unit by the name that was typed; undefined if there is none. Only where it is no other's does case not matter.
+ * @param {string} name
+ */
 function namedUnit(name) {
   const lower = name.toLowerCase();
   const own = Object.hasOwn(ALIASES, lower) ? ALIASES[lower] : name;
@@ -135,17 +178,26 @@ function namedUnit(name) {
     ? own
     : Object.keys(UNITS).find((each) => each.toLowerCase() === own.toLowerCase());
   if (found === undefined) return undefined;
-  return UNITS[found] === null ? { value: 1, kind: `${found}1` } : unitOf(UNITS[found]);
+  const inOthers = UNITS[found];
+  return inOthers === null ? { value: 1, kind: `${found}1` } : unitOf(inOthers);
 }
 
-/** What a text stands for: its value in base units, and whether it is a single number. */
+/**
+ * What a text stands for: its value in base units, and whether it is a single number.
+ * @param {string} text
+ */
 function evaluated(text) {
   const tokens = tokensOf(text);
   const hasNumber = tokens.some(({ number }) => number !== undefined);
   let at = 0;
-  const next = (...signs) => signs.includes(tokens[at]?.sign) && tokens[at++].sign;
+  /**
+   * A sign that comes next, if it is one of these.
+   * @param {...string} signs
+   */
+  const next = (...signs) => (signs.includes(tokens[at]?.sign ?? "") ? tokens[at++].sign : undefined);
   const fail = () => notANumber(text);
 
+  /** @returns {Measure} */
   function sum() {
     let left = product();
     for (let sign; (sign = next("+", "-"));) {
@@ -157,6 +209,7 @@ function evaluated(text) {
     return left;
   }
 
+  /** @returns {Measure} */
   function product() {
     let left = power();
     for (;;) {
@@ -168,15 +221,19 @@ function evaluated(text) {
     }
   }
 
-  /** A whole number and a fraction: 1 1/2. Two numbers side by side are nothing else. */
+  /**
+   * A whole number and a fraction: 1 1/2. Two numbers side by side are nothing else.
+   * @param {Measure} whole
+   */
   function mixed(whole) {
     const [above, slash, below] = tokens.slice(at, at + 3);
     const digits = [tokens[at - 1], above, below].every((token) => /^\d+$/.test(token?.text ?? ""));
     if (!digits || slash?.sign !== "/") throw fail();
     at += 3;
-    return { value: whole.value + above.number / below.number, kind: PLAIN };
+    return { value: whole.value + Number(above.number) / Number(below.number), kind: PLAIN };
   }
 
+  /** @returns {Measure} */
   function power() {
     if (next("-")) {
       const { value, ...rest } = power();
@@ -184,11 +241,13 @@ function evaluated(text) {
     }
     if (next("+")) return power();
     let base = primary();
-    const count = { "²": 2, "³": 3 }[next("²", "³")] ?? 1;
+    const mark = next("²", "³");
+    const count = mark === "²" ? 2 : mark === "³" ? 3 : 1;
     for (let i = 1, one = base; i < count; i++) base = times(base, one);
     return base;
   }
 
+  /** @returns {Measure} */
   function primary() {
     if (next("(")) {
       const inside = sum();
@@ -206,12 +265,16 @@ function evaluated(text) {
 
   const result = sum();
   if (at < tokens.length) throw fail();
-  const exact = tokens.filter(({ sign }) => !["-", "+"].includes(sign)).length === 1;
+  const exact = tokens.filter(({ sign }) => sign !== "-" && sign !== "+").length === 1;
   return { ...result, hasNumber, exact };
 }
 
-/** Numbers, units and signs in order; a power that follows a unit is a sign of its own. */
+/**
+ * Numbers, units and signs in order; a power that follows a unit is a sign of its own.
+ * @param {string} text
+ */
 function tokensOf(text) {
+  /** @type {Token[]} */
   const tokens = [];
   const plain = text
     .trimEnd()
@@ -223,6 +286,7 @@ function tokensOf(text) {
     const { number, unit, power, sign } = TOKEN.exec(plain)?.groups ?? {};
     const end = TOKEN.lastIndex;
     if (number !== undefined) {
+      /** @param {string} other */
       const inText = (other) => plain.slice(0, end - number.length) + other + plain.slice(end);
       tokens.push({ text: number, number: literal(number, inText) });
     } else if (unit !== undefined) {
@@ -238,6 +302,8 @@ function tokensOf(text) {
 /**
  * The number that a literal stands for. A comma separates decimals or thousands; where it may do either,
  * both readings are offered, each by `inText` in place of the literal.
+ * @param {string} text
+ * @param {(other: string) => string} inText
  */
 function literal(text, inText) {
   const [typed, exponent = ""] = text.split(/(?=e)/i);
@@ -260,15 +326,25 @@ function literal(text, inText) {
   return Number(dotted + exponent);
 }
 
+/** @param {string} text */
 const notANumber = (text) => new NotAQuantity(`“${text.trim()}” is not a number.`);
 
-/** Why a quantity does not fit a field, and what would. */
+/**
+ * Why a quantity does not fit a field, and what would.
+ * @param {string} typed
+ * @param {string} kind
+ * @param {string} unit
+ * @param {string} wanted
+ */
 function misfit(typed, kind, unit, wanted) {
+  /** @param {string} each */
   const kindOf = (each) => KINDS.find(([, units]) => unitOf(units[0]).kind === each);
-  const what = kindOf(kind) ? `“${typed}” is ${kindOf(kind)[0]}` : `“${typed}” does not fit here`;
+  const own = kindOf(kind);
+  const what = own ? `“${typed}” is ${own[0]}` : `“${typed}” does not fit here`;
   if (wanted === PLAIN) return `${what}. A number without a unit is needed here.`;
   const [name, units] = kindOf(wanted) ?? ["a number", [unit]];
   return `${what}. ${name[0].toUpperCase()}${name.slice(1)} is needed here, in ${listed(units)}.`;
 }
 
+/** @param {string[]} words */
 const listed = (words) => (words.length < 2 ? words.join("") : `${words.slice(0, -1).join(", ")} or ${words.at(-1)}`);

@@ -8,14 +8,23 @@ import { shownValue, typedValue } from "./shown.js";
 
 const MIXED = "commas or spaces between the numbers, not both"; // or "1,000 5" might be three numbers
 
-/** An editor for rows of numbers; `columns` are `[name, unit]`. */
+/**
+ * An editor for rows of numbers; `columns` are `[name, unit]`.
+ * @param {string} id
+ * @param {string[][]} columns
+ */
 export function rowsEditor(id, columns, { lines = 2 } = {}) {
   const names = columns.map(([name]) => name).join(", ");
   const input = make("textarea", { id, rows: lines, spellcheck: false, placeholder: names });
   let written = new Map(); // text of a line -> its row in the job
 
+  /** @param {number[]} row */
   const textOf = (row) => row.map((value, i) => plainNumber(shownValue(value, columns[i][1]))).join(", ");
 
+  /**
+   * @param {string} line
+   * @param {number} number
+   */
   function rowOf(line, number) {
     if (written.has(line)) return [...written.get(line)];
     const parts = partsOf(line);
@@ -42,6 +51,7 @@ export function rowsEditor(id, columns, { lines = 2 } = {}) {
     inputs: [input],
     at: () => input,
     read: () => typedLines().map(({ line, number }) => rowOf(line, number)),
+    /** @param {number[][]} rows */
     write(rows) {
       const texts = rows.map(textOf);
       written = new Map(texts.map((text, i) => [text, rows[i]]));
@@ -60,7 +70,10 @@ export function rowsEditor(id, columns, { lines = 2 } = {}) {
   };
 }
 
-/** The parts of a line, by one kind of separator; undefined if it mixes them. */
+/**
+ * The parts of a line, by one kind of separator; undefined if it mixes them.
+ * @param {string} line
+ */
 function partsOf(line) {
   if (line.includes(";")) return line.split(";");
   const words = line.split(/\s+/);

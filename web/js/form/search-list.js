@@ -5,8 +5,19 @@ import { make } from "../page/dom.js";
 import { found } from "./search.js";
 
 /**
+ * @import { Badge } from "./badges.js"
+ * @import { Editor } from "./editors.js"
+ */
+
+/** @typedef {{ value: string, label: string, heading?: string }} Choice */
+
+/**
  * An editor for `choices`, `{ value, label, heading }`. `badges` has a few words for each value, `{ text, kind }`, by which
  * it is found too.
+ * @param {string} id
+ * @param {Choice[]} choices
+ * @param {Map<string, Badge[]>} badges
+ * @returns {Editor}
  */
 export function searchList(id, choices, badges) {
   const select = make("select", { id, hidden: true, tabIndex: -1 }, ...grouped(choices, optgroup, option));
@@ -26,12 +37,16 @@ export function searchList(id, choices, badges) {
   const node = make("div", { className: "search-list" }, input, list, none, chosen, select);
   list.setAttribute("aria-labelledby", `${id}-label`);
 
+  /** @param {string} value */
   const badgesOf = (value) => badges.get(value) ?? [];
+  /** @param {{ value: string, label: string }} given */
   const textOf = ({ value, label }) => [label, ...badgesOf(value).map(({ text }) => text)].join(" ");
-  const options = () => [...list.querySelectorAll("[role=option]")];
+  const options = () => /** @type {HTMLElement[]} */ ([...list.querySelectorAll("[role=option]")]);
   const isOpen = () => !list.hidden;
+  /** @type {HTMLElement | undefined} */
   let active; // the option that Enter takes
 
+  /** @param {HTMLElement | undefined} target */
   function point(target) {
     active?.classList.remove("active");
     active = target;
@@ -41,6 +56,7 @@ export function searchList(id, choices, badges) {
     else input.removeAttribute("aria-activedescendant");
   }
 
+  /** @param {string} query */
   function open(query) {
     const fitting = found(choices, query, textOf);
     list.replaceChildren(...grouped(fitting, group, entry));
@@ -65,12 +81,14 @@ export function searchList(id, choices, badges) {
     chosen.replaceChildren(...(fits ? [] : [make("span", {}, label)]), ...badgesOf(select.value).map(badge));
   }
 
+  /** @param {string} value */
   function take(value) {
     select.value = value;
     close();
     select.dispatchEvent(new Event("change", { bubbles: true }));
   }
 
+  /** @param {{ value: string, label: string }} given */
   function entry({ value, label }) {
     const node = make(
       "div",
@@ -91,20 +109,21 @@ export function searchList(id, choices, badges) {
   input.addEventListener("blur", close);
   list.addEventListener("pointerdown", (event) => event.preventDefault()); // the focus stays in the input
   list.addEventListener("click", ({ target }) => {
-    const picked = target.closest("[role=option]");
-    if (picked) take(picked.dataset.value);
+    /** @type {HTMLElement | null} */
+    const picked = /** @type {Element} */ (target).closest("[role=option]");
+    if (picked) take(String(picked.dataset.value));
   });
   input.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey) return;
     const { key } = event;
     if (key === "Escape" && (isOpen() || !none.hidden)) return (event.preventDefault(), close());
-    if (key === "Enter" && isOpen()) return (event.preventDefault(), active && take(active.dataset.value));
-    const step = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 }[key];
+    if (key === "Enter" && isOpen()) return (event.preventDefault(), active && take(String(active.dataset.value)));
+    const step = STEPS[key];
     if (!step) return;
     event.preventDefault();
     if (!isOpen()) return open("");
     const all = options();
-    const at = all.indexOf(active);
+    const at = active ? all.indexOf(active) : -1;
     point(all[at < 0 ? (step > 0 ? 0 : all.length - 1) : Math.min(all.length - 1, Math.max(0, at + step))]);
   });
 
@@ -112,6 +131,7 @@ export function searchList(id, choices, badges) {
     node,
     inputs: [input, select],
     read: () => select.value,
+    /** @param {string} value */
     write(value) {
       select.value = value;
       if (!isOpen()) show();
@@ -120,11 +140,19 @@ export function searchList(id, choices, badges) {
   };
 }
 
+/** @type {Record<string, number>} */
+const STEPS = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 };
 const FITS = 36; // characters of a name, where the input is not laid out yet
 
+/** @param {Badge} badge */
 const badge = ({ text, kind }) => make("span", { className: `badge ${kind ?? ""}`.trim() }, text);
 
-/** Nodes of the items in order, those of one heading inside one node of it. */
+/**
+ * Nodes of the items in order, those of one heading inside one node of it.
+ * @param {Choice[]} items
+ * @param {(heading: string) => HTMLElement} groupNode
+ * @param {(choice: Choice) => HTMLElement} itemNode
+ */
 function grouped(items, groupNode, itemNode) {
   const nodes = [];
   const groups = new Map();
@@ -140,10 +168,13 @@ function grouped(items, groupNode, itemNode) {
   return nodes;
 }
 
+/** @param {string} label */
 const optgroup = (label) => make("optgroup", { label });
 
+/** @param {{ value: string, label: string }} given */
 const option = ({ value, label }) => make("option", { value }, label);
 
+/** @param {string} heading */
 const group = (heading) =>
   make(
     "div",

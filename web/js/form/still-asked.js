@@ -14,9 +14,14 @@ const PARTS = {
 };
 const DEPTHS = ["Depths of cut", "cutting"]; // of a job without a stock, which would give them
 
+/** @param {unknown} part */
 const textOf = (part) => JSON.stringify(part ?? null);
 
-/** Parts of `data` that are still as they were when they were asked about, `asked`: [name, group] each. */
+/**
+ * Parts of `data` that are still as they were when they were asked about, `asked`: [name, group] each.
+ * @param {import("../job/data.js").JobData} data
+ * @param {Record<string, string>} asked
+ */
 export function stillAsked(data, asked) {
   const parts = { ...PARTS, ...((data.stock?.kind ?? "none") === "none" && { cutting: DEPTHS }) };
   return Object.entries(parts)
@@ -24,18 +29,29 @@ export function stillAsked(data, asked) {
     .map(([, names]) => names);
 }
 
-/** The parts of a job, as they are compared later. */
+/**
+ * The parts of a job, as they are compared later.
+ * @param {import("../job/data.js").JobData} data
+ */
 export const askedOf = (data) =>
   Object.fromEntries([...Object.keys(PARTS), "cutting"].map((key) => [key, textOf(data[key])]));
 
-/** Asks about what `data` took over; `but` names a part that was just chosen. */
+/**
+ * Asks about what `data` took over; `but` names a part that was just chosen.
+ * @param {import("../job/data.js").JobData} data
+ * @param {string} [but]
+ */
 export function ask(data, but) {
-  const { [but]: _, ...asked } = askedOf(data);
+  const asked = askedOf(data);
+  if (but) delete asked[but];
   keep(asked);
   showAsked(data);
 }
 
-/** Writes the list of what is still asked about above the inputs. */
+/**
+ * Writes the list of what is still asked about above the inputs.
+ * @param {import("../job/data.js").JobData} data
+ */
 export function showAsked(data) {
   const box = byId("still-asked");
   const parts = stillAsked(data, kept());
@@ -51,21 +67,23 @@ export function showAsked(data) {
   box.replaceChildren(make("p", {}, "Still from the job before. Check:"), make("ul", {}, ...links), confirm);
 }
 
+/** @param {string} group */
 function show(group) {
-  const details = byId(`group-${group}`);
+  const details = /** @type {HTMLDetailsElement} */ (byId(`group-${group}`));
   details.open = true;
   details.scrollIntoView({ block: "nearest" });
-  details.querySelector("summary").focus();
+  details.querySelector("summary")?.focus();
 }
 
 function kept() {
   try {
-    return JSON.parse(sessionStorage.getItem(KEY)) ?? {};
+    return JSON.parse(sessionStorage.getItem(KEY) ?? "{}") ?? {};
   } catch {
     return {}; // denied, or not ours
   }
 }
 
+/** @param {Record<string, string>} asked */
 function keep(asked) {
   try {
     sessionStorage.setItem(KEY, JSON.stringify(asked));

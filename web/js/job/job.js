@@ -31,7 +31,9 @@ export class Job {
   #presets;
   /** @type {number} */
   #model;
+  /** @type {JobData} */
   #thesis; // the default job
+  /** @type {Map<string, any>} */
   #drafts = new Map(); // values of fields whose shape is not chosen now, kept for the way back
   /** @type {JobData} */
   #data;
@@ -43,6 +45,8 @@ export class Job {
   /**
    * A job from its plain object, and what the core says of jobs: fields, presets `{ robots, materials }`,
    * number of the model, and `job`, the default one.
+   * @param {JobData} data
+   * @param {{ fields: Field[], presets: Presets, model: number, job: JobData }} core
    */
   constructor(data, { fields, presets, model, job }) {
     this.#fields = fields;
@@ -109,9 +113,13 @@ export class Job {
     return this.#presetOf(parentOf(field.path))[keyOf(field.path)] ?? this.#standard(field);
   }
 
-  /** The value at a path that has a field. */
+  /**
+   * The value at a path that has a field.
+   * @param {string} path
+   * @returns {any}
+   */
   valueAt(path) {
-    return this.get(this.#find(path));
+    return this.get(/** @type {Field} */ (this.#find(path)));
   }
 
   /** Whether the job has a stock. */
@@ -177,10 +185,9 @@ export class Job {
    * @param {JobData} data
    */
   of(data) {
-    const { robot: robots, material: materials } = this.#presets;
     return new Job(data, {
       fields: this.#fields,
-      presets: { robots, materials },
+      presets: this.#presets,
       model: this.#model,
       job: this.#thesis,
     });
@@ -231,10 +238,13 @@ export class Job {
     return other;
   }
 
-  /** The thesis's shaper is for its own arm: hardly another controller has one. */
+  /**
+   * The thesis's shaper is for its own arm: hardly another controller has one.
+   * @param {string} robot
+   */
   #leaveThesis(robot) {
     const { robot: its, shaper } = this.#thesis;
-    const another = this.#presets.robot.some(({ id }) => id === robot) && robot !== its.preset;
+    const another = this.#presets.robots.some(({ id }) => id === robot) && robot !== its.preset;
     if (another && JSON.stringify(this.#data.shaper) === JSON.stringify(shaper)) this.#data.shaper = "none";
   }
 
@@ -407,8 +417,9 @@ export class Job {
         if (!own) shape[key] = choice;
         continue;
       }
-      const asked = field.when && (field.when.path === decider?.path || (own && field.when.path === path));
-      const unneeded = asked && !field.when.is.includes(choice);
+      const { when } = field;
+      const asked = when && (when.path === decider?.path || (own && when.path === path));
+      const unneeded = asked && !when.is.includes(String(choice));
       if (byPreset || unneeded || this.#inOtherUnit(field, known)) continue;
       if (choice === "extents" && EXTENTS.includes(field.path)) continue;
       const standard = field.defaults?.[choice ?? ""] ?? field.default;

@@ -4,6 +4,8 @@
 // The compression is zlib's ("deflate"), because its checksum tells a damaged link from a whole
 // one; base64url has no character that a mail program would break a link at.
 
+/** @import { JobData } from "./data.js" */
+
 const FORMAT = 2;
 const LARGEST = 4_000_000; // bytes of JSON: what unfolds to more is refused, for a few kB can be made to unfold to gigabytes
 
@@ -22,13 +24,19 @@ export const holdsJob = (fragment) => /^#?job=/.test(fragment);
 /**
  * The job that a fragment names: `#example=thesis` or `#example=bracket`, of the jobs that the core
  * brings, { job, opening }; undefined for another fragment.
+ * @param {string} fragment
+ * @param {{ job: JobData, opening: JobData }} core
+ * @returns {JobData | undefined}
  */
 export function exampleIn(fragment, { job: thesis, opening: bracket }) {
   const [, name] = /^#?example=(\w+)/.exec(fragment) ?? [];
-  return { thesis, bracket }[name];
+  return name === "thesis" ? thesis : name === "bracket" ? bracket : undefined;
 }
 
-/** The fragment, without "#", that stands for the JSON text of a job. */
+/**
+ * The fragment, without "#", that stands for the JSON text of a job.
+ * @param {string} json
+ */
 export async function fragmentOf(json) {
   const bytes = await read(through(new CompressionStream("deflate"), new TextEncoder().encode(json)));
   return `job=${FORMAT}.${toBase64(bytes)}`;

@@ -13,6 +13,7 @@ const isLong = (value) => typeof value === "string" && value.length > LONG;
 
 /**
  * Stores the long texts in plain data that are not stored yet; resolves when they are, or cannot be.
+ * @param {object} data
  */
 export async function putDown(data) {
   for (const text of textsIn(data)) {

@@ -3,14 +3,23 @@
 import { isOfExample, openProgram, textIn } from "../form/program-tools.js";
 import { ask } from "../form/still-asked.js";
 import { byId } from "../page/dom.js";
-import { merged } from "./job.js";
+import { merged } from "./data.js";
 import { nameOfFile, named } from "./name.js";
+
+/**
+ * @import { Stock } from "../../pkg/armill.js"
+ * @import { JobData } from "./data.js"
+ * @import { Job } from "./job.js"
+ * @import { Session } from "./session.js"
+ */
+
+/** @typedef {{ file?: string, title?: string, stock?: Stock, tool?: object }} Opened a file, or an example, which has a title */
 
 /**
  * `openJob(file)`, `useProgram(kind, text, example)` and `wireDrop()` for the page. `session()`, `job()`
  * and `thesis()`, the default job, are asked for when they are needed; `warn(message)` says what could
  * not be opened.
- * @param {{ core: typeof import("../core/client.js"), job(): Job, session(): Session, standard(): JobData, warn(message: string): void }} page
+ * @param {{ core: typeof import("../core/client.js"), job(): Job, session(): Session, thesis(): JobData, warn(message: string): void }} page
  */
 export function makeOpening({ core, job, session, thesis, warn }) {
   let opened = 0; // programs, to know the latest
@@ -37,6 +46,9 @@ export function makeOpening({ core, job, session, thesis, warn }) {
    * its file names the job. An example, which has a title, brings its stock and its tool; any other program
    * gets a stock unless the job has one, and the rest of the inputs is asked about. False if another
    * program came meanwhile.
+   * @param {string} kind its language
+   * @param {string} text
+   * @param {Opened} [example]
    */
   async function useProgram(kind, text, { stock, tool, title, file } = {}) {
     const mine = ++opened;
@@ -55,7 +67,11 @@ export function makeOpening({ core, job, session, thesis, warn }) {
     return true;
   }
 
-  /** What the program itself decides, and for an example a place in front of the robot. */
+  /**
+   * What the program itself decides, and for an example a place in front of the robot.
+   * @param {any} next
+   * @param {any} placed
+   */
   async function changesFor(next, placed) {
     const text = JSON.stringify(next);
     const atHome = JSON.stringify(next.robot) === JSON.stringify(thesis().robot);
@@ -66,7 +82,12 @@ export function makeOpening({ core, job, session, thesis, warn }) {
     return { ...(cutting && { cutting }), ...(xyz_mm && { workpiece_frame: { xyz_mm: [...xyz_mm] } }) };
   }
 
-  /** The stock for a program: the job's own, or its extents as the core proposes them. */
+  /**
+   * The stock for a program: the job's own, or its extents as the core proposes them.
+   * @param {string} kind
+   * @param {string} text
+   * @returns {Promise<Stock | undefined>}
+   */
   async function stockFor(kind, text) {
     const { stock, ...rest } = job().data;
     const path = { kind, text };

@@ -25,7 +25,9 @@ export class Session {
   #job;
   /** @type {Form} */
   #form;
+  /** @type {{ job: JobData, opening: JobData }} */
   #examples;
+  /** @type {{ check(json: string): Promise<void> }} */
   #core;
   /** @type {(stepped?: boolean) => void} */
   #changed;
@@ -39,7 +41,7 @@ export class Session {
   /**
    * `examples` has the core's own jobs, `opening` and `job`. `changed(stepped)` is called whenever the inputs are others than before, `warn(message)` with
    * what could not be shown.
-   * @param {{ job: Job, form: Form, standard: JobData, core: { check(json: string): Promise<void> }, changed(stepped?: boolean): void, warn(message: string): void }} page
+   * @param {{ job: Job, form: Form, examples: { job: JobData, opening: JobData }, core: { check(json: string): Promise<void> }, changed(stepped?: boolean): void, warn(message: string): void }} page
    */
   constructor({ job, form, examples, core, changed, warn }) {
     this.#job = job;

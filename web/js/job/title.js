@@ -4,9 +4,18 @@ import { byId } from "../page/dom.js";
 import { nameFilesAfter } from "../page/download.js";
 import { fileStem, legal, named } from "./name.js";
 
+/**
+ * @import { Job } from "./job.js"
+ * @import { Session } from "./session.js"
+ */
+
 const TITLE = document.title;
 
-/** Wires the input of the name; the function it returns shows the name of `job()` after every change of it. */
+/**
+ * Wires the input of the name; the function it returns shows the name of `job()` after every change of it.
+ * @param {() => Job} job
+ * @param {() => Session} session
+ */
 export function makeTitle(job, session) {
   const input = byId("job-name");
   // When it is left: a name is no number that a result should follow while it is typed.

@@ -14,6 +14,7 @@
  *   "group-frames": HTMLDetailsElement,
  *   "group-path": HTMLDetailsElement,
  *   "job-file": HTMLInputElement,
+ *   "job-name": HTMLInputElement,
  *   "open": HTMLAnchorElement,
  *   "pin": HTMLButtonElement,
  *   "progress": HTMLProgressElement,
@@ -82,7 +83,7 @@ export function rove(group) {
   group.addEventListener("focusin", ({ target }) => stop(target));
   group.addEventListener("keydown", (event) => {
     const all = buttons().filter((button) => button.checkVisibility());
-    const at = all.indexOf(document.activeElement);
+    const at = all.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement));
     const to = { ArrowRight: at + 1, ArrowLeft: at - 1 + all.length, Home: 0, End: all.length - 1 }[event.key];
     if (at < 0 || to === undefined) return;
     event.preventDefault();

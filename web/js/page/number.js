@@ -2,7 +2,11 @@
 
 const GROUP = "\u202f"; // narrow no-break space between thousands
 
-/** `value` to `digits` significant digits, never fewer than its whole digits. */
+/**
+ * `value` to `digits` significant digits, never fewer than its whole digits.
+ * @param {number} value
+ * @param {number} [digits]
+ */
 export function formatNumber(value, digits = 3) {
   if (!Number.isFinite(value)) return "–";
   if (Number.isInteger(value) && Math.abs(value) < 1e9) return minus(group(String(value)));

@@ -31,7 +31,7 @@ export function settingsPanel(box) {
 
 /** @param {(typeof ROWS)[number]} row */
 function row({ key, title, labels }) {
-  const options = choices(key).map((value) => {
+  const options = (choices(key) ?? []).map((value) => {
     const input = make("input", {
       type: "radio",
       name: `setting-${key}`,

@@ -1,9 +1,9 @@
 // What the page remembers of how it is looked at: units and theme, kept in this browser only.
 
-/** @typedef {"length" | "force" | "theme"} Setting */
+/** @typedef {"length" | "feed" | "force" | "theme" | "over" | `scale-${string}`} Setting */
 
 const KEY = "armill-settings";
-/** @type {Record<Setting, string[]>} */
+/** @type {Record<string, string[]>} */
 const CHOICES = {
   length: ["mm", "inch"],
   feed: ["second", "minute"],
@@ -12,14 +12,23 @@ const CHOICES = {
   over: ["auto", "time", "length", "line"],
 };
 const SCALES = ["auto", "linear", "log"]; // of each chart: `scale-` and its name
+/** @type {Set<(key: Setting, value: string) => void>} */
 const followers = new Set();
+/** @type {Record<string, string>} */
 const values = read();
 let borrowed = false;
 
-/** The value of a setting. */
-export const setting = (key) => values[key] ?? choices(key)[0];
+/**
+ * The value of a setting.
+ * @param {Setting} key
+ */
+export const setting = (key) => values[key] ?? choices(key)?.[0] ?? "";
 
-/** The values that a setting can have; the first is what holds until one is chosen. */
+/**
+ * The values that a setting can have; the first is what holds until one is chosen.
+ * @param {string} key
+ * @returns {string[] | undefined}
+ */
 export function choices(key) {
   return CHOICES[key] ?? (key.startsWith("scale-") ? SCALES : undefined);
 }
@@ -40,7 +49,10 @@ export function choose(key, value) {
   for (const follow of followers) follow(key, value);
 }
 
-/** Takes over values for this visit, which remembers nothing. */
+/**
+ * Takes over values for this visit, which remembers nothing.
+ * @param {Record<string, string>} lent
+ */
 export function lend(lent) {
   borrowed = true;
   Object.assign(values, lent);
@@ -57,7 +69,7 @@ export function onSetting(follow) {
 
 function read() {
   try {
-    const stored = Object.entries(JSON.parse(localStorage.getItem(KEY)) ?? {});
+    const stored = Object.entries(JSON.parse(localStorage.getItem(KEY) ?? "{}") ?? {});
     return Object.fromEntries(stored.filter(([key, value]) => choices(key)?.includes(value)));
   } catch {
     return {}; // denied, or not ours

@@ -2,7 +2,12 @@
 
 import { byId, make, sentence } from "./dom.js";
 
-/** The calculator's state, which the styles depend on. */
+/** @typedef {{ label: string, go: () => void }} Remedy what a button beside a message does */
+
+/**
+ * The calculator's state, which the styles depend on.
+ * @param {import("../calculator.js").State} state
+ */
 export const become = (state) => (byId("results").dataset.state = state);
 
 /**

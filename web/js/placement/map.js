@@ -28,19 +28,14 @@ const SIZE = 600; // of the plot's longer side, in units of the drawing
 const EDGE = { left: 62, right: 12, top: 10, bottom: 44 };
 export const MARKS = ["", "near a singularity", "a joint leaves its range", "out of reach"];
 
-const dark = () => {
-  const theme = document.documentElement.dataset.theme;
-  return theme === "dark" || (theme !== "light" && matchMedia("(prefers-color-scheme: dark)").matches);
-};
-
 /**
  * What `node` is painted with: the colour of an error, `limit` being the end of the scale.
  * @param {number} error
  * @param {number} limit
  */
-const paint = (error, limit) => `rgb(${colour(limit > 0 ? error / limit : 0, dark()).join(" ")})`;
+const paint = (error, limit) => `rgb(${colour(limit > 0 ? error / limit : 0).join(" ")})`;
 
-export const scaleGradient = () => gradient(dark());
+export const scaleGradient = () => gradient();
 
 /**
  * Draws a map into `svg`; returns a function that finds the cell under a point of the drawing.
@@ -119,8 +114,10 @@ const step = (values) => (values.length > 1 ? values[1] - values[0] : 1);
 /** @param {number[]} values */
 const span = (values) => step(values) * values.length;
 
+/** @param {number} length */
 const mm = (length) => convert(length, lengthUnit(), "mm");
 
+/** @param {number[]} values */
 function ticksOf(values) {
   const [low, high] = [values[0], values[values.length - 1]];
   const rough = (high - low) / 5 || 1;

@@ -56,7 +56,7 @@ export function makePlacement(node, { job, use }) {
     .../** @type {[string, HTMLElement][]} */ ([
       ["Plane", plane],
       ["Steps", steps],
-    ].map(([text, input]) => make("div", {}, make("label", { for: input.id }, text), input)),
+    ]).map(([text, input]) => make("div", {}, make("label", { for: input.id }, text), input)),
     ...numbers.map((input, i) => make("div", {}, labels[i], input, understood[i])),
   );
   const again = make("button", { type: "button", id: "placement-compute" }, "Compute the map");
@@ -137,7 +137,10 @@ export function makePlacement(node, { job, use }) {
 
   /** What the five fields hold [mm], and what is wrong with each. */
   function readCells() {
-    const [values, mistakes] = [[], []];
+    /** @type {number[]} */
+    const values = [];
+    /** @type {string[]} */
+    const mistakes = [];
     cells.forEach((cell, i) => {
       try {
         values[i] = cell.read();
@@ -161,11 +164,11 @@ export function makePlacement(node, { job, use }) {
     if (turned >= 0) return say(`${labels[turned].textContent}: enter more than the start.`);
     const { workpiece_frame: frame, ...others } = job();
     const xyz = frame.xyz_mm;
-    cursor = null;
     // The map does not depend on where the part is now.
     const json = JSON.stringify({ ...others, workpiece_frame: { ...frame, xyz_mm: [0, 0, 0] } });
     const key = JSON.stringify([json, plane.value, steps.value, values]);
     if (map?.key === key && !always) return show();
+    cursor = null;
     running?.abort();
     const mine = (running = new AbortController());
     const count = Number(steps.value);
@@ -282,14 +285,24 @@ export function makePlacement(node, { job, use }) {
     if (details.open) fillTable();
   }
 
-  /** A coordinate to a tenth of a millimetre or a hundredth of an inch. */
+  /**
+   * A coordinate to a tenth of a millimetre or a hundredth of an inch.
+   * @param {number} mm
+   */
   const coordinate = (mm) => {
     const places = shownUnit("mm") === "mm" ? 10 : 100;
     return plainNumber(Math.round(shownValue(mm, "mm") * places) / places);
   };
 
-  const spot = (i, k) =>
-    `${AXES[map.axes[0]]} ${coordinate(map.columns[i])}, ${AXES[map.axes[1]]} ${coordinate(map.rows[k])} ${shownUnit("mm")}`;
+  /**
+   * @param {number} i
+   * @param {number} k
+   */
+  const spot = (i, k) => {
+    if (!map) return "";
+    const { axes, columns, rows } = map;
+    return `${AXES[axes[0]]} ${coordinate(columns[i])}, ${AXES[axes[1]]} ${coordinate(rows[k])} ${shownUnit("mm")}`;
+  };
 
   function tell() {
     const at = cursor && map?.at(...cursor);
@@ -332,8 +345,8 @@ export function makePlacement(node, { job, use }) {
         "tr",
         {},
         make("th", { scope: "row" }, coordinate(row)),
-        ...map.columns.map((_, i) => {
-          const at = map.at(i, k);
+        ...columns.map((_, i) => {
+          const place = at(i, k);
           return make(
             "td",
             { title: place ? MARKS[place.mark] : "" },

@@ -14,9 +14,17 @@ const SHOWN = "Shown"; // what the shown result is called
 /**
  * @import { Summary } from "../../pkg/armill.js"
  * @import { Shown } from "../calculator.js"
+ * @import { JobData } from "../job/data.js"
+ * @import { Pin } from "./pinned.js"
  */
 
-/** @typedef {{ of(summary: Summary): number, text(value: number): string }} Compared a figure that is compared */
+/**
+ * A figure that is compared: what of a summary, and as what it is read; without `text`, `of` is in words.
+ *
+ * @typedef {{ id: string, label: string, of(summary: Summary): any, text?: (value: number) => string, unit?: () => string }} Figure
+ */
+
+/** @typedef {{ letter: string, summary: Summary }} Column a result beside the others */
 
 /**
  * @param {number} value
@@ -24,7 +32,10 @@ const SHOWN = "Shown"; // what the shown result is called
  */
 const signed = (value, text) => `${value < 0 ? "\u2212" : "+"}${text(Math.abs(value))}`;
 
-/** The rows: what of a summary, and as what it is read; without `text`, `of` is in words. */
+/**
+ * The rows: what of a summary, and as what it is read; without `text`, `of` is in words.
+ * @type {Figure[]}
+ */
 const FIGURES = [
   { id: "verdict", label: "Verdict", of: toleranceLine },
   {
@@ -66,21 +77,31 @@ const FIGURES = [
   { id: "robot", label: "Robot", of: ({ robot }) => robot },
 ];
 
-/** What holds of both bands: half of the draws and 95 % of them lie below their ends. */
+/**
+ * What holds of both bands: half of the draws and 95 % of them lie below their ends.
+ * @param {Summary} a
+ * @param {Summary} b
+ */
 const overlap = ({ expected_mm: a }, { expected_mm: b }) => a.p50 <= b.p95 && b.p50 <= a.p95;
 
 /**
  * Wires the comparison: `shown()` is the shown result, `load(job)` takes over a job. Returns `show()`,
  * to be called with every result, and `restore()`, which pins again what was pinned before a reload.
+ * @param {{ shown(): Shown | null, load(job: JobData): void }} page
  */
 export function makeCompare({ shown, load }) {
   const box = byId("compare");
-  const show = () => shown() && showCompared(box, shown());
+  const show = () => {
+    const result = shown();
+    if (result) showCompared(box, result);
+  };
   byId("pin").addEventListener("click", () => {
-    const same = pinned().find(({ text }) => text === shown().text);
+    const result = shown();
+    if (!result) return;
+    const same = pinned().find(({ text }) => text === result.text);
     if (same) return say(`${same.letter} is this result already.`);
     if (!nextLetter()) return say("Five results are pinned. Unpin one first.");
-    addPin(shown());
+    addPin(result);
     show();
   });
   byId("unpin").addEventListener("click", () => {
@@ -88,16 +109,26 @@ export function makeCompare({ shown, load }) {
     show();
     byId("pin").focus();
   });
-  const letterOf = (target) => target.closest("[data-letter]").dataset.letter;
-  box.addEventListener("click", ({ target }) => {
+  /** @param {Element} target */
+  const letterOf = (target) => {
+    /** @type {HTMLElement | null} */
+    const head = target.closest("[data-letter]");
+    return String(head?.dataset.letter);
+  };
+  box.addEventListener("click", (event) => {
+    const target = /** @type {Element} */ (event.target);
     const action = target.closest("button")?.dataset.action;
-    if (action === "back") load(JSON.parse(pinned().find(({ letter }) => letter === letterOf(target)).text));
+    const pin = pinned().find(({ letter }) => letter === letterOf(target));
+    if (action === "back" && pin) load(JSON.parse(pin.text));
     if (action !== "unpin") return;
     removePin(letterOf(target));
     show();
-    (box.querySelector("[data-action=unpin]") ?? byId("pin")).focus();
+    /** @type {HTMLElement | null} */
+    const next = box.querySelector("[data-action=unpin]");
+    (next ?? byId("pin")).focus();
   });
-  box.addEventListener("change", ({ target }) => {
+  box.addEventListener("change", (event) => {
+    const target = /** @type {HTMLInputElement} */ (event.target);
     if (target.type === "radio") compareWith(target.value);
     else renamePin(letterOf(target), target.value.trim());
     show();
@@ -105,9 +136,14 @@ export function makeCompare({ shown, load }) {
   return { show, restore: () => restorePins(show) };
 }
 
+/** @param {string} text */
 const say = (text) => (byId("compare-title").textContent = text);
 
-/** Shows what is compared: the pinned results with `shown`. */
+/**
+ * Shows what is compared: the pinned results with `shown`.
+ * @param {Shown} shown
+ * @param {HTMLElement} box
+ */
 function showCompared(box, shown) {
   const pins = pinned();
   box.hidden = !pins.length;
@@ -123,7 +159,7 @@ function showCompared(box, shown) {
   const columns = [...pins, { letter: SHOWN, summary: shown.summary }];
   const inputs = differingInputs(jobs);
   say(sentence(shown, others, differingInputs([jobs[pins.indexOf(referencePin())], shown.job]).length));
-  fill(box.querySelector("thead"), pins);
+  fill(/** @type {HTMLTableSectionElement} */ (box.querySelector("thead")), pins);
   const [figures, differing] = box.querySelectorAll("tbody");
   figures.replaceChildren(
     ...FIGURES.filter(({ of }) => columns.some(({ summary }) => of(summary) !== undefined)).map((figure) =>
@@ -134,7 +170,12 @@ function showCompared(box, shown) {
   differing.replaceChildren(...inputs.map((line) => inputRow(line, at)));
 }
 
-/** What the shown result is to the reference. */
+/**
+ * What the shown result is to the reference.
+ * @param {Shown} shown
+ * @param {Pin[]} others
+ * @param {number} count
+ */
 function sentence(shown, others, count) {
   const { letter, summary } = referencePin();
   if (!others.length) return `${letter} is pinned. Change an input, and the next result stands beside it.`;
@@ -146,19 +187,33 @@ function sentence(shown, others, count) {
   return `Shown against ${letter}: ${inputs}. Expect ${less ? "less" : "more"} error: the bands do not overlap.`;
 }
 
-/** The heads: letter, name and what can be done with each; they keep the focus. */
+/**
+ * The heads: letter, name and what can be done with each; they keep the focus.
+ * @param {HTMLTableSectionElement} head
+ * @param {Pin[]} pins
+ */
 function fill(head, pins) {
   const state = JSON.stringify([pins.map(({ letter, name }) => [letter, name]), referencePin().letter]);
   if (head.dataset.state === state) return;
   const focus = document.activeElement?.id;
   head.dataset.state = state;
+  /** @param {...Node | string} children */
   const cell = (...children) => make("th", { scope: "col" }, ...children);
   head.rows[0].replaceChildren(cell("Result"), ...pins.map((pin) => pinHead(pin, pins.length)), cell(SHOWN));
   if (focus && head.querySelector(`#${focus}`)) byId(focus).focus();
 }
 
+/**
+ * @param {{ letter: string, name: string }} given
+ * @param {number} count
+ */
 function pinHead({ letter, name }, count) {
   const id = letter.toLowerCase();
+  /**
+   * @param {string} action
+   * @param {string} label
+   * @param {string} text
+   */
   const button = (action, label, text) =>
     make("button", { type: "button", className: "quiet", id: `${label}-${id}`, "data-action": action }, text);
   const input = make("input", {
@@ -188,12 +243,20 @@ function pinHead({ letter, name }, count) {
   );
 }
 
+/**
+ * @param {Figure} figure
+ * @param {Column[]} columns
+ */
 function figureRow(figure, columns) {
   const { id, label, unit } = figure;
   const head = make("th", { scope: "row" }, label, ...(unit ? [" ", make("span", { className: "unit" }, unit())] : []));
   return make("tr", { id: `compare-${id}` }, head, ...columns.map((column) => figureCell(figure, column)));
 }
 
+/**
+ * @param {Figure} figure
+ * @param {Column} column
+ */
 function figureCell({ id, of, text }, { letter, summary }) {
   const value = of(summary);
   if (value === undefined) return make("td", {}, "–");
@@ -208,7 +271,13 @@ function figureCell({ id, of, text }, { letter, summary }) {
   return cell;
 }
 
-/** A difference in words; what is too small to read is none. */
+/**
+ * A difference in words; what is too small to read is none.
+ * @param {number} value
+ * @param {number} base
+ * @param {(size: number) => string} text
+ * @param {boolean} equal
+ */
 function changeText(value, base, text, equal) {
   const change = value - base;
   if (change === 0) return "no change";
@@ -218,7 +287,11 @@ function changeText(value, base, text, equal) {
   return signed(change, text) + share;
 }
 
-/** An input that differs; what is as in the reference is plain. */
+/**
+ * An input that differs; what is as in the reference is plain.
+ * @param {{ label: string, texts: string[] }} given
+ * @param {number} at
+ */
 function inputRow({ label, texts }, at) {
   const cells = texts.map((text) => make("td", { className: text === texts[at] ? "" : "differs" }, text));
   return make("tr", {}, make("th", { scope: "row" }, label), ...cells);

@@ -201,7 +201,7 @@ function figures(cut, mean) {
     rows.push(
       ["Largest engaged angle", "deg", n("largest_engaged_deg"), "largest_engaged_deg"],
       ["Removed volume", "cm³", n("removed_cm3"), "removed_cm3"],
-      ["Share in the air", "%", formatNumber(100 * cut.air_share, 2), "air_share"],
+      ["Share in the air", "%", formatNumber(100 * (cut.air_share ?? 0), 2), "air_share"],
     );
   if (cut.removal_cm3_min > 0)
     rows.push(["Power for removal rate", "N/mm²", formatNumber((cut.power_kw * 6e4) / cut.removal_cm3_min)]);

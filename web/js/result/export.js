@@ -4,6 +4,25 @@ import * as core from "../core/client.js";
 import { byId, make } from "../page/dom.js";
 import { download } from "../page/download.js";
 
+/**
+ * @import { Controller, Field } from "../../pkg/armill.js"
+ * @import { Shown } from "../calculator.js"
+ * @import { Outline } from "../core/server.js"
+ */
+
+/**
+ * A download other than a program: a name for the menu and for the button, the file, and how it is made.
+ *
+ * @typedef {{
+ *   option: string,
+ *   button: string,
+ *   name: string,
+ *   type: string,
+ *   made(): Promise<BlobPart>,
+ *   stock?: boolean,
+ * }} Other
+ */
+
 const QUIET_MS = 400; // inputs that are still changing are not judged
 const LONG_MS = 3000; // longer runs are checked on export only, as a check costs several runs
 

@@ -55,10 +55,14 @@ export function markdown({ summary, job, standard, link }) {
   ].join("\n");
 }
 
+/** @param {{ severity: import("../../pkg/armill.js").Warning["severity"], message: string }} given */
 const warningLine = ({ severity, message }) => `- **${SEVERITY[severity]}:** ${escaped(message)}`;
 
-/** The cut in a stock. */
-const inStock = ({ stock, removed_cm3, air_share, largest_engaged_deg }) =>
+/**
+ * The cut in a stock.
+ * @param {CutFigures} cut
+ */
+const inStock = ({ stock, removed_cm3 = 0, air_share = 0, largest_engaged_deg = 0 }) =>
   `Engagement from the stock: ${stock}. It loses ${formatNumber(removed_cm3)} cm³; the tool is engaged by up to ` +
   `${formatNumber(largest_engaged_deg)} deg and in the air on ${formatNumber(100 * air_share, 2)} % of its path at feed.`;
 

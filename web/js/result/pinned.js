@@ -3,29 +3,41 @@
 
 import { helper } from "../core/client.js";
 
+/**
+ * @import { Chart, ChartOptions, Summary } from "../../pkg/armill.js"
+ * @import { Asked } from "../core/client.js"
+ */
+
 /** The letters that there are. */
 export const LETTERS = ["A", "B", "C", "D", "E"];
 
 const KEY = "armill-pins";
 
+/** @type {Asked | null} */
 let worker = null;
+/** @type {Pin[]} */
 let pins = []; // in the order of their letters
+/** @type {string | null} */
 let reference = null; // letter of the one that the others are compared with
 
 /** One pinned result. */
-class Pin {
+export class Pin {
+  /** @type {Promise<Summary> | null} */
   #held = null; // promise of its summary, once the Worker holds it
 
-  constructor({ letter, text, name = "", summary = null }) {
+  /** @param {{ letter: string, text: string, name?: string, summary?: Summary }} pin */
+  constructor({ letter, text, name = "", summary }) {
     this.letter = letter;
     this.text = text; // of its job
     this.name = name; // as the user calls it
-    this.summary = summary;
+    this.summary = /** @type {Summary} */ (summary); // of one from before a reload, once it is computed
   }
 
-  /** Has the Worker compute it, and resolves with its summary. */
+  /**
+   * Has the Worker compute it, and resolves with its summary.
+   * @returns {Promise<Summary>}
+   */
   hold() {
-    worker ??= helper();
     this.#held ??= ask("hold", this.letter, this.text).catch((error) => {
       this.#held = null;
       throw error;
@@ -33,7 +45,12 @@ class Pin {
     return this.#held;
   }
 
-  /** One of its charts, as the core draws it. */
+  /**
+   * One of its charts, as the core draws it.
+   * @param {string} name
+   * @param {ChartOptions} options
+   * @returns {Promise<Chart>}
+   */
   async chart(name, options) {
     await this.hold();
     return ask("held_chart", this.letter, name, options);
@@ -45,11 +62,15 @@ class Pin {
   }
 }
 
-/** Asks the Worker; one that has died is replaced at the next question. */
-async function ask(...question) {
-  const asked = worker;
+/**
+ * Asks the Worker; one that has died is replaced at the next question.
+ * @param {string} kind
+ * @param {...unknown} args
+ */
+async function ask(kind, ...args) {
+  const asked = (worker ??= helper());
   try {
-    return await asked.ask(...question);
+    return await asked.ask(kind, ...args);
   } catch (error) {
     if (error.fatal && worker === asked) {
       worker = null;
@@ -65,7 +86,10 @@ export const pinned = () => pins;
 /** The one that the others are compared with, or undefined. */
 export const referencePin = () => pins.find(({ letter }) => letter === reference) ?? pins[0];
 
-/** Chooses the one that the others are compared with. */
+/**
+ * Chooses the one that the others are compared with.
+ * @param {string} letter
+ */
 export function compareWith(letter) {
   reference = letter;
   keep();
@@ -74,13 +98,21 @@ export function compareWith(letter) {
 /** The letter that the next result gets, or undefined if all are given. */
 export const nextLetter = () => LETTERS.find((letter) => !pins.some((pin) => pin.letter === letter));
 
-/** Pins a result under the next letter. */
+/**
+ * Pins a result under the next letter.
+ * @param {{ text: string, summary: import("../../pkg/armill.js").Summary }} given
+ */
 export function addPin({ text, summary }) {
-  insert(new Pin({ letter: nextLetter(), text, summary }));
+  const letter = nextLetter();
+  if (!letter) return;
+  insert(new Pin({ letter, text, summary }));
   keep();
 }
 
-/** Unpins the result with a letter; without one, all. */
+/**
+ * Unpins the result with a letter; without one, all.
+ * @param {string} [letter]
+ */
 export function removePin(letter) {
   const gone = pins.filter((pin) => !letter || pin.letter === letter);
   pins = pins.filter((pin) => !gone.includes(pin));
@@ -89,12 +121,20 @@ export function removePin(letter) {
   keep();
 }
 
+/**
+ * @param {string} letter
+ * @param {string} name
+ */
 export function renamePin(letter, name) {
-  pins.find((pin) => pin.letter === letter).name = name;
+  const pin = pins.find((each) => each.letter === letter);
+  if (pin) pin.name = name;
   keep();
 }
 
-/** Pins again what was pinned before a reload, and calls `added()` after each. */
+/**
+ * Pins again what was pinned before a reload, and calls `added()` after each.
+ * @param {() => void} added
+ */
 export async function restorePins(added) {
   const kept = read();
   reference = kept.reference ?? null;
@@ -112,6 +152,7 @@ export async function restorePins(added) {
   if (pins.length) keep();
 }
 
+/** @param {Pin} pin */
 function insert(pin) {
   pins = [...pins, pin].sort((a, b) => (a.letter < b.letter ? -1 : 1));
 }
@@ -124,7 +165,7 @@ function stop() {
 
 function read() {
   try {
-    return JSON.parse(sessionStorage.getItem(KEY)) ?? {};
+    return JSON.parse(sessionStorage.getItem(KEY) ?? "{}") ?? {};
   } catch {
     return {}; // denied, or not ours
   }

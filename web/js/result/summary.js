@@ -100,13 +100,17 @@ const TOLERANCE = {
   "not-met": "✗ over",
 };
 
-/** The verdict in two words, with the tolerance. */
+/**
+ * The verdict in two words, with the tolerance.
+ * @param {import("../../pkg/armill.js").Summary} summary
+ */
 export function toleranceLine(summary) {
   const { verdict_state: state } = summary;
   const tolerance = state === "cannot-run" ? "" : ` ${toleranceText(summary)} ${lengthUnit()}`;
   return TOLERANCE[state] + tolerance;
 }
 
+/** @param {Summary} summary */
 function showTolerance(summary) {
   const { converged, verdict_state: state } = summary;
   const line = byId("tolerance-met");

@@ -7,7 +7,7 @@ import { cross, dot, length, minus, plus } from "./camera.js";
 
 /** @typedef {{ base: Frame, joints: Frame[], tcp: Frame, workpiece: Frame }} Frames those of a pose */
 
-/** @typedef {{ model: Float32Array, top: number, tone: "link" | "joint" | "tool" }} Tube a tube, `top` times as wide at its end */
+/** @typedef {{ model: Float32Array, top: number, tone: "link" | "joint" | "tool" | "beyond" }} Tube a tube, `top` times as wide at its end */
 
 const FRAME = 12; // numbers in a frame: origin, x, y, z axes
 const JOINTS = 6;
@@ -32,6 +32,9 @@ export function framesOf(numbers) {
 /**
  * The solids of the arm in a pose, for the painter; `tone` tells what they are. A joint that is beyond its range by
  * `excess` [deg] has a tone of its own.
+ * @param {Frames} frames
+ * @param {ArrayLike<number>} [excess]
+ * @returns {Tube[]}
  */
 export function armParts({ base, joints, tcp }, excess = []) {
   const stations = [base, ...joints];
@@ -64,7 +67,10 @@ export function armParts({ base, joints, tcp }, excess = []) {
   return [...parts, ...toolParts(joints, tcp, size, bare)];
 }
 
-/** Points that an arm's solids stay within about, to fit a view to. */
+/**
+ * Points that an arm's solids stay within about, to fit a view to.
+ * @param {{ base: any, joints: any, tcp: any }} given
+ */
 export function armPoints({ base, joints, tcp }) {
   const stations = [base, ...joints, tcp].map(({ origin }) => origin);
   const size = stations.slice(1).reduce((sum, origin, i) => sum + length(minus(origin, stations[i])), 0);

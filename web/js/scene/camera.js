@@ -81,7 +81,10 @@ export class Camera {
     [this.azimuth, this.elevation] = [(azimuth * Math.PI) / 180, (elevation * Math.PI) / 180];
   }
 
-  /** Looks from a direction in space; from straight above as the view from the top does. */
+  /**
+   * Looks from a direction in space; from straight above as the view from the top does.
+   * @param {number[]} direction
+   */
   lookFrom([x, y, z]) {
     this.azimuth = Math.hypot(x, y) > 1e-6 ? Math.atan2(y, x) : -RIGHT_ANGLE;
     this.elevation = Math.atan2(z, Math.hypot(x, y));
@@ -89,6 +92,7 @@ export class Camera {
 
   /**
    * Shows all points. At the edges of the picture `above` and `below` pixels are left for what is written there.
+   * @param {Vector[]} points
    */
   fit(points, { above = 0, below = 0 } = {}) {
     const { right, up, out } = this.axes();

@@ -5,10 +5,43 @@
 // instances. A point is VERTEX numbers: its place, the value that gives its colour, a way that is
 // added `factor` times, and the length so far (minus that and one on a rapid move).
 
+/**
+ * @import { Vector } from "./camera.js"
+ */
+
+/** @typedef {{ texture: WebGLTexture, pairs: boolean, count: number }} Line one to draw */
+
+/**
+ * How a line is drawn; lengths in pixels but for `radius` and `dash` [mm]. Of points that crowd in a pixel only
+ * `every` so many need to be joined.
+ *
+ * @typedef {{
+ *   factor?: number,
+ *   width?: number,
+ *   radius?: number,
+ *   colour?: number[],
+ *   largest?: number,
+ *   dash?: number,
+ *   fade?: number,
+ *   bias?: number,
+ *   every?: number,
+ *   rapid?: number,
+ *   strength?: number,
+ * }} LineStyle
+ */
+
+/** @typedef {{ model: Float32Array, top: number, colour: number[], strength?: number }} Solid a tube to draw */
+
+/** @typedef {Record<string, number | Float32Array | number[]>} Uniforms */
+
 export const VERTEX = 8;
 const WIDTH = 1024; // of a texture of points: 512 points
 
-/** The numbers of a point. */
+/**
+ * The numbers of a point.
+ * @param {Vector} place
+ * @param {{ way?: Vector, value?: number, along?: number, faint?: boolean }} [more]
+ */
 export const vertex = (place, { way = [0, 0, 0], value = 0 } = {}) => [...place, value, ...way, 0];
 
 const LINE_VERTEX = `#version 300 es
@@ -82,7 +115,10 @@ void main() {
 
 const SIDES = 32;
 
-/** Draws on a canvas, which is clear until its first picture; `null` where the browser has no WebGL2. */
+/**
+ * Draws on a canvas, which is clear until its first picture; `null` where the browser has no WebGL2.
+ * @param {HTMLCanvasElement} canvas
+ */
 export function painterOn(canvas) {
   const gl = canvas.getContext("webgl2", { antialias: true, stencil: true, powerPreference: "low-power" });
   return gl && new Painter(gl);
@@ -167,12 +203,15 @@ export class Painter {
     this.#piece = undefined;
   }
 
-  /** Begins a picture of `width` by `height` pixels. */
+  /**
+   * Begins a picture of `width` by `height` pixels.
+   * @param {{ camera: Float32Array, width: number, height: number, paper: number[], rapidColour: number[], light: number[], pixelsPerMm: number }} picture
+   */
   begin({ camera, width, height, paper, rapidColour, light, pixelsPerMm }) {
     const gl = this.#gl;
     gl.viewport(0, 0, width, height);
     gl.colorMask(true, true, true, true);
-    gl.clearColor(...paper, 1);
+    gl.clearColor(paper[0], paper[1], paper[2], 1);
     gl.depthMask(true);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
     gl.colorMask(true, true, true, false); // what is drawn stays as opaque as the paper
@@ -187,7 +226,10 @@ export class Painter {
 
   /**
    * Draws a line; lengths in pixels but for `radius` and `dash` [mm]. Rapid moves are `rapid` wide, and left out if that is
-   * 0. Of points that crowd in a pixel only `every` so many need to be joined. */
+   * 0. Of points that crowd in a pixel only `every` so many need to be joined.
+   * @param {Line} line
+   * @param {LineStyle} style
+   */
   draw(line, style) {
     const { factor = 0, width = 2, rapid = 0, radius = 0, colour = [0, 0, 0], largest = 0 } = style;
     const { dash = 0, fade = 0, bias = 0, every = 1, strength = 1 } = style;
@@ -231,12 +273,19 @@ export class Painter {
     gl.depthFunc(gl.LEQUAL);
   }
 
-  /** Draws tubes { model, top, colour, strength } as one body that what is behind it shines through. */
+  /**
+   * Draws tubes { model, top, colour, strength } as one body that what is behind it shines through.
+   * @param {Solid[]} parts
+   */
   solids(parts) {
     asBody(this.#gl, () => this.#tubes(parts, { plain: 0 }));
   }
 
-  /** Draws a line as a body that what is behind it shines through. */
+  /**
+   * Draws a line as a body that what is behind it shines through.
+   * @param {Line} line
+   * @param {LineStyle} style
+   */
   veil(line, style) {
     asBody(this.#gl, () => this.draw(line, style));
   }
@@ -271,6 +320,8 @@ export class Painter {
 /**
  * Draws a translucent body by `draw()`: first only how near its surface is, then its colour where it is the surface, so
  * that none of its own insides show.
+ * @param {WebGL2RenderingContext} gl
+ * @param {any} draw
  */
 export function asBody(gl, draw) {
   gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
@@ -283,7 +334,11 @@ export function asBody(gl, draw) {
   gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);
 }
 
-/** Draws by `draw()` over what is there, as opaque as its pixels say. */
+/**
+ * Draws by `draw()` over what is there, as opaque as its pixels say.
+ * @param {WebGL2RenderingContext} gl
+ * @param {any} draw
+ */
 export function blended(gl, draw) {
   gl.enable(gl.BLEND);
   gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
@@ -291,6 +346,10 @@ export function blended(gl, draw) {
   gl.disable(gl.BLEND);
 }
 
+/**
+ * @param {WebGL2RenderingContext} gl
+ * @param {number} filter
+ */
 export function parameters(gl, filter) {
   for (const [key, value] of [
     [gl.TEXTURE_MIN_FILTER, filter],

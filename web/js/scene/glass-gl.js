@@ -17,20 +17,29 @@ void main() { pixel = vec4(colour, strength); }`;
 export class GlassPainter {
   #gl;
   #program;
+  /** @type {{ array: WebGLVertexArrayObject, buffer: WebGLBuffer, count: number, isFan: boolean }[]} */
   #faces = []; // { array, buffer, count, isFan }
 
+  /** @param {WebGL2RenderingContext} gl */
   constructor(gl) {
     this.#gl = gl;
     this.#program = program(gl, VERTEX, FRAGMENT);
   }
 
-  /** Takes over faces: `triangles` and outlines of flat faces, `fans`, each as x, y, z of its corners. */
+  /**
+   * Takes over faces: `triangles` and outlines of flat faces, `fans`, each as x, y, z of its corners.
+   * @param {{ triangles: ArrayLike<number>, fans: ArrayLike<number>[] }} faces
+   */
   take({ triangles, fans }) {
     this.clear();
     this.#add(triangles, false);
     for (const fan of fans) this.#add(fan, true);
   }
 
+  /**
+   * @param {ArrayLike<number>} places
+   * @param {boolean} isFan
+   */
   #add(places, isFan) {
     const gl = this.#gl;
     const [array, buffer] = [gl.createVertexArray(), gl.createBuffer()];
@@ -52,7 +61,10 @@ export class GlassPainter {
     this.#faces = [];
   }
 
-  /** Draws the faces; `style` = { camera, frame, colour, strength }. */
+  /**
+   * Draws the faces; `style` = { camera, frame, colour, strength }.
+   * @param {import("./gl.js").Uniforms} style
+   */
   draw(style) {
     const gl = this.#gl;
     gl.useProgram(this.#program.program);
@@ -74,6 +86,7 @@ export class GlassPainter {
   /**
    * Fills an outline, which need not be convex: triangles from its first corner cover each place inside an odd number of
    * times, and drawing a place for the first time ends it.
+   * @param {number} count
    */
   #fill(count) {
     const gl = this.#gl;

@@ -2,16 +2,28 @@
 
 import { plus } from "./camera.js";
 
+/** @import { Frame } from "./arm.js" */
+
+/** @typedef {{ name: string, frame: Frame, long: number }} Named a frame with a name, and how long its axes are [mm] */
+
+/** @typedef {{ words: string, point: number[], className: string }} Label */
+
+/** @typedef {{ x: number, y: number, width: number, height: number }} Rectangle a place in the picture [px] */
+
 const HEIGHT = 16; // of a label [px]
 const BESIDE = 6; // from its point [px]
 
-/** The names of frames' axes at their tips, and of the frames; frames that coincide share one. */
+/**
+ * The names of frames' axes at their tips, and of the frames; frames that coincide share one.
+ * @param {Named[]} axes
+ * @returns {Label[]}
+ */
 export function axisLabels(axes) {
   const [base, workpiece] = axes;
   const same = Math.hypot(...base.frame.origin.map((v, i) => v - workpiece.frame.origin[i])) < 1e-6;
   return (same ? [base] : [workpiece, base]).flatMap(({ name, frame, long }) => [
     { words: same ? "base and workpiece" : name, point: frame.origin, className: "name" },
-    ...["x", "y", "z"].map((axis) => ({
+    .../** @type {const} */ (["x", "y", "z"]).map((axis) => ({
       words: axis,
       point: plus(frame.origin, frame[axis], long * 1.1),
       className: "",
@@ -21,8 +33,10 @@ export function axisLabels(axes) {
 
 export class Labels {
   #box;
+  /** @type {Map<string, number>} */
   #widths = new Map(); // of words that were measured
 
+  /** @param {HTMLElement} box */
   constructor(box) {
     this.#box = box;
   }
@@ -30,6 +44,11 @@ export class Labels {
   /**
    * Writes labels { words, point, className } where `place(point)` says, and moves `first`, an element with a `point`, or
    * none, out of their way. `taken` are boxes { x, y, width, height } to be left free; a label without room is left out.
+   * @param {Label[]} wanted
+   * @param {{ node: HTMLElement, point: number[] } | null | undefined} first
+   * @param {(point: number[]) => number[]} place
+   * @param {number[]} room
+   * @param {Rectangle[]} taken
    */
   write(wanted, first, place, room, taken) {
     const occupied = [...taken];
@@ -43,18 +62,26 @@ export class Labels {
         true,
       );
     while (this.#box.children.length < wanted.length) this.#box.append(document.createElement("span"));
-    [...this.#box.children].forEach((span, i) => {
+    /** @type {HTMLElement[]} */ ([...this.#box.children]).forEach((span, i) => {
       span.hidden = i >= wanted.length;
       if (span.hidden) return;
       const { words, point, className } = wanted[i];
       if (span.textContent !== words) span.textContent = words;
       span.className = className;
       if (!this.#widths.has(words)) this.#widths.set(words, span.offsetWidth);
-      this.#put(span, place(point), [this.#widths.get(words), HEIGHT], room, occupied, false);
+      this.#put(span, place(point), [this.#widths.get(words) ?? 0, HEIGHT], room, occupied, false);
     });
   }
 
-  /** Puts a label beside its point, where there is room for it; one that has to be seen is put there anyway. */
+  /**
+   * Puts a label beside its point, where there is room for it; one that has to be seen is put there anyway.
+   * @param {HTMLElement} node
+   * @param {number[]} point
+   * @param {number[]} size
+   * @param {number[]} room
+   * @param {Rectangle[]} occupied
+   * @param {boolean} always
+   */
   #put(node, [x, y, depth], [width, height], room, occupied, always) {
     const sides = [
       [BESIDE, -height - BESIDE],
@@ -64,6 +91,7 @@ export class Labels {
       [-width / 2, -height - 2 * BESIDE],
       [-width / 2, 2 * BESIDE],
     ].map(([dx, dy]) => ({ x: x + dx, y: y + dy, width, height }));
+    /** @param {Rectangle} box */
     const fits = (box) =>
       box.x >= 0 &&
       box.y >= 0 &&
@@ -80,6 +108,14 @@ export class Labels {
   }
 }
 
+/**
+ * @param {number} value
+ * @param {number} most
+ */
 const bounded = (value, most) => Math.max(0, Math.min(most, value));
 
+/**
+ * @param {Rectangle} a
+ * @param {Rectangle} b
+ */
 const meet = (a, b) => a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;

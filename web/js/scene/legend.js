@@ -11,12 +11,22 @@ export function makeLegend() {
   const ticks = make("div", { className: "ticks" });
   const bar = make("div", { className: "bar" });
   const node = make("div", { className: "scale" }, make("p", {}, "Error, ", unit, limit), bar, ticks);
+  /**
+   * @param {number} largest
+   * @param {any} tolerance
+   * @param {string} name
+   */
   const show = (largest, tolerance, name) => {
     node.hidden = !(largest > 0);
     if (node.hidden) return;
     unit.textContent = name;
     const step = niceStep(largest / TICKS);
     const decimals = Math.max(0, -Math.floor(Math.log10(step)));
+    /**
+     * @param {number} value
+     * @param {string} words
+     * @param {string} className
+     */
     const at = (value, words, className) => {
       const tick = make("span", { className }, words);
       tick.style.setProperty("left", `${(100 * value) / largest}%`);
@@ -32,7 +42,8 @@ export function makeLegend() {
   return { node, show };
 }
 
+/** @param {any} wanted */
 function niceStep(wanted) {
   const decade = 10 ** Math.floor(Math.log10(wanted));
-  return [1, 2, 5, 10].find((step) => step * decade >= wanted * 0.999) * decade;
+  return ([1, 2, 5].find((step) => step * decade >= wanted * 0.999) ?? 10) * decade;
 }

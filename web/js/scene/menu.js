@@ -24,13 +24,17 @@ const KEYS =
   "Arrow keys turn, with Shift they move; plus and minus zoom; F fits the path, A the arm; 1 to 5 are views; Space plays.";
 const EDGE = 8; // from the window's edge [px]
 
-/** The button and the menu it opens; `on` = { view(name), shown(name, on) }. */
+/**
+ * The button and the menu it opens; `on` = { view(name), shown(name, on) }.
+ * @param {{ view(name: string): void, shown(name: string, on: boolean): void }} on
+ */
 export function makeMenu(on) {
   const views = VIEWS.map(([name, label, title]) => {
     const button = make("button", { type: "button", title, "data-view": name }, label);
     button.addEventListener("click", () => on.view(name));
     return button;
   });
+  /** @type {Record<string, HTMLInputElement>} */
   const boxes = {};
   const switches = SWITCHES.map(([name, label]) => {
     const box = make("input", { type: "checkbox", checked: !OFF.includes(name), "data-path": name });
@@ -55,19 +59,23 @@ export function makeMenu(on) {
   );
   const button = make("button", { type: "button", className: "more", popoverTargetElement: node }, "Show");
   node.addEventListener("beforetoggle", ({ newState }) => newState === "open" && place(node, button));
-  const partSwitch = boxes.solid.closest("label");
+  const partSwitch = /** @type {HTMLElement} */ (boxes.solid.closest("label"));
   partSwitch.hidden = true;
   return {
     button,
     node,
     /** Sets a switch. */
-    set: (name, checked) => (boxes[name].checked = checked),
+    set: (/** @type {string} */ name, /** @type {boolean} */ checked) => (boxes[name].checked = checked),
     /** Whether there is a part to show. */
-    offerPart: (offered) => (partSwitch.hidden = !offered),
+    offerPart: (/** @type {boolean} */ offered) => (partSwitch.hidden = !offered),
   };
 }
 
-/** Below its button, within the window. */
+/**
+ * Below its button, within the window.
+ * @param {HTMLElement} node
+ * @param {HTMLElement} button
+ */
 function place(node, button) {
   const { bottom, right } = button.getBoundingClientRect();
   node.style.setProperty("inset-inline-end", `${Math.max(EDGE, document.documentElement.clientWidth - right)}px`);

@@ -5,6 +5,8 @@ const SHARE = 4; // it rests so many times as long as it has worked
 /**
  * `action`, which may return a promise, called at once, and then again no sooner than `least` ms and `SHARE` times its
  * own duration after it ended. The last call is never lost.
+ * @param {any} action
+ * @param {any} least
  */
 export function paced(action, least) {
   let isBusy = false;

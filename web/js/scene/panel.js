@@ -5,6 +5,8 @@ import { makeLegend } from "./legend.js";
 import { makeMenu } from "./menu.js";
 import { gradient } from "./ramp.js";
 
+/** @typedef {{ view(name: string): void, shown(name: string, on: boolean): void, factor(value: number | null): void, worst(): void }} Controls */
+
 const VIEWS = [
   ["fit", "Path", "Fit the path (F)"],
   ["all", "Arm", "Fit the whole arm (A)"],
@@ -14,7 +16,11 @@ const VIEWS = [
 const GAP = 6; // between the picture and what is written below it [px]
 const MAGNIFICATIONS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000];
 
-/** Builds everything into `node`; `on` = { view(name), shown(name, on), factor(value or null), worst() }. */
+/**
+ * Builds everything into `node`; `on` = { view(name), shown(name, on), factor(value or null), worst() }.
+ * @param {HTMLElement} node
+ * @param {Controls} on
+ */
 export function furnish(node, on) {
   const canvas = make("canvas", {
     tabIndex: 0,
@@ -83,9 +89,9 @@ export function furnish(node, on) {
     legend,
     menu,
     /** Puts a legend into the corner of the picture, and the rest below it. */
-    corner: (child) => corners.append(child),
-    below: (...children) => view.append(...children),
-    after: (...children) => node.append(...children),
+    corner: (/** @type {any} */ child) => corners.append(child),
+    below: (/** @type {any[]} */ ...children) => view.append(...children),
+    after: (/** @type {any[]} */ ...children) => node.append(...children),
     /** The places in the picture that are written on. */
     taken: () =>
       [stated, beyond, corners, floor, legend.node].map(
@@ -96,15 +102,23 @@ export function furnish(node, on) {
           height,
         }),
       ),
-    /** Names the joints of a pose that are out of range. */
+    /**
+     * Names the joints of a pose that are out of range.
+     * @param {{ beyond: any, excess: ArrayLike<number> }} given
+     */
     beyond({ beyond: joints, excess }) {
-      const words = joints.map((joint) => `Joint ${joint} is ${excess[joint - 1].toFixed(1)}° out of range`).join("\n");
+      const words = joints
+        .map((/** @type {number} */ joint) => `Joint ${joint} is ${excess[joint - 1].toFixed(1)}° out of range`)
+        .join("\n");
       if (beyond.textContent !== words) beyond.textContent = words;
       beyond.hidden = !words;
     },
     /** What is written along the picture's edges leaves this free [px]. */
     edges: () => ({ above: stated.offsetHeight, below: legend.node.offsetHeight + GAP }),
-    /** Says something instead of the picture, or (empty) shows it again. */
+    /**
+     * Says something instead of the picture, or (empty) shows it again.
+     * @param {string} words
+     */
     say(words) {
       message.textContent = words;
       message.hidden = !words;

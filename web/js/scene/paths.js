@@ -15,12 +15,14 @@ const WHISKERS = 120;
 const MOST_LEGS = 1500; // of a path when its spacing is measured
 
 export class Paths {
+  /** @type {Float64Array} */
   #track;
   count;
   worst = { before: 0, after: 0 }; // the cutting rows that deviate most before and after compensation
   stride = 0; // largest distance from one row to the next [mm]
   box = nowhere(); // [low, high] around the desired points
   cutBox = nowhere(); // the same where the tool cuts
+  /** @type {number | undefined} */
   #spacing; // see `spacing`
 
   /**
@@ -38,20 +40,28 @@ export class Paths {
       if (cutsSomewhere && !this.cuts(row)) continue;
       widen(this.cutBox, track, row * ROW + DESIRED);
       const errors = { before: this.#size(row, BEFORE), after: this.#size(row, AFTER) };
-      for (const side of ["before", "after"])
+      for (const side of /** @type {const} */ (["before", "after"]))
         if (errors[side] > most[side]) [most[side], this.worst[side]] = [errors[side], row];
     }
   }
 
   // The loops over all rows make no lists: they run while results stream in.
 
-  /** The length of a vector of a row. */
+  /**
+   * The length of a vector of a row.
+   * @param {number} row
+   * @param {number} at
+   */
   #size(row, at) {
     const [track, i] = [this.#track, row * ROW + at];
     return Math.sqrt(track[i] * track[i] + track[i + 1] * track[i + 1] + track[i + 2] * track[i + 2]);
   }
 
-  /** How far a row's point is from that of the row before. */
+  /**
+   * How far a row's point is from that of the row before.
+   * @param {number} row
+   * @param {number} at
+   */
   #step(row, at) {
     const [track, i] = [this.#track, row * ROW + at];
     const x = track[i] - track[i - ROW];
@@ -73,7 +83,10 @@ export class Paths {
     return this.#track[row * ROW];
   }
 
-  /** Whether a row cuts; else it is part of a rapid move. */
+  /**
+   * Whether a row cuts; else it is part of a rapid move.
+   * @param {number} row
+   */
   cuts(row) {
     return this.#track[row * ROW + 1] > 0;
   }
@@ -88,7 +101,10 @@ export class Paths {
     return length(this.before(this.worst.before));
   }
 
-  /** About `count` rows that cut, evenly; of a path that nowhere cuts, all. */
+  /**
+   * About `count` rows that cut, evenly; of a path that nowhere cuts, all.
+   * @param {number} count
+   */
   cutRows(count) {
     const step = Math.max(1, Math.ceil(this.count / count));
     const rows = Array.from({ length: Math.ceil(this.count / step) }, (_, i) => i * step);
@@ -96,12 +112,18 @@ export class Paths {
     return cutting.length ? cutting : rows;
   }
 
-  /** About `count` desired points where the tool cuts. */
+  /**
+   * About `count` desired points where the tool cuts.
+   * @param {number} count
+   */
   cutPoints(count) {
     return this.cutRows(count).map((row) => [...this.desired(row)]);
   }
 
-  /** The box around the desired points where the tool cuts, along the axes of another frame. */
+  /**
+   * The box around the desired points where the tool cuts, along the axes of another frame.
+   * @param {{ origin: number[], x: number[], y: number[], z: number[] }} given
+   */
   boxIn({ origin, x, y, z }) {
     const box = nowhere();
     const off = [0, 0, 0];
@@ -134,9 +156,13 @@ export class Paths {
   correction = (/** @type {number} */ row) => this.#vector(row, CORRECTION);
 
   /** Where the tip is drawn `before` or `after` compensation, its deviation magnified. */
-  tip = (row, side, factor) => plus(this.closest(row), this[side](row), factor);
+  tip = (/** @type {number} */ row, /** @type {"before" | "after"} */ side, /** @type {number} */ factor) =>
+    plus(this.closest(row), this[side](row), factor);
 
-  /** The row nearest to a sample. */
+  /**
+   * The row nearest to a sample.
+   * @param {number} sample
+   */
   rowOf(sample) {
     let [low, high] = [0, this.count - 1];
     while (low < high) {
@@ -158,10 +184,14 @@ export class Paths {
     return ([5, 2].find((step) => step * decade <= wanted) ?? 1) * decade;
   }
 
-  /** The points of a line for the painter: "desired" or "closest" ones, each with a way off it or (null) with none. */
+  /**
+   * The points of a line for the painter: "desired" or "closest" ones, each with a way off it or (null) with none.
+   * @param {"desired" | "closest"} place
+   * @param {"before" | "after" | "correction" | null} way
+   */
   line(place, way) {
     const track = this.#track;
-    const [from, off] = [AT[place], AT[way]];
+    const [from, off] = [AT[place], way ? AT[way] : 0];
     const points = new Float32Array(this.count * VERTEX);
     let along = 0;
     for (let row = 0, i = 0; row < this.count; row++, i += VERTEX) {

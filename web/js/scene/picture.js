@@ -8,25 +8,50 @@ import { colour, texels } from "./ramp.js";
 import { matrixOf } from "./part.js";
 import { veiled } from "./veil.js";
 
+/**
+ * @import { Frame, Frames } from "./arm.js"
+ * @import { Box, Camera, Vector } from "./camera.js"
+ * @import { Line, LineStyle, Painter } from "./gl.js"
+ * @import { Part } from "./part.js"
+ * @import { Paths } from "./paths.js"
+ * @import { Stock } from "./stock.js"
+ * @import { Tones } from "./tones.js"
+ */
+
+/** @typedef {"desired" | "compensated" | "actual" | "after" | "whiskers" | "outline" | "grid"} LineName */
+
+/** @typedef {{ row: number, side: "before" | "after" | null, worst: number }} Marks */
+
 const CROWDED = 1.5; // points nearer than this need not all be joined [px]
 const LOOKS = 60; // points of the path that the arm must not cover
 const DOWN = Math.cos(Math.PI / 9); // looking this steeply on the part, the arm is always faint
 const TUBE = 0.28; // share of the tolerance tube's colour
 
-/** The picture on a canvas, or null where the browser has no WebGL 2. */
+/**
+ * The picture on a canvas, or null where the browser has no WebGL 2.
+ * @param {HTMLCanvasElement} canvas
+ */
 export function pictureOn(canvas) {
   const painter = painterOn(canvas);
   return painter && new Picture(canvas, painter);
 }
 
-class Picture {
+export class Picture {
   #canvas;
   #painter;
+  /** @type {Tones} */
   #tones;
+  /** @type {Paths} */
   #paths;
-  #lines = {};
+  /** @type {Record<LineName, Line> & { axes: Line[][] }} */
+  #lines;
+  /** @type {number[][]} */
   #looks = []; // points of the path
 
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {Painter} painter
+   */
   constructor(canvas, painter) {
     this.#canvas = canvas;
     this.#painter = painter;
@@ -37,15 +62,18 @@ class Picture {
     return this.#painter.gl;
   }
 
-  /** Draws in other tones of the page. */
+  /**
+   * Draws in other tones of the page.
+   * @param {Tones} tones
+   */
   recolour(tones) {
     this.#tones = tones;
     this.#painter.ramp(texels());
   }
 
   /**
-   * Takes over paths, the stock, and axes { frame, long }, over a floor that is as wide as `box`;
-   * `unit` [mm] is that of its grid. Returns the grid's spacing in units.
+   * Takes over paths, the stock, and axes { frame, long }, over a floor that is as wide as `box`; `unit` [mm] is that of its grid. Returns the grid's spacing in units.
+   * @param {{ paths: Paths, stock: Stock, frame: Frame, axes: { frame: Frame, long: number }[], box: Box, unit: number }} run
    */
   take({ paths, stock, frame, axes, box, unit }) {
     this.#paths = paths;
@@ -69,6 +97,7 @@ class Picture {
   /**
    * Draws one picture. `shown` says what, from `camera`, of the arm's pose { frames, excess }, `part` and `stock`; deviations
    * are magnified by `factor`, the tolerance tube has the `radius` [mm], `marks` are { row, side, worst }.
+   * @param {{ camera: Camera, shown: Record<string, boolean>, pose: { frames: Frames, excess: ArrayLike<number> }, part: Part, stock: Stock, factor: number, radius: number, marks: Marks }} given
    */
   draw({ camera, shown, pose, part, stock, factor, radius, marks }) {
     const [painter, tones, canvas] = [this.#painter, this.#tones, this.#canvas];
@@ -109,12 +138,21 @@ class Picture {
     this.#drawMarks(marks, factor, sharp);
   }
 
-  /** Of points that crowd one of so many is joined. */
+  /**
+   * Of points that crowd one of so many is joined.
+   * @param {Camera} camera
+   */
   #every(camera) {
     return Math.max(1, Math.floor((CROWDED * camera.pixel()) / (this.#paths.stride || 1)));
   }
 
-  /** Floor, axes and paths. */
+  /**
+   * Floor, axes and paths.
+   * @param {Camera} camera
+   * @param {number} sharp
+   * @param {Record<string, boolean>} shown
+   * @param {number} factor
+   */
   #drawLines(camera, sharp, shown, factor) {
     const [painter, tones, lines] = [this.#painter, this.#tones, this.#lines];
     painter.draw(lines.grid, { width: sharp, colour: tones.grid });
@@ -124,6 +162,10 @@ class Picture {
     const dash = 10 * camera.pixel();
     const largest = this.#paths.largest || 1e-9;
     const every = this.#every(camera);
+    /**
+     * @param {Line} line
+     * @param {LineStyle} style
+     */
     const draw = (line, style) => painter.draw(line, { ...style, every });
     if (shown.desired) draw(lines.desired, { width: 1.75 * sharp, rapid: sharp, colour: tones.desired, bias: 1e-6 });
     if (shown.actual) draw(lines.whiskers, { factor, largest, width: sharp, fade: 0.45, bias: 1e-6 });
@@ -133,9 +175,19 @@ class Picture {
     if (shown.actual) draw(lines.actual, { factor, largest, width: 3.25 * sharp, bias: 3e-6 });
   }
 
-  /** The cursor, from the desired path to the actual tip, and the worst place as a ring. */
+  /**
+   * The cursor, from the desired path to the actual tip, and the worst place as a ring.
+   * @param {Marks} marks
+   * @param {number} factor
+   * @param {number} sharp
+   */
   #drawMarks({ row, side, worst }, factor, sharp) {
     const [paths, painter, { ink, paper }] = [this.#paths, this.#painter, this.#tones];
+    /**
+     * @param {ArrayLike<number> & Iterable<number>} point
+     * @param {number} width
+     * @param {number[]} colour
+     */
     const dot = (point, width, colour) =>
       painter.dot(new Float32Array([...vertex(point), ...vertex(point)]), { width: width * sharp, colour });
     if (side) {

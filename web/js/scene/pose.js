@@ -3,19 +3,30 @@
 import * as core from "../core/client.js";
 import { framesOf } from "./arm.js";
 
+/** @import { Frames } from "./arm.js" */
+
 export class Pose {
+  /** @type {Frames} */
   frames; // of base, joints, tip and workpiece
+  /** @type {ArrayLike<number>} */
   excess = []; // of each joint over its range [deg]; empty if no ranges are known
   #asked = -1; // the sample that was asked for last
   #asking = false;
 
-  /** Loads the pose at a sample of another result. */
+  /**
+   * Loads the pose at a sample of another result.
+   * @param {number} sample
+   */
   async load(sample) {
     this.#asked = sample;
     this.#take(await core.pose(sample));
   }
 
-  /** Follows `sample()`, one question at a time; `changed()` is called after each answer. */
+  /**
+   * Follows `sample()`, one question at a time; `changed()` is called after each answer.
+   * @param {() => number} sample
+   * @param {() => void} changed
+   */
   async follow(sample, changed) {
     if (this.#asking) return;
     this.#asking = true;
@@ -31,12 +42,13 @@ export class Pose {
     this.#asking = false;
   }
 
+  /** @param {{ frames: Float64Array, excess: Float64Array }} pose */
   #take({ frames, excess }) {
     [this.frames, this.excess] = [framesOf(frames), excess];
   }
 
   /** The numbers of the joints that are out of range. */
   get beyond() {
-    return [...this.excess].flatMap((angle, i) => (angle > 0 ? [i + 1] : []));
+    return Array.from(this.excess).flatMap((angle, i) => (angle > 0 ? [i + 1] : []));
   }
 }

@@ -5,9 +5,15 @@ import { lineAt } from "../page/program-lines.js";
 import { inLength, lengthText, lengthUnit } from "../page/units.js";
 import { length } from "./camera.js";
 
+/** @import { Summary, SurfaceFigures } from "../../pkg/armill.js" */
+
+/** @param {number} mm */
 const withUnit = (mm) => `${lengthText(mm)} ${lengthUnit()}`;
 
-/** The line of the program that runs at a time, or else the time. */
+/**
+ * The line of the program that runs at a time, or else the time.
+ * @param {number} time
+ */
 export function momentText(time) {
   const line = lineAt(time);
   return line ? `line ${line}` : `${time.toFixed(2)} s`;
@@ -20,7 +26,12 @@ export class Readout {
   node = make("p", { className: "read" }, this.#moment, this.#errors, this.#place);
   text = make("p", { id: "scene-text", className: "hidden-text" });
 
-  /** Reads the row of the paths at the cursor. */
+  /**
+   * Reads the row of the paths at the cursor.
+   * @param {number} time
+   * @param {import("./paths.js").Paths} paths
+   * @param {number} row
+   */
   at(time, paths, row) {
     const line = lineAt(time);
     const [before, after] = [paths.before(row), paths.after(row)].map((way) => withUnit(length(way)));
@@ -30,7 +41,12 @@ export class Readout {
     set(this.#place, `; x ${x}, y ${y}, z ${z} ${lengthUnit()}`);
   }
 
-  /** What a new result, or another unit, changes. */
+  /**
+   * What a new result, or another unit, changes.
+   * @param {Summary} summary
+   * @param {number} largest
+   * @param {number} factor
+   */
   describe({ path_length_mm, after_mm, surface }, largest, factor) {
     const left = surface?.worst_after_mm === undefined ? "" : ` ${leftText(surface)}`;
     set(
@@ -42,14 +58,22 @@ export class Readout {
   }
 }
 
+/**
+ * @param {HTMLElement} node
+ * @param {string} words
+ */
 const set = (node, words) => node.textContent !== words && (node.textContent = words);
 
+/** @param {number} mm */
 const coordinate = (mm) =>
   inLength(mm)
     .toFixed(lengthUnit() === "mm" ? 1 : 3)
     .replace("-", "\u2212");
 
-/** What the surface of the part says to those who do not see it. */
-const leftText = ({ worst_before_mm, worst_after_mm }) =>
+/**
+ * What the surface of the part says to those who do not see it.
+ * @param {SurfaceFigures} surface
+ */
+const leftText = ({ worst_before_mm = 0, worst_after_mm = 0 }) =>
   `The part is coloured by the deviation of its surface, at most ${withUnit(worst_before_mm)} before and ` +
   `${withUnit(worst_after_mm)} after compensation.`;

@@ -1,5 +1,7 @@
 // The page's colours, for the picture.
 
+/** @typedef {ReturnType<typeof tonesOf>} Tones */
+
 /**
  * The page's colours as shares of red, green and blue, and whether the page is dark.
  * @param {HTMLElement} node

@@ -3,12 +3,20 @@
 import { project } from "./camera.js";
 
 const [SOLID, FAINT] = [0.85, 0.15]; // shares of a part's colour
+/** @type {Record<string, number>} */
 const LEAST = { tool: 0.5, beyond: 0.5 }; // of parts to be seen even there
 const SOFT = 14; // a part this far beside the path is solid again, so that none flickers [px]
+
+/** @typedef {{ matrix: Float32Array, width: number, height: number, pixelsPerMm: number }} View */
 
 /**
  * The parts with their `strength`. `points` are of the path, `view` = { matrix, width, height, pixelsPerMm }; `all` has
  * every part faint.
+ * @template {import("./arm.js").Tube} Part
+ * @param {Part[]} parts
+ * @param {number[][]} points
+ * @param {View} view
+ * @param {boolean} all
  */
 export function veiled(parts, points, view, all) {
   const seen = points.map((point) => project(view.matrix, point, view.width, view.height));
@@ -19,7 +27,12 @@ export function veiled(parts, points, view, all) {
   });
 }
 
-/** How far beside the nearest point that it could cover a part is drawn [px]; 0 where it covers one. */
+/**
+ * How far beside the nearest point that it could cover a part is drawn [px]; 0 where it covers one.
+ * @param {import("./arm.js").Tube} part
+ * @param {number[][]} seen
+ * @param {View} view
+ */
 function clearance({ model, top }, seen, { matrix, width, height, pixelsPerMm }) {
   const from = [model[12], model[13], model[14]];
   const to = from.map((v, i) => v + model[8 + i]);

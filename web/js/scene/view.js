@@ -22,11 +22,13 @@ import { Stock } from "./stock.js";
 import { tonesOf } from "./tones.js";
 
 /**
- * @import { Summary } from "../../pkg/armill.js"
+ * @import { StockSolid, Summary } from "../../pkg/armill.js"
  * @import { Frames } from "./arm.js"
- * @import { Box } from "./camera.js"
- * @import { Line, LineStyle, Painter } from "./gl.js"
+ * @import { Named, Rectangle } from "./labels.js"
+ * @import { Picture } from "./picture.js"
  */
+
+/** @typedef {{ side: "before" | "after", row: number }} Worst the worst place that is shown */
 
 /** @typedef {[x: number, y: number, pressed: boolean]} Pointed where the pointer is [px] */
 
@@ -35,6 +37,7 @@ const REACH = 14; // how near a path a pointer must be [px]
 const STREAM_MS = 200; // while results stream in, the picture rests at least so long
 const QUIET_MS = 300; // a result that has stood this long has its part simulated
 const FITTED = 400; // points of the path that a view is fitted to
+/** @type {Record<string, string>} */
 const VIEW_KEYS = { 1: "top", 2: "front", 3: "side", 4: "iso", 5: "tool", f: "fit", a: "all", 0: "fit" };
 
 /**
@@ -56,20 +59,29 @@ class Scene {
   #stock = new Stock();
   #part = new Part((first) => (first && !this.#steered ? this.#look(this.#fitted) : this.#redraw()));
   #camera = new Camera();
+  /** @type {Picture | null | undefined} */
   #picture; // undefined until it is first seen, null while there are no graphics
+  /** @type {Summary} */
   #summary; // of the newest result
+  /** @type {Summary | null} */
   #loaded; // of the one that is drawn
+  /** @type {Paths} */
   #paths;
   #pose = new Pose(); // of the arm at the cursor
+  /** @type {Named[]} */
   #axes = [];
+  /** @type {Record<string, boolean>} */
   #shown = { desired: true, actual: true, after: false, compensated: true, tube: false, arm: true, solid: true };
+  /** @type {{ factor: number | null, tube: boolean | null }} */
   #chosen = { factor: null, tube: null }; // what was chosen by hand
   #fitted = "fit";
   #steered = false; // whether the camera was moved by hand since it showed all
   #due = false;
   #room = [0, 0]; // of the picture [px]
   #near = true; // whether the picture is on the screen or about to be
+  /** @type {Pointed | null} */
   #pointed = null; // where the pointer is, until it has been looked up
+  /** @type {number | undefined} */
   #waiting; // timer for the part
   #catchUp = paced(() => this.#appear().then(painted), STREAM_MS);
 
@@ -80,7 +92,7 @@ class Scene {
       view: (name) => this.#look(name),
       shown: (name, on) => this.#switch(name, on),
       factor: (value) => ((this.#chosen.factor = value), this.#redraw()),
-      worst: () => this.#goTo(this.#worst.row),
+      worst: () => this.#worst && this.#goTo(this.#worst.row),
     });
     const { canvas, stage, labels } = this.#panel;
     this.#labels = new Labels(labels);
@@ -103,6 +115,10 @@ class Scene {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#recolour());
   }
 
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {HTMLElement} stage
+   */
   #observe(canvas, stage) {
     new ResizeObserver(() => {
       this.#room = [stage.clientWidth, stage.clientHeight];
@@ -110,7 +126,7 @@ class Scene {
     }).observe(stage);
     new IntersectionObserver(
       (entries) => {
-        this.#near = entries.at(-1).isIntersecting;
+        this.#near = entries[entries.length - 1].isIntersecting;
         this.#appear();
       },
       { rootMargin: "100%" },
@@ -166,11 +182,14 @@ class Scene {
     );
   }
 
-  /** Draws with another picture, or with none. */
+  /**
+   * Draws with another picture, or with none.
+   * @param {Picture | null} picture
+   */
   #drawWith(picture) {
     this.#picture = picture;
-    this.#part.drawWith(picture?.gl);
-    this.#stock.drawWith(picture?.gl);
+    this.#part.drawWith(picture?.gl ?? null);
+    this.#stock.drawWith(picture?.gl ?? null);
     if (picture) this.#recolour();
   }
 
@@ -188,7 +207,10 @@ class Scene {
     this.#redraw();
   }
 
-  /** Has the stock drawn and the part simulated once the result has stood for a while. */
+  /**
+   * Has the stock drawn and the part simulated once the result has stood for a while.
+   * @param {number} quiet [ms]
+   */
   #simulate(quiet) {
     clearTimeout(this.#waiting);
     if (!this.#part.offered) return;
@@ -207,7 +229,10 @@ class Scene {
     }, quiet);
   }
 
-  /** Draws the stock, or without one a box, around the path. */
+  /**
+   * Draws the stock, or without one a box, around the path.
+   * @param {StockSolid | undefined} solid
+   */
   #enclose(solid) {
     const first = this.#stock.given !== Boolean(solid);
     this.#stock.take(solid, this.#paths.boxIn(this.#pose.frames.workpiece));
@@ -259,12 +284,16 @@ class Scene {
     return Math.round((Math.min(duration_s, cursor() ?? 0) / (duration_s || 1)) * (samples - 1));
   }
 
-  /** When a row of the paths is [s]. */
+  /**
+   * When a row of the paths is [s].
+   * @param {number} row
+   */
   #timeOf(row) {
     const { samples, duration_s } = this.#loaded ?? this.#summary;
     return (this.#paths.sample(row) / (samples - 1)) * duration_s;
   }
 
+  /** @param {number} row */
   #goTo(row) {
     setCursor(this.#timeOf(row), "scene");
   }
@@ -280,7 +309,10 @@ class Scene {
     );
   }
 
-  /** Once a picture is often enough, however often the pointer moves. */
+  /**
+   * Once a picture is often enough, however often the pointer moves.
+   * @param {Pointed} where
+   */
   #pointSoon(...where) {
     if (!this.#pointed)
       requestAnimationFrame(() => {
@@ -307,7 +339,10 @@ class Scene {
     return true;
   }
 
-  /** Looks from a side, or (`fit`, `all`) shows the part or the arm too from where one looks. */
+  /**
+   * Looks from a side, or (`fit`, `all`) shows the part or the arm too from where one looks.
+   * @param {string} name
+   */
   #look(name) {
     if (!this.#paths) return;
     const { tcp, workpiece } = this.#pose.frames;
@@ -346,20 +381,19 @@ class Scene {
 
   /** The worst place of what is shown, or none; before compensation first. */
   get #worst() {
-    const side = ["actual", "after"].find((name) => this.#shown[name]);
-    return {
-      actual: { side: "before", row: this.#paths.worst.before },
-      after: { side: "after", row: this.#paths.worst.after },
-    }[side];
+    const { before, after } = this.#paths.worst;
+    if (this.#shown.actual) return { side: /** @type {const} */ ("before"), row: before };
+    return this.#shown.after ? { side: /** @type {const} */ ("after"), row: after } : undefined;
   }
 
   #draw() {
     const [paths, camera, factor, worst] = [this.#paths, this.#camera, this.#factor(), this.#worst];
     const taken = this.#panel.taken();
     const row = paths.rowOf(this.#sample());
+    const summary = this.#loaded ?? this.#summary;
     // Half as wide as passes are apart, so that it leaves them in sight.
-    const radius = this.#shown.tube ? Math.min(this.#loaded.tolerance_mm * factor, paths.spacing / 4) : 0;
-    this.#picture.draw({
+    const radius = this.#shown.tube ? Math.min(summary.tolerance_mm * factor, paths.spacing / 4) : 0;
+    this.#picture?.draw({
       camera,
       shown: this.#shown,
       pose: this.#pose,
@@ -367,7 +401,7 @@ class Scene {
       stock: this.#stock,
       factor,
       radius,
-      marks: { row, side: worst?.side, worst: worst?.row },
+      marks: { row, side: worst?.side ?? null, worst: worst?.row ?? 0 },
     });
     this.#section.magnify(factor);
     this.#write(worst, factor, taken);
@@ -376,7 +410,12 @@ class Scene {
     this.#report(row, factor, radius, worst);
   }
 
-  /** The labels over the picture. */
+  /**
+   * The labels over the picture.
+   * @param {Worst | undefined} worst
+   * @param {number} factor
+   * @param {Rectangle[]} taken
+   */
   #write(worst, factor, taken) {
     const { worst: button } = this.#panel;
     const matrix = this.#camera.matrix();
@@ -388,14 +427,22 @@ class Scene {
       if (button.textContent !== words) button.textContent = words;
       first = { node: button, point: this.#paths.tip(worst.row, worst.side, factor) };
     }
+    /** @param {number[]} point */
     const place = (point) => project(matrix, point, this.#camera.width, this.#camera.height);
     if (first) this.#node.dataset.worstAt = place(first.point).slice(0, 2).join(" ");
     this.#labels.write(axisLabels(this.#axes), first, place, this.#room, taken);
   }
 
-  /** What is drawn, for those who cannot read pixels. */
+  /**
+   * What is drawn, for those who cannot read pixels.
+   * @param {number} row
+   * @param {number} factor
+   * @param {number} radius
+   * @param {Worst | undefined} worst
+   */
   #report(row, factor, radius, worst) {
     const { azimuth, elevation, distance, target } = this.#camera;
+    /** @param {number} angle */
     const degrees = (angle) => ((angle * 180) / Math.PI).toFixed(2);
     Object.assign(this.#node.dataset, {
       azimuth: degrees(azimuth),
@@ -418,9 +465,10 @@ class Scene {
   /** What a new result, or another unit, changes around the picture. */
   #describe() {
     const { largest } = this.#paths;
+    const summary = this.#loaded ?? this.#summary;
     this.#panel.factors(this.#paths.factor(), this.#chosen.factor);
-    this.#panel.legend.show(inLength(largest), inLength(this.#loaded.tolerance_mm), lengthUnit());
-    this.#readout.describe(this.#loaded, largest, this.#factor());
+    this.#panel.legend.show(inLength(largest), inLength(summary.tolerance_mm), lengthUnit());
+    this.#readout.describe(summary, largest, this.#factor());
   }
 }
 
