@@ -60,8 +60,11 @@ fn every_view_is_accessible() -> Result {
                 page.wait_for("document.querySelector('#chart-response svg.plot')", 20.0).await?;
             }
             let panel = tab.replace("tab-", "panel-");
-            page.wait_for(&format!("document.querySelector('#{panel} :is(svg, canvas, tbody tr)')"), 20.0)
-                .await?;
+            page.wait_for(
+                &format!("document.querySelector('#{panel} :is(svg, canvas, tbody tr, .lead)')"),
+                20.0,
+            )
+            .await?;
             look(page, &tab, &mut notes).await?;
         }
         unfold_all(page).await?;

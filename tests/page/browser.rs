@@ -187,6 +187,10 @@ impl Page {
     /// # Errors
     /// If there is no such element, or another one covers it.
     pub async fn click(&self, css: &str) -> Result {
+        // The driver scrolls smoothly, as the page asks, and does not wait for it; nor does it know what
+        // sticks to the edges.
+        let place = "document.querySelector(css)?.scrollIntoView({ block: 'center', behavior: 'instant' })";
+        self.js(&format!("const css = {}; {place}", json!(css))).await?;
         self.element(css).await?.click().await.map_err(|error| within(css, error))
     }
 

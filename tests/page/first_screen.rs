@@ -26,7 +26,7 @@ async fn drawn(page: &Page) -> Result {
 
 /// Buttons, labels and titles of which a part is cut off or lies over another line of its bar.
 const CUT_OFF: &str = "const shown = [...document.querySelectorAll('button, label, h1, h2, h3, dt, dd, #verdict, \
-    .legend button, [role=tab]')].filter(each => each.checkVisibility() && !each.classList.contains('hidden-text')); \
+    .legend button, [role=tab]')].filter(each => each.checkVisibility() && each.clientWidth > 1); \
     return shown.filter(each => each.scrollWidth > each.clientWidth + 1 && getComputedStyle(each).overflowX !== 'visible') \
     .map(each => each.id || each.textContent.trim().slice(0, 40))";
 
@@ -321,6 +321,7 @@ fn a_programmer_gets_from_a_pocket_to_a_kuka_package() -> Result {
         };
         cured(&mut person).await?;
         person.click("#confirm-asked").await?;
+        current(page).await?;
         let state = page.js("return document.querySelector('#tolerance-met').dataset.state").await?;
         assert_ne!(state, "cannot-run", "{}", text(page, "verdict").await?);
         person.click("#download-program").await?;

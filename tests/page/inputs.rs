@@ -136,7 +136,7 @@ fn inches_are_shown_and_typed_and_the_job_stays_what_it_is() -> Result {
         stale(page).await?;
         let error = text(page, "path-radius_mm-error").await?;
         assert!(
-            error.starts_with("Radius is 1000 in; legal is") && error.contains("to 393.7008 in"),
+            error.starts_with("Radius is 1000 in; it must be") && error.contains("to 393.7008 in"),
             "{error}"
         );
         page.click("#undo").await?;
@@ -191,7 +191,8 @@ fn a_robot_is_found_by_what_is_known_of_it() -> Result {
         page.press(char::from(Key::Enter)).await?;
         assert_eq!(page.value("#robot-preset").await?, "kuka-kr-210-r2700-2");
         assert_eq!(page.value("#robot-preset-search").await?, "KUKA KR 210 R2700-2");
-        shows(page, &run(&[("robot", json!({"preset": "kuka-kr-210-r2700-2"}))])).await?;
+        shows(page, &run(&[("robot", json!({"preset": "kuka-kr-210-r2700-2"})), ("shaper", json!("none"))]))
+            .await?;
         // By arrows, from the chosen one on; headings are the makers.
         page.press(char::from(Key::Down)).await?;
         let headings = page
@@ -250,7 +251,7 @@ fn a_job_has_a_name_in_files_and_titles() -> Result {
         page.reload().await?;
         current(page).await?;
         assert_eq!(page.value("#job-name").await?, "slot 4");
-        page.click("#reset").await?;
+        page.js("document.getElementById('open-thesis').click()").await?;
         assert_eq!(page.value("#job-name").await?, "");
         assert!(
             page.js("return document.title").await?.as_str().is_some_and(|title| title.starts_with("Armill"))

@@ -80,7 +80,7 @@ fn a_visit_fetches_the_core_once_and_computes_one_run() -> Result {
         page.choose("#export-format", "gcode").await?;
         page.click("#download-program").await?;
         page.downloaded("ARMILL.nc").await?;
-        page.click("#reset").await?;
+        page.js("document.getElementById('open-thesis').click()").await?;
         shows(page, &run(&[])).await?;
         page.click("#undo").await?;
         shows(page, &program).await?;

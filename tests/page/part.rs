@@ -86,7 +86,7 @@ fn the_picture_shows_the_part_before_and_after() -> Result {
         let (bare, _) = pixels(page, "[data-path=solid]").await?;
         assert_ne!(bare, before);
         page.wait_for("document.querySelector('#scene').dataset.part === 'none'", 5.0).await?;
-        page.click("#reset").await?;
+        page.js("document.getElementById('open-thesis').click()").await?;
         shows(page, &run(&[])).await?;
         assert_eq!(page.js(hidden).await?, true);
         page.wait_for("document.querySelector('#scene').dataset.triangles === '0'", 20.0).await
@@ -169,7 +169,7 @@ fn the_part_is_taken_away_as_stl() -> Result {
             assert!(file == native, "{name}");
         }
         // A job without a stock goes back to its controller.
-        page.click("#reset").await?;
+        page.js("document.getElementById('open-thesis').click()").await?;
         shows(page, &run(&[])).await?;
         assert_eq!(page.value("#export-format").await?, "staubli");
         assert_eq!(page.js(offered).await?, json!([]));

@@ -69,8 +69,8 @@ fn up_to_five_results_are_compared_with_a_chosen_one() -> Result {
             page.type_into("#cutting-axial_depth_mm", &depth.to_string()).await?;
             shows(page, report).await?;
             page.click("#pin").await?;
-        page.click("#tab-compare").await?;
         }
+        page.click("#tab-compare").await?;
         page.click("#pin").await?;
         assert_eq!(title(page).await?, "E is this result already.");
         let p50 = |k: usize| reports[k].summary().expected_mm.p50;
@@ -105,6 +105,7 @@ fn up_to_five_results_are_compared_with_a_chosen_one() -> Result {
         page.js("const name = document.getElementById('name-b'); name.value = 'nine deep'; \
                  name.dispatchEvent(new Event('change', { bubbles: true }))")
             .await?;
+        page.click("#tab-compare").await?;
         page.click("#unpin-a").await?;
         page.reload().await?;
         shows(page, &reports[4]).await?;
@@ -206,6 +207,7 @@ fn a_pinned_result_is_drawn_with_the_next_and_stays_over_a_reload() -> Result {
             assert!(pinned.len() >= 2 && own.len() >= 2, "{} and {} curves", pinned.len(), own.len());
         }
         page.js("scrollTo({ top: 0, behavior: 'instant' })").await?;
+        page.click("#tab-compare").await?;
         page.click("#unpin").await?;
         page.wait_for("!document.querySelector('#chart-before-after .pinned .series')", 20.0).await?;
         page.reload().await?;

@@ -149,7 +149,7 @@ fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
         )
         .await?;
         page.click("#download-job").await?;
-        let saved: Value = serde_json::from_str(&page.downloaded("armill-job.json").await?)?;
+        let saved: Value = serde_json::from_str(&page.downloaded("long-job.json").await?)?;
         assert_eq!(saved["path"]["text"], json!(long));
         // From a line to the cursor and from a chart to the line, as with a short program.
         page.js("document.getElementById('path-text-window').scrollTop = 1e9").await?;
