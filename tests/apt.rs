@@ -126,7 +126,7 @@ fn mistakes_are_placed_and_say_what_to_do() {
         ("GOTO/0,0,0\nGOTO/1,0,0,0,0,-1", (2, 1), "180 deg"),
         ("MULTAX/OFF\nGOTO/0,0,0,0,0,1", (2, 12), "MULTAX/ON"),
         ("MULTAX/YES", (1, 8), "ON or OFF"),
-        ("RAPID/5", (1, 7), "RAPID stands alone"),
+        ("RAPID/5", (1, 7), "RAPID takes no values"),
         ("UNITS/FEET", (1, 7), "MM or INCHES"),
         ("GOTO/0,0,0\nUNITS/INCHES", (2, 1), "before the first length"),
         ("FEDRAT/100,MMPS", (1, 12), "MMPM, IPM, MMPR or IPR"),

@@ -116,7 +116,7 @@ fn a_rigid_arm_leaves_everything_to_the_shaper() {
     assert_eq!(budget.worst_mm.joints, [0.0; 6]);
     // A projection onto its own direction: the last bits.
     assert!((budget.worst_mm.shaping - budget.worst_mm.total).abs() < 1e-12);
-    assert_eq!(budget.sentence, "Shaping gives 100 % of the contour error where it is largest.");
+    assert_eq!(budget.sentence, "Shaping causes 100 % of the contour error where it is largest.");
 }
 
 #[test]

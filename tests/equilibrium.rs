@@ -134,7 +134,7 @@ fn a_spring_is_read_between_its_points_both_ways_and_beyond() {
         (vec![], "no point"),
         (vec![(0.0, 0.0)], "torque 0 N m after 0 N m"),
         (vec![(2.0, 1e-3), (2.0, 2e-3)], "torque 2 N m after 2 N m"),
-        (vec![(2.0, 1e-3), (4.0, 5e-4)], "turn 0.0005 rad after 0.001 rad"),
+        (vec![(2.0, 1e-3), (4.0, 5e-4)], "angle of 0.0005 rad after 0.001 rad"),
         (vec![(f64::NAN, 0.0)], "torque NaN"),
     ] {
         let error = Spring::through("robot.x", points).unwrap_err();

@@ -306,7 +306,7 @@ fn every_language_writes_the_feeds() {
     };
     assert!(indices(&report) > indices(&before) + 4);
     let text = text(&report, "gcode");
-    assert!(text.contains("(Feeds hold a mean force of ") && text.contains("(was: "), "{text}");
+    assert!(text.contains("(Feeds keep the mean force at ") && text.contains("(was: "), "{text}");
 }
 
 #[test]

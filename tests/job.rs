@@ -632,6 +632,6 @@ fn a_program_proposes_its_own_spindle_speed() {
     };
     let text = "G21 G90\nS6000 M3\nG0 X600 Y-60 Z120\nG1 Z100 F1200\nS8000\nY20\nM30";
     assert_eq!(proposed(text).map(|cut| cut.spindle_rpm), Some(6000.0));
-    assert_eq!(proposed("G21 G90\nG0 X600 Z120\nG1 Z100 F1200"), None);
+    assert_eq!(proposed("G21 G90\nG0 X600 Y-60 Z120\nG1 Z100 F1200\nY20"), None);
     assert_eq!(armill::setup::proposed_cutting(&Job::default()).unwrap(), None);
 }

@@ -78,6 +78,11 @@ async fn stale(page: &Page) -> Result {
     page.wait_for("document.querySelector('#results').dataset.state === 'stale'", 60.0).await
 }
 
+/// Waits until the page says that a run was stopped.
+async fn stopped(page: &Page) -> Result {
+    page.wait_for("document.querySelector('#results').dataset.state === 'stopped'", 60.0).await
+}
+
 /// A number of the page in full precision.
 async fn number(page: &Page, id: &str) -> Result<f64> {
     let value = page.js(&format!("return document.getElementById('{id}').dataset.value")).await?;
@@ -377,7 +382,7 @@ fn by_keyboard_alone() -> Result {
             Ok::<String, Box<dyn std::error::Error>>(id.as_str().unwrap_or_default().to_owned())
         };
         let tab_to = async |id: &str| -> Result {
-            for _ in 0..120 {
+            for _ in 0..400 {
                 if focus().await? == id {
                     return Ok(());
                 }
@@ -398,12 +403,8 @@ fn by_keyboard_alone() -> Result {
         page.js("document.activeElement.blur(); window.scrollTo(0, 0)").await?;
         tab_to("tab-overview").await?;
         page.press(char::from(Key::Right)).await?;
-        assert_eq!(focus().await?, "tab-path");
-        page.wait_for(
-            "!document.querySelector('#panel-path').hidden && document.querySelector('#chart-path svg')",
-            20.0,
-        )
-        .await?;
+        assert_eq!(focus().await?, "tab-why");
+        page.wait_for("document.querySelector('#panel-budget').checkVisibility()", 20.0).await?;
         page.press(char::from(Key::End)).await?;
         assert_eq!(focus().await?, "tab-thesis");
         page.js("document.activeElement.blur(); document.querySelector('.skip').focus()").await?;
@@ -442,7 +443,7 @@ fn a_long_run_shows_progress_and_can_be_cancelled() -> Result {
         let state = page.js("return document.querySelector('#results').dataset.state").await?;
         assert_eq!(state, "computing", "it still runs");
         page.click("#cancel").await?;
-        stale(page).await?;
+        stopped(page).await?;
         assert!(text(page, "status").await?.contains("Cancelled"));
         assert_eq!(number(page, "samples").await? as usize, run(&[]).samples(), "the last result stays");
         page.type_into("#motion-sample_time_s", "0.002").await?;

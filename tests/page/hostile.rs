@@ -4,7 +4,7 @@
 
 use crate::browser::{DESKTOP, Page, Result, THESIS, visit};
 use crate::common::run;
-use crate::{current, number, shows, stale, text};
+use crate::{current, number, shows, stale, stopped, text};
 use serde_json::{Value, json};
 
 /// Drops a file on the page; `content` is a JavaScript expression for a list of its parts.
@@ -76,7 +76,8 @@ fn a_million_points_are_answered_and_survive_a_reload() -> Result {
             30.0,
         )
         .await?;
-        let ended = "['current', 'stale'].includes(document.querySelector('#results').dataset.state)";
+        let ended =
+            "['current', 'stale', 'stopped'].includes(document.querySelector('#results').dataset.state)";
         page.wait_for(ended, 300.0).await?;
         // The text is kept where the page's small storage would be full, and the other inputs with
         // it.
@@ -301,7 +302,7 @@ fn workers_killed_while_they_compute_are_replaced() -> Result {
         page.wait_for("document.querySelector('#status').textContent.startsWith('No progress for')", 20.0)
             .await?;
         page.click("#cancel").await?;
-        stale(page).await?;
+        stopped(page).await?;
         assert!(text(page, "status").await?.contains("Cancelled. Showing the last valid result."));
         assert_eq!(page.value("#motion-sample_time_s").await?, "2.5e-5");
         page.type_into("#motion-sample_time_s", "0.002").await?;

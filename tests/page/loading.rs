@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use crate::browser::{DESKTOP, Page, Result, THESIS, visit};
 use crate::common::run;
-use crate::{shows, stale, text};
+use crate::{shows, stopped, text};
 
 const LINE: &str = "G21 G90 G1 X600 Y0 Z100 F1200\nX640";
 
@@ -127,7 +127,7 @@ fn a_core_that_does_not_come_is_reported_and_can_be_tried_again() -> Result {
         page.devtools("Network.setBlockedURLs", json!({ "urls": ["*/armill_bg.wasm"] })).await?;
         page.expect_error("pkg/armill_bg.wasm");
         page.reload().await?;
-        stale(page).await?;
+        stopped(page).await?;
         let alert = text(page, "alert").await?;
         assert!(alert.starts_with("The core could not be loaded: "), "{alert}");
         // One more failure, then success.
@@ -166,7 +166,7 @@ fn a_worker_that_does_not_start_is_reported_and_the_last_result_stays() -> Resul
         page.wait_for("document.querySelector('#alert').textContent.includes('started again')", 20.0).await?;
         shows(page, &run(&[])).await?;
         page.type_into("#motion-feed_mm_s", "80").await?;
-        stale(page).await?;
+        stopped(page).await?;
         assert!(text(page, "alert").await?.starts_with("The core could not be loaded: "));
         assert_eq!(text(page, "verdict").await?, run(&[]).verdict());
         assert_eq!(text(page, "status").await?, "Showing the last valid result.");

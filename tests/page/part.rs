@@ -162,7 +162,7 @@ fn the_part_is_taken_away_as_stl() -> Result {
         {
             page.choose("#export-format", &format!("part-{name}")).await?;
             page.click("#download-program").await?;
-            let file = page.downloaded_bytes(&format!("armill-part-{name}.stl")).await?;
+            let file = page.downloaded_bytes(&format!("face-part-{name}.stl")).await?;
             let native = report.simulated_part(kind, None)?;
             let triangles = u32::from_le_bytes(native[80..84].try_into()?) as usize;
             assert!(triangles > 10_000 && file.len() == 84 + 50 * triangles, "{name}: {triangles}");

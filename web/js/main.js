@@ -174,7 +174,7 @@ async function placeInFront() {
  * @param {boolean} [stepped]
  */
 function edited(stepped) {
-  arm = job.data.robot.preset;
+  arm = job.data.robot?.preset;
   showAsked(job.data);
   showTitle();
   calculator.edited(stepped);
@@ -187,7 +187,7 @@ function edited(stepped) {
  * @param {boolean} [stepped]
  */
 function typed(typing, stepped) {
-  const { preset } = job.data.robot;
+  const preset = job.data.robot?.preset;
   if (preset && preset !== arm) ask(job.data, "robot");
   session.edited(typing, stepped);
 }
