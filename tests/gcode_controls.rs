@@ -273,9 +273,9 @@ fn positions_of_the_machine_are_no_points_of_the_workpiece() {
         assert_eq!(ends(&program), points, "{text}");
     }
     refuse(&[
-        (Fanuc, "G53 G0 X0 Y0\nG1 Z-1", 2, "position of the machine"),
-        (Fanuc, "G53 G0 X0 Y0\nG2 X5 Y5 I5", 2, "position of the machine"),
-        (Fanuc, "G53 G0 X0 Y0\nG81 Z-1 R2", 2, "position of the machine"),
+        (Fanuc, "G53 G0 X0 Y0\nG1 Z-1", 2, "machine position"),
+        (Fanuc, "G53 G0 X0 Y0\nG2 X5 Y5 I5", 2, "machine position"),
+        (Fanuc, "G53 G0 X0 Y0\nG81 Z-1 R2", 2, "machine position"),
         (Fanuc, "G53 G0 Z0\nG91 Z-5", 2, "G91"),
         (Fanuc, "G53 G0 Z0\nX1 Y1\nG18 G2 X5 Z5 I5", 3, "in Z"),
         (Fanuc, "G91 G28 X0 Y0\nX5", 2, "G91"),

@@ -613,7 +613,7 @@ fn programs_of_hands_lead_where_the_control_goes() {
         ("G53 G0 Z0 A90", 4, "rotary"),
         ("Z5\nZ-1\nG91 G28 X0 Y0", 6, "lift the tool"),
         ("M198 P1000", 4, "sub-program"),
-        ("M70", 4, "restored"),
+        ("M70", 4, "restoring"),
         ("X50 ,R5", 4, "chamfered"),
     ] {
         let error = read(&format!("{head}{text}")).unwrap_err().to_string();

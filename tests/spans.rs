@@ -208,6 +208,6 @@ fn many_stretches_are_bounded_and_counted() {
     ]);
     let found = warning(&report, "plunge").unwrap();
     assert_eq!(found.spans_samples.len(), MOST_SPANS);
-    assert!(found.message.contains("joined into 100"), "{}", found.message);
+    assert!(found.message.contains("merged into 100"), "{}", found.message);
     check(&report, &mut BTreeSet::new());
 }

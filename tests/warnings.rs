@@ -86,7 +86,7 @@ fn own_arm() -> Value {
 #[test]
 fn what_is_out_of_reach_is_placed_and_has_a_remedy() {
     let far = refused(&[("workpiece_frame", json!({"xyz_mm": [3000, 0, 0]}))]).to_string();
-    assert!(far.contains("sample 0") && far.contains("TCP at") && far.contains("nearer"), "{far}");
+    assert!(far.contains("sample 0") && far.contains("TCP at") && far.contains("closer"), "{far}");
 }
 
 #[test]
