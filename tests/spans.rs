@@ -155,7 +155,7 @@ fn the_excess_of_a_joint_is_what_its_command_is_beyond_its_range() {
     let mut signs = BTreeSet::new();
     for k in 0..report.samples() {
         let excess = report.joint_excess(k).unwrap();
-        for (i, (low, high)) in limits.into_iter().enumerate() {
+        for (i, (low, high)) in limits.iter().enumerate() {
             let beyond = |q: f64| (low.to_degrees() - q).max(q - high.to_degrees());
             let wanted = beyond(own[i][k]).max(beyond(bent[i][k]));
             // Degrees from radians and back: the last bits.

@@ -190,7 +190,8 @@ impl Page {
         // The driver scrolls smoothly, as the page asks, and does not wait for it; nor does it know what
         // sticks to the edges.
         let place = "document.querySelector(css)?.scrollIntoView({ block: 'center', behavior: 'instant' })";
-        self.js(&format!("const css = {}; {place}", json!(css))).await?;
+        // Without JavaScript the driver is left to itself.
+        let _ = self.js(&format!("const css = {}; {place}", json!(css))).await;
         self.element(css).await?.click().await.map_err(|error| within(css, error))
     }
 

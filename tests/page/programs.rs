@@ -162,6 +162,7 @@ fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
         page.click("#tab-overview").await?;
         page.wait_for("document.querySelector('#chart-before-after svg')", 20.0).await?;
         page.click("#chart-before-after .drawing").await?;
+        page.wait_for("document.querySelector('#chart-before-after .readout button')", 20.0).await?;
         page.click("#chart-before-after .readout button").await?;
         let line = "document.querySelector('#path-text-window [aria-selected=true]')";
         page.wait_for(&format!("{line} && {line}.dataset.line !== '25000'"), 5.0).await?;

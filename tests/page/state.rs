@@ -73,7 +73,8 @@ fn a_link_gives_the_same_bits_in_a_fresh_profile() -> Result {
 }
 
 #[test]
-fn a_link_that_cannot_be_opened_says_why_and_the_default_stands() -> Result {
+fn a_link_that_cannot_be_opened_says_why_and_the_example_stands() -> Result {
+    let example = armill::run(&armill::Job::opening()?, &mut armill::Progress::none())?;
     visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
         page.type_into("#motion-feed_mm_s", "70").await?;
@@ -93,9 +94,9 @@ fn a_link_that_cannot_be_opened_says_why_and_the_default_stands() -> Result {
             (fragment(page, "{\"motor\":1}").await?, "motor"),
         ] {
             open(page, &broken).await?;
-            shows(page, &run(&[])).await?;
+            shows(page, &example).await?;
             let alert = text(page, "alert").await?;
-            assert!(alert.contains(reason) && alert.contains("default inputs"), "{broken}: {alert}");
+            assert!(alert.contains(reason) && alert.contains("This is the example"), "{broken}: {alert}");
         }
         // The user's own inputs are one undo away.
         page.click("#undo").await?;
