@@ -48,6 +48,7 @@ fn the_package_works_in_node_and_its_types_are_true() {
 
     let compiler = folder("ARMILL_NPM_TOOLS").join("typescript/bin/tsc");
     let options = [
+        "--ignoreConfig",
         "--strict",
         "--noEmit",
         "--target",

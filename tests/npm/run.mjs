@@ -18,7 +18,7 @@ const answers = {
   fields: [armill.fields()],
   formats: [armill.formats()],
   presets: [armill.presets()],
-  opening_job: JSON.parse(armill.opening_job()),
+  opening_job: [armill.opening_job()],
   proposed_cutting: [armill.proposed_cutting(JSON.stringify(program)), armill.proposed_cutting(armill.default_job())],
   zip: [armill.zip("figures", ["a.csv"], ["x,y\n1,2\n"])],
   proposed_stock: [armill.proposed_stock(JSON.stringify(program)), armill.proposed_stock(armill.default_job())],

@@ -1,5 +1,6 @@
 //! What the picture in space marks: the worst place, joints out of range, the tolerance, the arm that must not hide
 //! the path; and how it looks in panes of other sizes and in the other theme.
+#![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
 
 use crate::browser::{DESKTOP, Page, Result, THESIS, visit};
 use crate::common::program::opened_example;
