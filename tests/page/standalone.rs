@@ -30,7 +30,7 @@ fn the_one_file_page_works_from_disk() -> Result {
         assert_eq!(page.value("#path-kind").await?, "csv");
         assert!(text(page, "understood").await?.contains("the tool axis turns"));
         page.click("#download-compensated").await?;
-        assert!(page.downloaded("armill-compensated-path.csv").await?.starts_with("time_s,"));
+        assert!(page.downloaded("rim-compensated-path.csv").await?.starts_with("time_s,"));
         Ok(())
     })
 }
