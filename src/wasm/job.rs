@@ -38,7 +38,8 @@ export interface RobotPreset {
   joint_limits_deg: [number, number][] | null; joint_compliance_rad_per_nm: number[];
 }
 export interface MaterialPreset {
-  id: string; name: string; note: string; spread_percent: number; confidence: string; ktc_n_mm2?: number; krc_n_mm2?: number; kac_n_mm2?: number;
+  id: string; name: string; note: string; spread_percent: number; confidence: string;
+  ktc_n_mm2?: number; krc_n_mm2?: number; kac_n_mm2?: number;
   kte_n_mm?: number; kre_n_mm?: number; kae_n_mm?: number; kc11_n_mm2?: number; mc?: number; orthogonal?: boolean;
 }
 export interface Presets { robots: RobotPreset[]; materials: MaterialPreset[]; }

@@ -167,7 +167,7 @@ function figureOf(entry) {
 
 const redraw = debounced(() => draw(), 120);
 const resized = new ResizeObserver(() => {
-  if ([...figures.values()].filter((figure) => !figure.fits).length) redraw(); // each looks at its room anew
+  if ([...figures.values()].filter((figure) => !figure.fits).length) redraw(); // each measures its room
 });
 
 async function draw() {
@@ -205,7 +205,8 @@ document.body.append(
     "p",
     { id: "chart-keys", className: "hidden-text" },
     "Left and right arrows move the cursor, Page Up and Page Down by a tenth, Home and End to the ends of what is " +
-      "shown. Plus and minus zoom, zero shows all, Shift and arrows pan. S selects a stretch: press it at both ends. Enter leads to the line of the program, " +
+      "shown. Plus and minus zoom, zero shows all, Shift and arrows pan. S selects a stretch: press it at both ends. " +
+      "Enter leads to the line of the program, " +
       "Escape takes the cursor away. The button Table shows the values as a table.",
   ),
 );

@@ -6,7 +6,13 @@
  * @import { Values } from "./figure.js"
  */
 
-/** @typedef {Pick<Pin, "letter" | "name" | "text"> & { chart(name: string, options: ChartOptions): Promise<Chart> }} Beside a pinned result that is drawn */
+/**
+ * A pinned result that is drawn.
+ *
+ * @typedef {Pick<Pin, "letter" | "name" | "text"> & {
+ *   chart(name: string, options: ChartOptions): Promise<Chart>,
+ * }} Beside
+ */
 
 /**
  * Resolves with `{ own, others }`: the chart `name` that `values` draws and those of the pinned results

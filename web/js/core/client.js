@@ -24,7 +24,10 @@ const CANCELLED = { code: "cancelled", message: "Cancelled." };
 /**
  * An error as data: the core's, or `fatal` where its Worker cannot be used any more.
  *
- * @typedef {{ code: string, message: string, field?: string, line?: number, column?: number, fatal?: boolean, value?: number, min?: number, max?: number, unit?: string }} Failure
+ * @typedef {{
+ *   code: string, message: string, field?: string, line?: number, column?: number, fatal?: boolean,
+ *   value?: number, min?: number, max?: number, unit?: string,
+ * }} Failure
  */
 
 /** @typedef {{ fraction: number, stage: string }} Progress of a run; the fraction is 0 to 1 */

@@ -19,7 +19,10 @@ export class Source {
   /**
    * `changed()` is called when there is another text, `example()` when the example is asked for;
    * `more` stands beside the buttons.
-   * @param {{ id: string, label: string, placeholder: string, exampleName: string, changed(): void, example(): void, more?: Node[] }} options
+   * @param {{
+   *   id: string, label: string, placeholder: string, exampleName: string,
+   *   changed(): void, example(): void, more?: Node[],
+   * }} options
    */
   constructor({ id, label, placeholder, exampleName, changed, example, more = [] }) {
     const file = make("input", { type: "file", id: `${id}-file`, hidden: true, "aria-label": `${label}: file` });

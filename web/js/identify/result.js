@@ -31,7 +31,10 @@ export class Outcome {
 
   /**
    * `source` is the text, `show(found)` gives the nodes of a result; `chart` is { name, title }.
-   * @param {{ ask: Ask, kind: "stiffness" | "response", source: Source, chart: { name: string, title: string }, show(found: Found): Node[] }} options
+   * @param {{
+   *   ask: Ask, kind: "stiffness" | "response", source: Source,
+   *   chart: { name: string, title: string }, show(found: Found): Node[],
+   * }} options
    */
   constructor({ ask, kind, source, chart, show }) {
     this.#ask = ask;

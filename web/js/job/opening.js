@@ -19,7 +19,10 @@ import { nameOfFile, named } from "./name.js";
  * `openJob(file)`, `useProgram(kind, text, example)` and `wireDrop()` for the page. `session()`, `job()`
  * and `thesis()`, the default job, are asked for when they are needed; `warn(message)` says what could
  * not be opened.
- * @param {{ core: typeof import("../core/client.js"), job(): Job, session(): Session, thesis(): JobData, warn(message: string): void }} page
+ * @param {{
+ *   core: typeof import("../core/client.js"), job(): Job, session(): Session, thesis(): JobData,
+ *   warn(message: string): void,
+ * }} page
  */
 export function makeOpening({ core, job, session, thesis, warn }) {
   let opened = 0; // programs, to know the latest

@@ -39,9 +39,13 @@ export class Session {
   #own; // the focused text field, while it holds something else
 
   /**
-   * `examples` has the core's own jobs, `opening` and `job`. `changed(stepped)` is called whenever the inputs are others than before, `warn(message)` with
-   * what could not be shown.
-   * @param {{ job: Job, form: Form, examples: { job: JobData, opening: JobData }, core: { check(json: string): Promise<void> }, changed(stepped?: boolean): void, warn(message: string): void }} page
+   * `examples` has the core's own jobs, `opening` and `job`. `changed(stepped)` is called whenever the
+   * inputs are others than before, `warn(message)` with what could not be shown.
+   * @param {{
+   *   job: Job, form: Form, examples: { job: JobData, opening: JobData },
+   *   core: { check(json: string): Promise<void> },
+   *   changed(stepped?: boolean): void, warn(message: string): void,
+   * }} page
    */
   constructor({ job, form, examples, core, changed, warn }) {
     this.#job = job;

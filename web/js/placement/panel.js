@@ -16,7 +16,11 @@ import { survey } from "./pool.js";
  * @import { Cell, Drawn } from "./map.js"
  */
 
-/** @typedef {Drawn & { key: string | null, axes: number[], fixed: number }} Surveyed a map, the job and ranges it belongs to, and its plane */
+/**
+ * A map, the job and ranges it belongs to, and its plane.
+ *
+ * @typedef {Drawn & { key: string | null, axes: number[], fixed: number }} Surveyed
+ */
 
 const AXES = ["x", "y", "z"];
 /** @type {Record<string, [number, number, number]>} */

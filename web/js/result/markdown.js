@@ -24,6 +24,11 @@ export function markdown({ summary, job, standard, link }) {
     ["both, before compensation", before.both],
     [`after compensation, ${passes} ${passes === 1 ? "pass" : "passes"}, if every number is exact`, after],
   ];
+  /**
+   * @param {import("../../pkg/armill.js").Field} field
+   * @param {any} value
+   */
+  const words = (field, value) => escaped(inWords(field, value, { asSaved: true }));
   const changed = job.differences(standard).filter(({ own }) => own !== undefined);
   return [
     ...(job.data.name ? [`## ${escaped(job.data.name)}`, ""] : []),
@@ -46,8 +51,7 @@ export function markdown({ summary, job, standard, link }) {
     "",
     changed.length ? "Inputs that differ from the default job:" : "Inputs: the default job.",
     ...changed.map(
-      ({ field, own, other }) =>
-        `- ${field.label}: ${escaped(inWords(field, own, { asSaved: true }))} (default ${escaped(inWords(field, other, { asSaved: true }))})`,
+      ({ field, own, other }) => `- ${field.label}: ${words(field, own)} (default ${words(field, other)})`,
     ),
     "",
     `${link ? `[Open in Armill](${link}), ` : ""}fingerprint \`${summary.fingerprint}\`, model ${summary.model}`,

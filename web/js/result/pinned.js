@@ -145,7 +145,7 @@ export async function restorePins(added) {
     } catch {
       continue; // an older Armill's job, perhaps
     }
-    if (pins.some(({ letter }) => letter === pin.letter)) continue; // given anew meanwhile
+    if (pins.some(({ letter }) => letter === pin.letter)) continue; // taken meanwhile
     insert(pin);
     added();
   }

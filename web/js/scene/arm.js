@@ -7,7 +7,11 @@ import { cross, dot, length, minus, plus } from "./camera.js";
 
 /** @typedef {{ base: Frame, joints: Frame[], tcp: Frame, workpiece: Frame }} Frames those of a pose */
 
-/** @typedef {{ model: Float32Array, top: number, tone: "link" | "joint" | "tool" | "beyond" }} Tube a tube, `top` times as wide at its end */
+/**
+ * A tube, `top` times as wide at its end.
+ *
+ * @typedef {{ model: Float32Array, top: number, tone: "link" | "joint" | "tool" | "beyond" }} Tube
+ */
 
 const FRAME = 12; // numbers in a frame: origin, x, y, z axes
 const JOINTS = 6;

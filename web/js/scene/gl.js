@@ -205,7 +205,10 @@ export class Painter {
 
   /**
    * Begins a picture of `width` by `height` pixels.
-   * @param {{ camera: Float32Array, width: number, height: number, paper: number[], rapidColour: number[], light: number[], pixelsPerMm: number }} picture
+   * @param {{
+   *   camera: Float32Array, width: number, height: number, paper: number[], rapidColour: number[],
+   *   light: number[], pixelsPerMm: number,
+   * }} picture
    */
   begin({ camera, width, height, paper, rapidColour, light, pixelsPerMm }) {
     const gl = this.#gl;

@@ -5,7 +5,12 @@ import { makeLegend } from "./legend.js";
 import { makeMenu } from "./menu.js";
 import { gradient } from "./ramp.js";
 
-/** @typedef {{ view(name: string): void, shown(name: string, on: boolean): void, factor(value: number | null): void, worst(): void }} Controls */
+/**
+ * @typedef {{
+ *   view(name: string): void, shown(name: string, on: boolean): void, factor(value: number | null): void,
+ *   worst(): void,
+ * }} Controls
+ */
 
 const VIEWS = [
   ["fit", "Path", "Fit the path (F)"],

@@ -72,7 +72,8 @@ export class Picture {
   }
 
   /**
-   * Takes over paths, the stock, and axes { frame, long }, over a floor that is as wide as `box`; `unit` [mm] is that of its grid. Returns the grid's spacing in units.
+   * Takes over paths, the stock, and axes { frame, long }, over a floor that is as wide as `box`; `unit`
+   * [mm] is that of its grid. Returns the grid's spacing in units.
    * @param {{ paths: Paths, stock: Stock, frame: Frame, axes: { frame: Frame, long: number }[], box: Box, unit: number }} run
    */
   take({ paths, stock, frame, axes, box, unit }) {
@@ -97,7 +98,10 @@ export class Picture {
   /**
    * Draws one picture. `shown` says what, from `camera`, of the arm's pose { frames, excess }, `part` and `stock`; deviations
    * are magnified by `factor`, the tolerance tube has the `radius` [mm], `marks` are { row, side, worst }.
-   * @param {{ camera: Camera, shown: Record<string, boolean>, pose: { frames: Frames, excess: ArrayLike<number> }, part: Part, stock: Stock, factor: number, radius: number, marks: Marks }} given
+   * @param {{
+   *   camera: Camera, shown: Record<string, boolean>, pose: { frames: Frames, excess: ArrayLike<number> },
+   *   part: Part, stock: Stock, factor: number, radius: number, marks: Marks,
+   * }} given
    */
   draw({ camera, shown, pose, part, stock, factor, radius, marks }) {
     const [painter, tones, canvas] = [this.#painter, this.#tones, this.#canvas];

@@ -10,8 +10,9 @@ const SAME = 0.05; // passes nearer than this lie on each other [mm]
 const PARTED = 1e9; // the way along a rapid move: what it parts are always two passes [mm]
 
 /**
- * The distance between neighbouring passes of a path [mm], from its points in order, with null for a rapid move: from a place straight to another leg, where the way along the
- * path is far longer. It is the median over places, for where passes cross or touch the distance falls to zero.
+ * The distance between neighbouring passes of a path [mm], from its points in order, with null for a
+ * rapid move: from a place straight to another leg, where the way along the path is far longer. It
+ * is the median over places, for where passes cross or touch the distance falls to zero.
  * @param {(Vector | null)[]} points
  */
 export function spacingOf(points) {
