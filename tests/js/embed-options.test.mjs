@@ -13,7 +13,7 @@ test("nothing asked for is the whole form, one chart, the system's theme", () =>
   assert.deepEqual(optionsIn(""), {
     theme: "auto",
     show: ["none"],
-    units: { length: "mm", force: "N" },
+    units: { length: "mm", force: "N", feed: "second" },
     job: null,
     preset: [],
     inputs: ["all"],
@@ -23,10 +23,10 @@ test("nothing asked for is the whole form, one chart, the system's theme", () =>
 
 test("what is asked for is read, in any order and with commas or spaces", () => {
   const { show, units, inputs, theme } = optionsIn(
-    "#show=budget,scene&units=inch&inputs=motion%20path.radius_mm&theme=dark",
+    "#show=budget,scene&units=inch,per-minute&inputs=motion%20path.radius_mm&theme=dark",
   );
   assert.deepEqual(show, ["budget", "scene"]);
-  assert.deepEqual(units, { length: "inch", force: "N" });
+  assert.deepEqual(units, { length: "inch", force: "N", feed: "minute" });
   assert.deepEqual(inputs, ["motion", "path.radius_mm"]);
   assert.equal(theme, "dark");
 });
@@ -42,7 +42,7 @@ test("what there is none of is refused, with its name and what there is", () => 
       (error) => error.message.includes(name) && /not one of \w+/.test(error.message),
     );
   assert.throws(() => fieldsIn(core.fields, ["motoin"]), /inputs "motoin", which is not one of none, .*motion/);
-  assert.throws(() => chartsIn([{ name: "a", view: "v" }], ["b"]), /charts "b", which is not one of none, v, a/);
+  assert.throws(() => chartsIn([{ name: "a", view: "v" }], ["b"]), /charts "b", which is not one of none, v, a, why/);
 });
 
 test("inputs are picked by group, by part and by field, each once", () => {
@@ -68,6 +68,17 @@ test("charts are picked by name and by view", () => {
     chartsIn(charts, [view]),
     charts.filter((chart) => chart.view === view),
   );
+});
+
+test("the view Why is the charts of all its pages, as on the page", async () => {
+  const html = await readFile(new URL("../../web/index.html", import.meta.url), "utf8");
+  const [, tabs] = html.split('aria-label="Pages of Why"');
+  const pages = [...tabs.split("</div>")[0].matchAll(/aria-controls="panel-(\w+)"/g)].map(([, page]) => page);
+  assert.ok(pages.length >= 6);
+  const charts = armill.run(armill.default_job()).charts();
+  const expected = charts.filter(({ view }) => pages.includes(view));
+  assert.ok(expected.length > 10);
+  assert.deepEqual(chartsIn(charts, ["why"]), expected);
 });
 
 test("a job comes as text or from a link", async () => {

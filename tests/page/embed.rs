@@ -87,6 +87,14 @@ fn a_frame_shows_scene_budget_and_units_if_asked_to() -> Result {
         assert!((first - summary.before_mm.both.mean / 25.4).abs() <= 0.5e-6, "{first}");
         assert_eq!(listed(page, "[data-unit=length]", "textContent").await?, json!(["in", "in", "in", "in"]));
         assert_eq!(page.js("return localStorage.length").await?, 0, "nothing is stored");
+        // Feeds as a machinist reads them: 100 mm/s.
+        page.goto("embed.html").await?;
+        page.goto("embed.html#units=inch+per-minute&inputs=motion.feed_mm_s&charts=forces").await?;
+        answers(page, &report).await?;
+        assert_eq!(page.value("#motion-feed_mm_s").await?.parse::<f64>()?, 236.22);
+        assert!(page.text("#form .field").await?.contains("in/min"));
+        let charts = listed(page, "#panel-embed figure", "id").await?;
+        assert!(charts.as_array().is_some_and(|charts| charts.len() > 1), "{charts}");
         page.goto("embed.html").await?;
         answers(page, &report).await?;
         assert_eq!(listed(page, "#scene, #budget", "hidden").await?, json!([true, true]));
@@ -103,7 +111,7 @@ fn what_cannot_be_shown_is_said() -> Result {
             ("theme=pink", "theme \"pink\", which is not one of auto, light, dark"),
             ("inputs=motion+colour", "inputs \"colour\", which is not one of none, robot"),
             ("show=pie", "show \"pie\", which is not one of none, scene, budget"),
-            ("units=inch+furlong", "units \"furlong\", which is not one of mm, inch, N, lbf"),
+            ("units=inch+furlong", "units \"furlong\", which is not one of mm, inch, N, lbf, per-second"),
             ("charts=pie", "charts \"pie\", which is not one of none, overview, before-after"),
             ("job=1.AAAA", "The link could not be opened"),
             ("job={\"version\":1,\"motion\":{\"feed\":1}}", "feed"),

@@ -4,9 +4,9 @@
 //   job     the job to compute: its JSON text, a link made by Armill, or the address of a .json file
 //   preset  changes to the default job by name: a robot, a material, an example program ("al-7075-t6 pocket")
 //   inputs  which inputs show: groups and fields ("motion path.radius_mm"), "all" (default) or "none"
-//   charts  which charts show: by name or view ("before-after joints"), or "none"; default "before-after"
+//   charts  which charts show: by name or view ("before-after joints", "why"), or "none"; default "before-after"
 //   show    what else shows: "scene" (paths and arm in space), "budget" (which joint and source errs how much); default "none"
-//   units   what lengths and forces are read in: "mm" or "inch", "N" or "lbf"; default "mm N"
+//   units   of lengths, forces and feeds: "mm" or "inch", "N" or "lbf", "per-second" or "per-minute"; default "mm N per-second"
 //   theme   "light", "dark" or "auto" (default)
 //   height  in pixels; without it the frame is as high as what it holds
 //   title   what assistive tools call the frame

@@ -24,8 +24,17 @@ import { jobIn } from "./job/link.js";
 
 const THEMES = ["auto", "light", "dark"];
 const PARTS = ["none", "scene", "budget"];
-/** @type {Record<string, string>} */
-const UNITS = { mm: "length", inch: "length", N: "force", lbf: "force" }; // what each is a unit of
+/** @type {Record<string, Record<string, string>>} */
+const UNITS = {
+  mm: { length: "mm" },
+  inch: { length: "inch" },
+  N: { force: "N" },
+  lbf: { force: "lbf" },
+  "per-second": { feed: "second" },
+  "per-minute": { feed: "minute" },
+}; // the setting that each is
+/** @type {Record<string, string[]>} */
+const PAGES = { why: ["path", "forces", "deflection", "error", "joints", "shaper"] }; // of views that have some
 /** @param {string} text */
 const words = (text) => text.split(/[\s,]+/).filter(Boolean);
 
@@ -40,12 +49,12 @@ export function optionsIn(fragment) {
   if (!THEMES.includes(theme)) throw unknown("theme", theme, THEMES);
   const show = words(given.get("show") ?? "none");
   for (const part of show) if (!PARTS.includes(part)) throw unknown("show", part, PARTS);
-  const units = words(given.get("units") ?? "mm N");
+  const units = words(given.get("units") ?? "");
   for (const unit of units) if (!UNITS[unit]) throw unknown("units", unit, Object.keys(UNITS));
   return {
     theme,
     show,
-    units: Object.fromEntries([...["mm", "N"], ...units].map((unit) => [UNITS[unit], unit])),
+    units: Object.assign({}, ...["mm", "N", "per-second", ...units].map((unit) => UNITS[unit])),
     job: given.get("job"),
     preset: words(given.get("preset") ?? ""),
     inputs: words(given.get("inputs") ?? "all"),
@@ -115,13 +124,20 @@ export function fieldsIn(fields, inputs) {
 }
 
 /**
- * The charts to show: those named, and those of views named.
+ * The charts to show: those named, and those of views or their pages named.
  * @param {ChartEntry[]} charts
  * @param {string[]} wanted
  */
 export function chartsIn(charts, wanted) {
   const names = new Set(charts.flatMap(({ name, view }) => [view, name]));
-  return chosen("charts", charts, wanted, [...names], ({ name, view }, word) => word === name || word === view);
+  const legal = [...names, ...Object.keys(PAGES)];
+  return chosen(
+    "charts",
+    charts,
+    wanted,
+    legal,
+    ({ name, view }, word) => word === name || word === view || Boolean(PAGES[word]?.includes(view)),
+  );
 }
 
 /**
