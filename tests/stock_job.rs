@@ -264,6 +264,31 @@ fn what_must_not_be_met_is_said_with_its_line() {
     assert!(!on_map(fine) && on_map(crash));
 }
 
+/// A stock beside the program, as one from another job: nothing is cut, so no tolerance is met. With the
+/// program's own extents instead there is a cut.
+#[test]
+fn a_stock_that_is_never_touched_is_said_first() {
+    let beside = json!({"kind":"box","from_mm":[400,0,-20],"to_mm":[500,100,0]});
+    let text = job(SLOT, beside, &[]);
+    let report = run(&text);
+    assert_eq!(report.mean_force().norm(), 0.0);
+    let warning = report.warnings.iter().find(|warning| warning.code == "stock-untouched").unwrap();
+    assert_eq!(report.verdict_state(), armill::report::VerdictState::NotMet);
+    assert!(report.verdict().starts_with("Nothing is cut"), "{}", report.verdict());
+    let remedy = warning.remedy.as_ref().unwrap();
+    assert_eq!(remedy.patch["stock"]["from_mm"], Value::Null);
+    let cured = remedy.applied(&armill::Job::from_json(&common::job_text(&text)).unwrap()).unwrap();
+    let mut bare = cured.clone();
+    bare.stock = armill::job::Stock::default();
+    assert_eq!(Some(&cured.stock), armill::setup::proposed_stock(&bare).unwrap().as_ref(), "no key is left");
+    let report = armill::run(&cured, &mut armill::Progress::none()).unwrap();
+    assert!(report.mean_force().norm() > 0.0);
+    assert!(report.warnings.iter().all(|warning| warning.code != "stock-untouched"));
+    // A corner of the stock in the tool's way is enough for a cut.
+    let corner = json!({"kind":"box","from_mm":[18,0,-20],"to_mm":[500,100,0]});
+    assert!(run(&job(SLOT, corner, &[])).warnings.iter().all(|warning| warning.code != "stock-untouched"));
+}
+
 /// A tool of 0.2 mm on a block of half a metre: four million cells are wide for it, and it is said.
 #[test]
 fn a_map_too_coarse_for_the_tool_says_so() {

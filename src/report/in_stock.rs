@@ -18,7 +18,22 @@ pub(super) fn collisions(report: &Report) -> Vec<Warning> {
     let Some(contacts) = &report.setup().contacts else { return Vec::new() };
     let kinds = [Collider::Rapid, Collider::Shank, Collider::Holder].into_iter();
     let collisions = kinds.filter_map(|kind| collision(report, contacts, kind));
-    collisions.chain(coarse(report, contacts)).chain(pulls_in(report)).collect()
+    untouched(contacts)
+        .into_iter()
+        .chain(collisions)
+        .chain(coarse(report, contacts))
+        .chain(pulls_in(report))
+        .collect()
+}
+
+/// Code of the warning that nothing is cut.
+pub(crate) const UNTOUCHED: &str = "stock-untouched";
+
+/// A stock that the tool never meets: it belongs to another program, or lies elsewhere.
+fn untouched(contacts: &Contacts) -> Option<Warning> {
+    let message = "the tool never touches the stock: no force acts, and the errors of the part are unknown";
+    let all_air = contacts.each().all(|(_, contact)| contact.is_air());
+    all_air.then(|| Warning::new(UNTOUCHED, message))
 }
 
 /// A cut that pulls the tool in about as hard as the arm holds it back, or harder.

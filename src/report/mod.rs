@@ -28,6 +28,7 @@ mod surface;
 pub use budget::{Budget, Parts};
 pub use cut::{CutFigures, WallFigures};
 pub use feed_rule::{FeedOutcome, FeedRuleGain};
+pub(crate) use in_stock::UNTOUCHED;
 pub use remedy::Remedy;
 pub use roll::{RollGain, RollOutcome};
 pub use severity::Severity;

@@ -1,7 +1,7 @@
 //! The verdict, as a state and in words: what the arm cannot run is said before what it would
 //! achieve, and what is promised holds with what is known of robot and material.
 
-use crate::report::{Report, Severity, Warning, length_text, millimetres};
+use crate::report::{Report, Severity, UNTOUCHED, Warning, length_text, millimetres};
 use crate::uncertainty::Quantiles;
 use crate::units::MM;
 use serde::Serialize;
@@ -16,7 +16,7 @@ pub enum VerdictState {
     Met,
     /// The tolerance is met if the numbers are exact, but not with 95 % probability.
     MetIfNominal,
-    /// The tolerance is not met.
+    /// The tolerance is not met, or nothing is cut that it could apply to.
     NotMet,
 }
 
@@ -59,6 +59,11 @@ impl Report {
         self.warnings.first().filter(|warning| warning.severity == Severity::CannotRun)
     }
 
+    /// Whether the tool never touches the stock, so that there is no part to judge.
+    fn cuts_nothing(&self) -> bool {
+        self.warnings.iter().any(|warning| warning.code == UNTOUCHED)
+    }
+
     /// The verdict as a state: on the worst of the tip, the top of the cut and what of the path is
     /// missed.
     pub fn verdict_state(&self) -> VerdictState {
@@ -72,7 +77,7 @@ impl Report {
         let judged = self.judged(reached);
         if self.impossible().is_some() {
             VerdictState::CannotRun
-        } else if judged.iter().any(|error| error.nominal > tolerance) {
+        } else if self.cuts_nothing() || judged.iter().any(|error| error.nominal > tolerance) {
             VerdictState::NotMet
         } else if judged.iter().all(|error| error.p95 <= tolerance) {
             VerdictState::Met
@@ -90,6 +95,9 @@ impl Report {
     pub fn verdict(&self) -> String {
         if let Some(warning) = self.impossible() {
             return impossible_text(warning);
+        }
+        if self.cuts_nothing() {
+            return "Nothing is cut: the tool never touches the stock.".into();
         }
         let state = self.verdict_state();
         let expect = if self.compensation.passes == 0 { "Not compensated: expect" } else { "Expect" };

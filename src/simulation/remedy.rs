@@ -1,7 +1,8 @@
-//! Remedies: a turn of the tool about its axis, another place for the path, a job without shaper.
-//! They are looked for only where a warning asks for one, and by the inverse model alone.
+//! Remedies: a turn of the tool about its axis, another place for the path, a stock where the program
+//! cuts, a job without shaper. They are looked for only where a warning asks for one, and by the inverse
+//! model alone.
 
-use crate::job::{Job, SpinMode};
+use crate::job::{Job, SpinMode, Stock};
 use crate::math::Pose;
 use crate::motion::{Trajectory, roll};
 use crate::path::{Path, Roll};
@@ -10,8 +11,9 @@ use crate::plan::Plan;
 use crate::progress::Progress;
 use crate::report::limit::LIMIT_MARGIN;
 use crate::report::singularity::{JUMP, is_near};
-use crate::report::{Remedy, Report};
+use crate::report::{Remedy, Report, UNTOUCHED};
 use crate::robot::Joints;
+use crate::setup;
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
 use serde_json::json;
@@ -50,6 +52,7 @@ pub(super) fn offer(job: &Job, report: &mut Report) {
             "joint-limit-near" => turned.as_ref().filter(|turn| turn.roomy).map(|turn| turn.remedy.clone()),
             code if TURNED.contains(&code) => turned.as_ref().map(|turn| turn.remedy.clone()),
             code if SHAPED.contains(&code) => Some(unshaped()),
+            UNTOUCHED => restocked(job),
             _ => None,
         };
     }
@@ -167,6 +170,23 @@ fn placed(job: &Job, plan: &Plan) -> Option<Remedy> {
     (clearance.room >= CORRECTION && clearance.jump <= JUMP).then(|| Remedy {
         label: format!("Place the path in front of the robot, with the workpiece at ({x}, {y}, {z}) mm"),
         patch: json!({ "workpiece_frame": { "xyz_mm": to } }),
+    })
+}
+
+/// The stock around the program's own moves, if it has any that cut.
+fn restocked(job: &Job) -> Option<Remedy> {
+    let mut bare = job.clone();
+    bare.stock = Stock::default();
+    let proposed = setup::proposed_stock(&bare).ok()??;
+    // Null removes a key (RFC 7386).
+    let patch = json!({
+        "kind": "extents", "top_mm": proposed.top_mm,
+        "from_mm": null, "to_mm": null, "center_mm": null, "radius_mm": null, "height_mm": null,
+        "allowance_mm": null, "points_mm": null, "bottom_mm": null, "stl": null, "earlier": null,
+    });
+    Some(Remedy {
+        label: "Take the stock from the program's extents".into(),
+        patch: json!({ "stock": patch }),
     })
 }
 

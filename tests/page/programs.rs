@@ -252,6 +252,17 @@ fn an_opened_program_brings_a_stock() -> Result {
         let mut kept = job("gcode", SLOT, 120.0);
         kept[2].1 = own;
         shows(page, &run(&kept)).await?;
+        assert!(text(page, "still-asked").await?.contains("Stock"));
+        // A stock that the program never touches is said, and cured by a button.
+        let far = json!({"kind":"box","from_mm":[-500,-50,90],"to_mm":[-300,50,101]});
+        drop(page, "far.json", &job_text(&[("stock", far), ("shaper", json!("none"))])).await?;
+        page.wait_for("document.querySelector('#stock-from_mm-x').value === '-500'", 20.0).await?;
+        current(page).await?;
+        drop(page, "slot.nc", SLOT).await?;
+        page.wait_for("document.querySelector('#verdict').textContent.startsWith('Nothing is cut')", 20.0)
+            .await?;
+        page.click("#remedy-first").await?;
+        shows(page, &run(&job("gcode", SLOT, 120.0))).await?;
         // A program pasted over all of the text is opened as well.
         page.js("const t = document.getElementById('path-text'); t.focus(); t.select(); \
              const data = new DataTransfer(); \

@@ -74,7 +74,7 @@ const opening = makeOpening({
   core,
   job: () => job,
   session: () => session,
-  thesis: () => examples.job,
+  examples: () => examples,
   warn: status.warn,
 });
 
@@ -191,7 +191,7 @@ function edited(stepped) {
  */
 function typed(typing, stepped) {
   const preset = job.data.robot?.preset;
-  if (preset && preset !== arm) ask(job.data, "robot");
+  if (preset && preset !== arm) ask(job.data, "robot", "stock");
   session.edited(typing, stepped);
 }
 

@@ -9,6 +9,7 @@ const PARTS = {
   robot: ["Robot", "robot"],
   tool_frame: ["Tool frame", "frames"],
   workpiece_frame: ["Part’s place", "frames"],
+  stock: ["Stock", "stock"],
   tool: ["Tool", "tool"],
   material: ["Material", "material"],
 };
@@ -18,6 +19,12 @@ const DEPTHS = ["Depths of cut", "cutting"]; // of a job without a stock, which 
 const textOf = (part) => JSON.stringify(part ?? null);
 
 /**
+ * Whether a stock is somebody's own rather than none, or what follows from the program.
+ * @param {import("../../pkg/armill.js").Stock | undefined} stock
+ */
+const isOwn = (stock) => !["none", "extents"].includes(stock?.kind ?? "none");
+
+/**
  * Parts of `data` that are still as they were when they were asked about, `asked`: [name, group] each.
  * @param {import("../job/data.js").JobData} data
  * @param {Record<string, string>} asked
@@ -25,6 +32,7 @@ const textOf = (part) => JSON.stringify(part ?? null);
 export function stillAsked(data, asked) {
   const parts = { ...PARTS, ...((data.stock?.kind ?? "none") === "none" && { cutting: DEPTHS }) };
   return Object.entries(parts)
+    .filter(([key]) => key !== "stock" || isOwn(data.stock))
     .filter(([key]) => asked[key] === textOf(data[key]))
     .map(([, names]) => names);
 }
@@ -37,13 +45,13 @@ export const askedOf = (data) =>
   Object.fromEntries([...Object.keys(PARTS), "cutting"].map((key) => [key, textOf(data[key])]));
 
 /**
- * Asks about what `data` took over; `but` names a part that was just chosen.
+ * Asks about what `data` took over; `but` names parts that were just chosen.
  * @param {import("../job/data.js").JobData} data
- * @param {string} [but]
+ * @param {...string} but
  */
-export function ask(data, but) {
+export function ask(data, ...but) {
   const asked = askedOf(data);
-  if (but) delete asked[but];
+  for (const part of but) delete asked[part];
   keep(asked);
   showAsked(data);
 }

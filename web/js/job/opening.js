@@ -17,14 +17,15 @@ import { nameOfFile, named } from "./name.js";
 
 /**
  * `openJob(file)`, `useProgram(kind, text, example)` and `wireDrop()` for the page. `session()`, `job()`
- * and `thesis()`, the default job, are asked for when they are needed; `warn(message)` says what could
+ * and `examples()`, the core's own jobs, are asked for when they are needed; `warn(message)` says what could
  * not be opened.
  * @param {{
- *   core: typeof import("../core/client.js"), job(): Job, session(): Session, thesis(): JobData,
+ *   core: typeof import("../core/client.js"), job(): Job, session(): Session,
+ *   examples(): { job: JobData, opening: JobData },
  *   warn(message: string): void,
  * }} page
  */
-export function makeOpening({ core, job, session, thesis, warn }) {
+export function makeOpening({ core, job, session, examples, warn }) {
   let opened = 0; // programs, to know the latest
 
   /** @param {File | undefined} file */
@@ -57,15 +58,15 @@ export function makeOpening({ core, job, session, thesis, warn }) {
     const mine = ++opened;
     core.cancel();
     const given = title ? stock : await stockFor(kind, text);
-    const { shaper, stock: _, ...rest } = job().data;
-    const own = JSON.stringify(shaper) !== JSON.stringify(thesis().shaper);
+    const { shaper, stock: stockBefore, ...rest } = job().data;
+    const own = JSON.stringify(shaper) !== JSON.stringify(examples().job.shaper);
     const plain = { ...rest, path: { kind, text }, shaper: own ? shaper : "none" };
     const next = merged(plain, { ...(given && { stock: given }), ...(tool && { tool }) });
     const said = await changesFor(next, Boolean(title));
     if (mine !== opened) return false;
     const whole = merged(next, said);
     session().load(file ? named(whole, nameOfFile(file)) : whole);
-    if (!title) ask(job().data);
+    if (!title) ask(job().data, ...(JSON.stringify(given) === JSON.stringify(stockBefore) ? [] : ["stock"]));
     byId("group-path").open = true;
     return true;
   }
@@ -77,7 +78,7 @@ export function makeOpening({ core, job, session, thesis, warn }) {
    */
   async function changesFor(next, placed) {
     const text = JSON.stringify(next);
-    const atHome = JSON.stringify(next.robot) === JSON.stringify(thesis().robot);
+    const atHome = JSON.stringify(next.robot) === JSON.stringify(examples().job.robot);
     const [cutting, xyz_mm] = await Promise.all([
       core.proposedCutting(text).catch(() => undefined),
       placed && !atHome ? core.placeInFront(text).catch(() => undefined) : undefined,
@@ -94,8 +95,7 @@ export function makeOpening({ core, job, session, thesis, warn }) {
   async function stockFor(kind, text) {
     const { stock, ...rest } = job().data;
     const path = { kind, text };
-    const kept = stock && stock.kind !== "extents" && !(await isOfExample(stock));
-    if (kept) return stock;
+    if (stock && stock.kind !== "extents" && !(await isOfAnother(stock))) return stock;
     try {
       const proposed = await core.proposedStock(JSON.stringify({ ...rest, path }));
       const allowance = stock?.allowance_mm === undefined ? {} : { allowance_mm: stock.allowance_mm };
@@ -104,6 +104,13 @@ export function makeOpening({ core, job, session, thesis, warn }) {
       return undefined; // what is wrong with the program is said when it is computed
     }
   }
+
+  /**
+   * Whether a stock came with a job of ours, and so belongs to that job's program.
+   * @param {Stock} stock
+   */
+  const isOfAnother = async (stock) =>
+    JSON.stringify(stock) === JSON.stringify(examples().opening.stock) || (await isOfExample(stock));
 
   /** Files dropped anywhere on the page. */
   function wireDrop() {
