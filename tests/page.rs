@@ -20,6 +20,8 @@ mod cursor;
 mod cut;
 #[path = "page/embed.rs"]
 mod embed;
+#[path = "page/firefox.rs"]
+mod firefox;
 #[path = "page/first_screen.rs"]
 mod first_screen;
 #[path = "page/hostile.rs"]
@@ -32,6 +34,10 @@ mod inputs;
 mod loading;
 #[path = "page/part.rs"]
 mod part;
+#[path = "page/personas.rs"]
+pub mod personas;
+#[path = "page/pictures.rs"]
+mod pictures;
 #[path = "page/pinned.rs"]
 mod pinned;
 #[path = "page/placement.rs"]
@@ -50,6 +56,8 @@ mod robots;
 mod scene;
 #[path = "page/scene_marks.rs"]
 mod scene_marks;
+#[path = "page/session.rs"]
+pub mod session;
 #[path = "page/standalone.rs"]
 mod standalone;
 #[path = "page/reading.rs"]

@@ -1,12 +1,11 @@
-//! axe-core finds nothing serious on any state of the page, in light and dark.
+//! axe-core finds nothing, of whatever severity, on any state of the page, in light and dark.
 
 use std::path::Path;
 
 use crate::browser::{DESKTOP, Key, PHONE, Page, Result, THESIS, setting, visit};
 use crate::{current, stale, standalone, unfold};
 
-/// axe-core's serious and critical findings on the current page: rule, place and reason, one per
-/// line.
+/// axe-core's findings on the current page: rule, place and reason, one per line.
 async fn faults(page: &Page) -> Result<Vec<String>> {
     if page.js("return window.axe === undefined").await? == true {
         let source = Path::new(&setting("ARMILL_NPM_TOOLS")?).join("axe-core/axe.min.js");
@@ -17,7 +16,6 @@ async fn faults(page: &Page) -> Result<Vec<String>> {
         .await?;
     let found = page
         .js("return axe.run(document, { resultTypes: ['violations'] }).then(({ violations }) => violations
-               .filter(({ impact }) => impact === 'serious' || impact === 'critical')
                .flatMap(({ id, nodes }) => nodes.map(({ target, failureSummary }) => \
                    `${id}: ${target.flat().join(' ')}: ${failureSummary.replaceAll('\\n', ' ')}`)))")
         .await?;

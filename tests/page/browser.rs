@@ -2,20 +2,23 @@
 
 use std::cell::RefCell;
 use std::error::Error;
-use std::fmt::{Debug, Display};
+use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
-use std::{env, fs, thread};
+use std::{fs, thread};
 
 use fantoccini::elements::Element;
-use fantoccini::wd::{WebDriverCompatibleCommand, WindowHandle};
+use fantoccini::wd::WindowHandle;
 use fantoccini::{Client, ClientBuilder, Locator};
 use hyper_util::client::legacy::connect::HttpConnector;
 use serde_json::{Value, json};
 use tokio::runtime::Runtime;
 use tokio::time::sleep;
 
+use crate::session::{Browser, Post, own_folder, requested, scratch};
+
+pub use crate::session::setting;
 pub use fantoccini::key::Key;
 
 /// The result of a test.
@@ -32,9 +35,6 @@ pub const PHONE: Size = (390, 844);
 /// The page with the thesis's job, which the default job is too.
 pub const THESIS: &str = "/#example=thesis";
 
-/// Browser capabilities, shared with wasm-bindgen's test runner.
-const CAPABILITIES: &str = include_str!("../../.cargo/webdriver.json");
-
 /// Time limit for a download.
 const DOWNLOAD: Duration = Duration::from_secs(60);
 
@@ -45,8 +45,16 @@ const DOWNLOAD: Duration = Duration::from_secs(60);
 /// # Errors
 /// The test's errors, and those of [`Page::close`].
 pub fn visit(path: &str, size: Size, test: impl AsyncFnOnce(&Page) -> Result) -> Result {
+    visit_in(Browser::Chromium, path, size, test)
+}
+
+/// The same in a browser of choice.
+///
+/// # Errors
+/// As for [`visit`].
+pub fn visit_in(browser: Browser, path: &str, size: Size, test: impl AsyncFnOnce(&Page) -> Result) -> Result {
     let runtime = Runtime::new()?;
-    let page = runtime.block_on(Page::open(path, size))?;
+    let page = runtime.block_on(Page::open(browser, path, size))?;
     let outcome = catch_unwind(AssertUnwindSafe(|| runtime.block_on(test(&page))));
     if !matches!(outcome, Ok(Ok(()))) {
         let name = thread::current().name().unwrap_or("test").replace("::", "-");
@@ -64,6 +72,7 @@ pub fn visit(path: &str, size: Size, test: impl AsyncFnOnce(&Page) -> Result) ->
 /// An open page, in a browser of its own.
 pub struct Page {
     client: Client,
+    browser: Browser,
     /// Scheme, host and port of the site, with a slash at the end; for a file its folder.
     origin: String,
     downloads: PathBuf,
@@ -79,7 +88,7 @@ impl Page {
     /// # Errors
     /// If `cargo xtask test` has not started the site and the driver, or the browser does not
     /// start.
-    pub async fn open(path: &str, size: Size) -> Result<Page> {
+    pub async fn open(browser: Browser, path: &str, size: Size) -> Result<Page> {
         let site = setting("ARMILL_SITE_URL")?;
         let (origin, path) = match path.split_once("://") {
             Some(("file", _)) => path.split_at(path.rfind('/').map_or(0, |end| end + 1)),
@@ -88,25 +97,27 @@ impl Page {
             }
             None => (site.as_str(), path),
         };
-        let mut capabilities: serde_json::Map<String, Value> = serde_json::from_str(CAPABILITIES)?;
-        capabilities.insert("goog:loggingPrefs".into(), json!({ "browser": "ALL", "performance": "ALL" }));
+        // Firefox wants the folder of its downloads before it starts, so the session cannot name it.
+        let downloads = own_folder("downloads");
+        fs::create_dir_all(&downloads)?;
+        let (capabilities, driver) = browser.session(&downloads)?;
         let client = ClientBuilder::new(HttpConnector::new())
             .capabilities(capabilities)
-            .connect(&setting("ARMILL_WEBDRIVER_URL")?)
+            .connect(&setting(driver)?)
             .await?;
-        let session = client.session_id().await?.unwrap_or_default();
-        let downloads = scratch().join(format!("downloads-{session}"));
-        fs::create_dir_all(&downloads)?;
         let page = Page {
             client,
+            browser,
             origin: origin.to_owned(),
             downloads,
             console: RefCell::default(),
             expected: RefCell::default(),
         };
         page.resize(size).await?;
-        let allow = json!({ "behavior": "allow", "downloadPath": page.downloads });
-        page.devtools("Browser.setDownloadBehavior", allow).await?;
+        if browser == Browser::Chromium {
+            let allow = json!({ "behavior": "allow", "downloadPath": page.downloads });
+            page.devtools("Browser.setDownloadBehavior", allow).await?;
+        }
         page.goto(path).await?;
         Ok(page)
     }
@@ -151,8 +162,22 @@ impl Page {
     }
 
     /// Emulates a device: a window cannot be as narrow as a phone.
-    async fn resize(&self, (width, height): Size) -> Result {
-        let device = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+    ///
+    /// # Errors
+    /// If the browser refuses.
+    pub async fn resize(&self, size: Size) -> Result {
+        self.resize_at(size, 1.0).await
+    }
+
+    /// The same with so many device pixels for each of CSS.
+    ///
+    /// # Errors
+    /// If the browser refuses.
+    pub async fn resize_at(&self, (width, height): Size, scale: f64) -> Result {
+        if self.browser == Browser::Firefox {
+            return Ok(self.client.set_window_size(width, height).await?);
+        }
+        let device = json!({ "width": width, "height": height, "deviceScaleFactor": scale, "mobile": false });
         self.devtools("Emulation.setDeviceMetricsOverride", device).await.map(|_| ())
     }
 
@@ -398,6 +423,9 @@ impl Page {
 
     /// The entries of a driver's log since it was last read.
     async fn log(&self, kind: &str) -> Result<Vec<Value>> {
+        if self.browser == Browser::Firefox {
+            return Ok(Vec::new());
+        }
         let entries =
             self.client.issue_cmd(Post { endpoint: "se/log", body: json!({ "type": kind }) }).await?;
         Ok(serde_json::from_value(entries)?)
@@ -411,51 +439,6 @@ impl Page {
         let body = json!({ "cmd": command, "params": parameters });
         Ok(self.client.issue_cmd(Post { endpoint: "goog/cdp/execute", body }).await?)
     }
-}
-
-/// A command specific to ChromeDriver.
-#[derive(Debug)]
-struct Post {
-    /// Path below the session's address.
-    endpoint: &'static str,
-    body: Value,
-}
-
-impl WebDriverCompatibleCommand for Post {
-    fn endpoint(
-        &self,
-        base: &url::Url,
-        session: Option<&str>,
-    ) -> std::result::Result<url::Url, url::ParseError> {
-        base.join(&format!("session/{}/{}", session.unwrap_or_default(), self.endpoint))
-    }
-
-    fn method_and_body(&self, _: &url::Url) -> (http::Method, Option<String>) {
-        (http::Method::POST, Some(self.body.to_string()))
-    }
-}
-
-/// The address in a network event, if it is about a request.
-fn requested(event: &Value) -> Option<&str> {
-    match event["method"].as_str()? {
-        "Network.requestWillBeSent" => event["params"]["request"]["url"].as_str(),
-        "Network.webSocketCreated" => event["params"]["url"].as_str(),
-        _ => None,
-    }
-}
-
-/// A folder of these tests in `target`.
-fn scratch() -> &'static Path {
-    Path::new(env!("CARGO_TARGET_TMPDIR"))
-}
-
-/// A variable that `cargo xtask test` sets in the environment.
-///
-/// # Errors
-/// If it is not set.
-pub fn setting(name: &str) -> Result<String> {
-    env::var(name)
-        .map_err(|_| format!("{name} is not set: these tests are started by `cargo xtask test`").into())
 }
 
 /// An error with its source location.

@@ -2,7 +2,7 @@
 
 use crate::browser::{DESKTOP, PHONE, Page, Result, Size, THESIS, visit};
 use crate::common::run;
-use crate::{current, shows, text};
+use crate::{current, shows};
 use armill::{Job, Progress};
 use serde_json::{Value, json};
 
@@ -250,88 +250,6 @@ fn the_thesis_opens_by_one_click_with_all_its_figures() -> Result {
             .await?;
         page.wait_for("document.querySelector('#chart-shaper-step svg .series')", 20.0).await?;
         assert_eq!(page.js("return location.hash").await?, "#view=shaper");
-        Ok(())
-    })
-}
-
-/// What a person does on the page: clicks and fields.
-struct Count<'a> {
-    page: &'a Page,
-    done: usize,
-}
-
-impl Count<'_> {
-    async fn click(&mut self, css: &str) -> Result {
-        self.done += 1;
-        self.page.click(css).await
-    }
-
-    async fn fill(&mut self, css: &str, value: &str) -> Result {
-        self.done += 1;
-        self.page.type_into(css, value).await
-    }
-
-    async fn choose(&mut self, css: &str, value: &str) -> Result {
-        self.done += 1;
-        self.page.choose(css, value).await
-    }
-}
-
-#[test]
-fn a_programmer_gets_from_a_pocket_to_a_kuka_package() -> Result {
-    let pocket = std::fs::read_to_string(crate::common::program::folder().join("pocket.nc"))?;
-    visit("/", DESKTOP, async |page| {
-        current(page).await?;
-        let mut person = Count { page, done: 0 };
-        // The program, dropped on the page.
-        person.done += 1;
-        page.js(&format!(
-            "const data = new DataTransfer(); data.items.add(new File([{}], 'pocket.nc', {{ type: 'text/plain' }})); \
-             document.body.dispatchEvent(new DragEvent('drop', {{ dataTransfer: data, bubbles: true, cancelable: true }}))",
-            json!(pocket)
-        ))
-        .await?;
-        page.wait_for("document.querySelectorAll('#still-asked li').length > 0", 20.0).await?;
-        // Its own cell: robot, material, tool, base and tool number.
-        person.click("#group-robot summary").await?;
-        person.choose("#robot-preset", "kuka-kr-210-r2700-2").await?;
-        person.click("#group-program summary").await?;
-        person.fill("#program-base_number", "3").await?;
-        person.fill("#program-tool_number", "5").await?;
-        // What cannot run has a button that cures it.
-        let cured = async |person: &mut Count| -> Result {
-            for _ in 0..2 {
-                page.wait_for(
-                    "['current', 'stale'].includes(document.querySelector('#results').dataset.state)",
-                    30.0,
-                )
-                .await?;
-                let alert = page
-                    .js("return document.querySelector('#alert button')?.checkVisibility() ?? false")
-                    .await?;
-                let severe = page
-                    .js("return document.querySelector('#tolerance-met').dataset.state === 'cannot-run'")
-                    .await?;
-                if alert == true {
-                    person.click("#alert button").await?;
-                } else if severe == true {
-                    person.click("#remedy-first").await?;
-                }
-            }
-            current(page).await
-        };
-        cured(&mut person).await?;
-        person.click("#confirm-asked").await?;
-        current(page).await?;
-        let state = page.js("return document.querySelector('#tolerance-met').dataset.state").await?;
-        assert_ne!(state, "cannot-run", "{}", text(page, "verdict").await?);
-        person.click("#download-program").await?;
-        let archive = page.downloaded_bytes("POCKET.zip").await?;
-        let held = String::from_utf8_lossy(&archive);
-        for part in ["DEF POCKET", "BASE_DATA[3]", "TOOL_DATA[5]", "PTP", "LIN"] {
-            assert!(held.contains(part), "{part}");
-        }
-        assert!(person.done <= 12, "{} clicks and fields", person.done);
         Ok(())
     })
 }

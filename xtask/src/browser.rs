@@ -1,4 +1,4 @@
-//! Chromium and the program that drives it.
+//! The browsers and the programs that drive them.
 
 use std::env;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -8,7 +8,7 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 
 use crate::workspace::{self, program};
 
@@ -48,6 +48,31 @@ fn find() -> Option<PathBuf> {
     driver.filter(|_| browser)
 }
 
+/// The version of Firefox's driver that is built where there is none.
+const GECKODRIVER: &str = "0.37.1";
+
+/// Finds Firefox's driver, and installs the browser and builds the driver where that is possible.
+///
+/// # Errors
+/// If one is missing and cannot be installed from here.
+pub(crate) fn geckodriver() -> Result<PathBuf> {
+    let firefox = || ["firefox-esr", "firefox"].iter().any(|name| program(name).is_some());
+    if !firefox() && workspace::may_install() {
+        workspace::install(&["firefox-esr"])?;
+    }
+    ensure!(firefox(), "these tests need Firefox: install `firefox-esr` (Debian's name)");
+    if let Some(path) = env::var_os("GECKODRIVER").map(PathBuf::from).or_else(|| program("geckodriver")) {
+        return Ok(path);
+    }
+    let folder = workspace::root()?.join("target/geckodriver");
+    let path = folder.join("bin").join(format!("geckodriver{}", env::consts::EXE_SUFFIX));
+    if !path.is_file() {
+        let what = ["install", "geckodriver", "--locked", "--version", GECKODRIVER, "--root"];
+        workspace::run(workspace::cargo(&what)?.arg(&folder))?;
+    }
+    Ok(path)
+}
+
 /// A running driver; dropping it stops it and its browsers.
 pub(crate) struct Driver {
     process: Child,
@@ -60,13 +85,24 @@ impl Driver {
     /// # Errors
     /// If there is none, or it does not start.
     pub(crate) fn start() -> Result<Driver> {
-        let mut process = Command::new(driver()?)
-            .args(["--port=0", "--log-level=SEVERE"])
+        Driver::run(Command::new(driver()?).args(["--port=0", "--log-level=SEVERE"]))
+    }
+
+    /// The same for Firefox.
+    ///
+    /// # Errors
+    /// As for [`Driver::start`].
+    pub(crate) fn start_firefox() -> Result<Driver> {
+        Driver::run(Command::new(geckodriver()?).args(["--port=0", "--log=info"]))
+    }
+
+    fn run(command: &mut Command) -> Result<Driver> {
+        let mut process = command
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .spawn()
-            .context("cannot start chromedriver")?;
-        let mut lines = BufReader::new(process.stdout.take().context("chromedriver has no output")?);
+            .context("cannot start the browser's driver")?;
+        let mut lines = BufReader::new(process.stdout.take().context("the driver has no output")?);
         // From here on, an early return stops the process too.
         let mut driver = Driver { process, port: 0 };
         driver.port = announced_port(&mut lines)?;
@@ -119,12 +155,15 @@ fn announced_port(lines: &mut BufReader<ChildStdout>) -> Result<u16> {
         }
         line.clear();
     }
-    bail!("chromedriver ended before it listened")
+    bail!("the browser's driver ended before it listened")
 }
 
-/// The port in "ChromeDriver was started successfully on port 39151."
+/// The port in "ChromeDriver was started successfully on port 39151.", or in "... Listening on
+/// 127.0.0.1:39151".
 fn port_in(line: &str) -> Option<u16> {
-    let (_, port) = line.split_once("started successfully on port ")?;
+    let (_, port) = line
+        .split_once("started successfully on port ")
+        .or_else(|| line.split_once("Listening on ")?.1.split_once(':'))?;
     port.trim_end().trim_end_matches('.').parse().ok()
 }
 
@@ -135,6 +174,7 @@ mod tests {
     #[test]
     fn the_port_is_read_from_the_drivers_greeting() {
         assert_eq!(port_in("ChromeDriver was started successfully on port 39151.\n"), Some(39151));
+        assert_eq!(port_in("1796005963000\tgeckodriver\tINFO\tListening on 127.0.0.1:39151\n"), Some(39151));
         assert_eq!(port_in("Starting ChromeDriver 156.0.8078.79 on port 0\n"), None);
         assert_eq!(port_in(""), None);
     }

@@ -63,6 +63,21 @@ pub(crate) fn javascript() -> Result<()> {
     step("tests in Node", javascript::tests)
 }
 
+/// Runs the tests of the page in Firefox.
+///
+/// # Errors
+/// As for [`all`].
+pub(crate) fn firefox() -> Result<()> {
+    step("tests of the page in Firefox", || {
+        let server = Server::start_anywhere(&site::build()?)?;
+        let driver = Driver::start_firefox()?;
+        // Its driver has one session at a time.
+        run(cargo(&["test", "--locked", "--test", "page", "--", "--ignored", "--test-threads=1", "firefox"])?
+            .env("ARMILL_SITE_URL", &server.url)
+            .env("ARMILL_FIREFOX_URL", driver.url()))
+    })
+}
+
 /// Compiles the site and the tests of the boundary.
 fn for_the_browser() -> Result<()> {
     site::build()?;
