@@ -106,7 +106,7 @@ export function showPanel(shown) {
 }
 
 onCursor((time, from) => {
-  for (const figure of figures.values()) if (figure !== from && figure.overRun) figure.follow(time);
+  for (const figure of figures.values()) if (figure.cursor !== from && figure.overRun) figure.follow(time);
 });
 
 onStretch((_, complete) => {
@@ -120,7 +120,7 @@ onSetting((key) => {
   for (const figure of figures.values()) {
     figure.forget();
     const inLengths = figure.plane || (figure.kind === "time" && over === "length");
-    figure.zoom(inLengths ? null : undefined, null, true); // ranges of lengths and forces no longer hold
+    figure.zoom.show(inLengths ? null : undefined, null, true); // ranges of lengths and forces no longer hold
   }
   draw();
 });
@@ -136,7 +136,7 @@ async function followOver() {
   for (const figure of figures.values()) {
     if (figure.kind !== "time") continue;
     figure.forget();
-    figure.zoom(range, undefined, true);
+    figure.zoom.show(range, undefined, true);
   }
   draw();
 }
@@ -148,7 +148,8 @@ async function followOver() {
  */
 function link(from, x) {
   range = x;
-  for (const figure of figures.values()) if (figure !== from && figure.kind === "time") figure.zoom(x, undefined, true);
+  for (const figure of figures.values())
+    if (figure !== from && figure.kind === "time") figure.zoom.show(x, undefined, true);
 }
 
 /** @param {ChartEntry} entry */
@@ -158,7 +159,7 @@ function figureOf(entry) {
     figure = new Figure(entry, link);
     figure.beside = beside;
     figure.fills = entry.name === fixed?.name;
-    if (figure.kind === "time") figure.zoom(range, null, true);
+    if (figure.kind === "time") figure.zoom.show(range, null, true);
     figures.set(entry.name, figure);
   }
   figure.axes = entry.over ?? [];

@@ -25,7 +25,7 @@ export class Picker {
   #of;
   /** @type {number | null} */
   #anchor = null; // the sample at which keys began
-  #selection = new Selection(() => setStretch(null, null, false));
+  #selection = new Selection(() => this.clear());
 
   /**
    * `of` has what is shown: `axis()`, `content()`, `samples`, `lengths()` resolving with the path lengths
@@ -84,6 +84,11 @@ export class Picker {
    */
   extend(index) {
     if (this.#anchor !== null && index !== null) this.#choose([this.#anchor, index], false);
+  }
+
+  /** Selects nothing. */
+  clear() {
+    if (stretch()) setStretch(null, null, false);
   }
 
   /**

@@ -53,7 +53,7 @@ export class Outcome {
       if (!this.#found || key === "theme") return;
       this.#fill();
       this.#figure.forget();
-      this.#figure.zoom(null, null, true);
+      this.#figure.zoom.show(null, null, true);
     });
   }
 
@@ -81,7 +81,7 @@ export class Outcome {
       this.#result.classList.remove("stale");
       this.#fill();
       this.#figure.forget();
-      this.#figure.zoom(null, null, true);
+      this.#figure.zoom.show(null, null, true);
       this.#draw();
     } catch (error) {
       if (mine !== this.#turn) return;
