@@ -1,22 +1,22 @@
-// One editor per kind of field. An editor is { node, inputs, read(), write(value), at(rest),
-// mark(line), show(line), step(count), understood(), relabel(), slider } of which mark and show are for texts and the last three
-// for numbers alone. read() gives the value or throws a Mistake; at(rest) gives the input that an error path such as
-// "[1].a_mm" means; understood() is what was read of typed expressions; relabel() writes the units of the settings.
+// One editor for each kind of field. Those that are more than an input have a file of their own.
 
+import { indexIn } from "../job/field-path.js";
 import { make } from "../page/dom.js";
 import { allUnderstood, numberCell } from "./number-cell.js";
+import { opwEditor } from "./opw-editor.js";
 import { orientationEditor } from "./orientation-editor.js";
 import { listing } from "./program-text.js";
 import { rowsEditor } from "./rows.js";
 import { searchList } from "./search-list.js";
-import { shownUnit } from "./shown.js";
 import { makeSlider } from "./slider.js";
+import { tableEditor } from "./table-editor.js";
 
 /** @import { Field } from "../../pkg/armill.js" */
 
 /**
  * `read` gives the value or throws a `Mistake`; `at(rest)` gives the input that an error path such as
- * "[1].a_mm" means. `mark` and `show` are for texts alone, `step` for numbers.
+ * "[1].a_mm" means. `mark` and `show` are for texts alone, `step` and `slider` for numbers. `understood` is what was
+ * read of typed expressions; `relabel` writes the units of the settings.
  *
  * @typedef {{
  *   node: HTMLElement,
@@ -37,10 +37,6 @@ import { makeSlider } from "./slider.js";
 
 /** @typedef {Pick<Field, "path"> & Partial<Field> & { default?: any }} Edited what an editor needs to know of a field */
 
-/** The order in which tables of the field print a row. */
-const DH_ORDER = ["alpha_deg", "a_mm", "d_mm", "theta_offset_deg", "joint_sign", "offset_deg"];
-
-const RANGE = ["lowest", "highest"];
 const XYZ = ["x", "y", "z"].map((name) => [name, "mm"]);
 
 /**
@@ -87,8 +83,12 @@ export function editorFor(field, { badges, brand }) {
   if (field.kind === "set") return checkboxes(field);
   if (field.kind === "vector" && field.choices) return wordOrVector(field);
   if (field.kind === "vector") return vector(field);
-  if (field.path === "robot.opw") return lengths(field);
-  if (field.kind === "table") return table(field);
+  if (field.path === "robot.opw") return opwEditor(idOf(field.path), /** @type {any} */ (field.default));
+  if (field.kind === "table")
+    return tableEditor(idOf(field.path), /** @type {any} */ (field.default), {
+      unit: field.unit,
+      joints: field.path.startsWith("robot."),
+    });
   if (field.path === "path.text") return program();
   if (field.kind === "text") return text(field);
   return number(field);
@@ -251,135 +251,6 @@ function wordOrVector(field) {
 }
 
 /**
- * A table with as many rows as its default: rows of named numbers, of numbers, or single numbers.
- * @param {Edited} field
- * @returns {Editor}
- */
-function table(field) {
-  const id = idOf(field.path);
-  const sample = field.default[0];
-  /** @type {(string | null)[]} */
-  const columns =
-    typeof sample !== "object" ? [null] : Object.keys(sample).sort((a, b) => DH_ORDER.indexOf(a) - DH_ORDER.indexOf(b));
-  const named = columns[0] !== null && !Array.isArray(sample);
-  /** @param {number} row */
-  const rowName = (row) => (field.path.startsWith("robot.") ? `J${row + 1}` : `${row + 1}`);
-  const cells = field.default.map((/** @type {any} */ _, /** @type {any} */ row) =>
-    columns.map((key) =>
-      numberCell(`${id}-${row}${key === null ? "" : `-${key}`}`, named ? unitIn(String(key)) : field.unit),
-    ),
-  );
-  const body = cells.map((/** @type {any} */ row, /** @type {number} */ i) =>
-    make(
-      "tr",
-      {},
-      make("th", { scope: "row" }, rowName(i)),
-      ...row.map((/** @type {{ input: HTMLInputElement }} */ { input }) => make("td", {}, input)),
-    ),
-  );
-  const heads = columns.map(() => make("th", { scope: "col" }));
-  const head = columns[0] === null ? "" : make("thead", {}, make("tr", {}, make("td"), ...heads));
-  const relabel = () =>
-    columns.forEach((key, column) => {
-      const name = key === null ? "" : named ? heading(key) : sample.length === 2 ? RANGE[column] : rowName(column);
-      heads[column].textContent = name;
-      cells.forEach((/** @type {any} */ row, /** @type {number} */ i) =>
-        row[column].input.setAttribute("aria-label", [rowName(i), name].filter(Boolean).join(", ")),
-      );
-    });
-  relabel();
-  return {
-    node: make("table", { id, className: "cells" }, head, make("tbody", {}, ...body)),
-    inputs: cells.flat().map((/** @type {{ input: HTMLInputElement }} */ { input }) => input),
-    read: () =>
-      cells.map((/** @type {any} */ row) => {
-        const values = row.map((/** @type {import("./number-cell.js").Cell} */ cell) => cell.read());
-        if (columns[0] === null) return values[0];
-        return Array.isArray(sample) ? values : Object.fromEntries(columns.map((key, i) => [key, values[i]]));
-      }),
-    write: (rows) =>
-      cells.forEach((/** @type {any} */ row, /** @type {number} */ i) =>
-        row.forEach((/** @type {import("./number-cell.js").Cell} */ cell, /** @type {number} */ c) =>
-          cell.write(columns[c] === null ? rows[i] : rows[i]?.[columns[c]]),
-        ),
-      ),
-    at(rest) {
-      const row = cells[indexIn(rest)] ?? cells[0];
-      const column = columns.findIndex(
-        (key) => key !== null && (rest.endsWith(`.${key}`) || rest.endsWith(`][${key}]`)),
-      );
-      return row[Math.max(0, column)].input;
-    },
-    understood: () => allUnderstood(cells.flat()),
-    relabel,
-  };
-}
-
-/**
- * Ortho-parallel parameters: seven lengths, then sign and zero offset of each joint.
- * @param {Edited} field
- * @returns {Editor}
- */
-function lengths(field) {
-  const id = idOf(field.path);
-  const scalars = Object.keys(field.default).filter((key) => key.endsWith("_mm"));
-  const cells = scalars.map((key) => numberCell(`${id}-${key}`, "mm"));
-  const inputs = cells.map(({ input }) => input);
-  const parts = scalars.map((key, i) =>
-    make("label", { className: "part", for: inputs[i].id }, make("span", {}, key.replace("_mm", "")), inputs[i]),
-  );
-  const joints = table({
-    path: field.path,
-    default: field.default.joint_sign.map((/** @type {number} */ sign, /** @type {number} */ i) => ({
-      joint_sign: sign,
-      offset_deg: field.default.joint_offset_deg[i],
-    })),
-  });
-  return {
-    node: make(
-      "div",
-      { id: `${id}-lengths`, role: "group" },
-      make("div", { className: "vector lengths" }, ...parts),
-      joints.node,
-    ),
-    inputs: [...inputs, ...joints.inputs],
-    read() {
-      /** @type {{ joint_sign: number, offset_deg: number }[]} */
-      const rows = joints.read();
-      const values = scalars.map((key, i) => [key, cells[i].read()]);
-      return {
-        ...Object.fromEntries(values),
-        joint_sign: rows.map((row) => row.joint_sign),
-        joint_offset_deg: rows.map((row) => row.offset_deg),
-      };
-    },
-    write(value) {
-      scalars.forEach((key, i) => cells[i].write(value[key]));
-      joints.write(
-        value.joint_sign.map((/** @type {any} */ sign, /** @type {number} */ i) => ({
-          joint_sign: sign,
-          offset_deg: value.joint_offset_deg[i],
-        })),
-      );
-    },
-    at(rest) {
-      const scalar = inputs[scalars.findIndex((key) => rest.startsWith(`.${key}`))];
-      return (
-        scalar ??
-        joints.at(
-          rest.replace(
-            /^\.joint_(sign|offset_deg)(\[\d+\])$/,
-            (_, key, row) => `${row}.${key === "sign" ? "joint_sign" : key}`,
-          ),
-        )
-      );
-    },
-    understood: () => [allUnderstood(cells), joints.understood?.()].filter(Boolean).join(", "),
-    relabel: joints.relabel,
-  };
-}
-
-/**
  * @param {Field} field
  * @returns {Editor}
  */
@@ -406,23 +277,4 @@ function program() {
     mark: (line) => listing.mark(line),
     show: (line) => listing.show(line),
   };
-}
-
-/** @param {string} rest */
-const indexIn = (rest) => Number(/^\[(\d+)\]/.exec(rest)?.[1] ?? 0);
-
-/**
- * The unit that a key such as "a_mm" ends in, if it has one.
- * @param {string} key
- */
-const unitIn = (key) => /_(mm|deg)$/.exec(key)?.[1] ?? "";
-
-/**
- * "theta_offset_deg" as a column heading: "theta offset, deg".
- * @param {string} key
- */
-function heading(key) {
-  if (key === "joint_sign") return "sign";
-  const at = key.lastIndexOf("_");
-  return `${key.slice(0, at).replaceAll("_", " ")}, ${shownUnit(key.slice(at + 1))}`;
 }

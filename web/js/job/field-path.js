@@ -16,6 +16,11 @@ export const parentOf = (path) => path.slice(0, Math.max(0, path.lastIndexOf("."
  */
 export const keyOf = (path) => path.slice(path.lastIndexOf(".") + 1);
 /**
+ * The index that the rest of a path begins with, such as "[2].a_mm"; 0 without one.
+ * @param {string} rest
+ */
+export const indexIn = (rest) => Number(/^\[(\d+)\]/.exec(rest)?.[1] ?? 0);
+/**
  * Whether a field decides the shape of its part.
  * @param {{ path: string }} field
  */

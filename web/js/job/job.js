@@ -220,7 +220,7 @@ export class Job {
    */
   otherUnit(field) {
     const other = twin(field.path);
-    return other && this.#find(other);
+    return other ? this.#find(other) : undefined;
   }
 
   /**
