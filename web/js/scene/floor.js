@@ -1,7 +1,7 @@
 // What stands around the paths: the floor's grid and the axes of frames, as lines for the painter.
 
 import { plus } from "./camera.js";
-import { vertex } from "./gl.js";
+import { vertex } from "./line-gl.js";
 
 /**
  * @import { Frame } from "./arm.js"

@@ -3,7 +3,7 @@
 
 import { extent, nowhere, widen } from "./boxes.js";
 import { dot, length, plus } from "./camera.js";
-import { VERTEX, vertex } from "./gl.js";
+import { VERTEX, vertex } from "./line-gl.js";
 import { spacingOf } from "./spacing.js";
 
 /** @import { Box, Vector } from "./camera.js" */

@@ -3,7 +3,8 @@
 import { armParts, shadow } from "./arm.js";
 import { dot, length, plus } from "./camera.js";
 import { axesOf, grid } from "./floor.js";
-import { painterOn, vertex } from "./gl.js";
+import { vertex } from "./line-gl.js";
+import { painterOn } from "./painter.js";
 import { colour, texels } from "./ramp.js";
 import { matrixOf } from "./part.js";
 import { veiled } from "./veil.js";
@@ -11,7 +12,8 @@ import { veiled } from "./veil.js";
 /**
  * @import { Frame, Frames } from "./arm.js"
  * @import { Box, Camera, Vector } from "./camera.js"
- * @import { Line, LineStyle, Painter } from "./gl.js"
+ * @import { Line, LineStyle } from "./line-gl.js"
+ * @import { Painter } from "./painter.js"
  * @import { Part } from "./part.js"
  * @import { Paths } from "./paths.js"
  * @import { Stock } from "./stock.js"
@@ -68,7 +70,7 @@ export class Picture {
    */
   recolour(tones) {
     this.#tones = tones;
-    this.#painter.ramp(texels());
+    this.#painter.lines.ramp(texels());
   }
 
   /**
@@ -80,17 +82,17 @@ export class Picture {
     this.#paths = paths;
     this.#looks = paths.cutPoints(LOOKS);
     const painter = this.#painter;
-    painter.clearLines();
+    painter.lines.clear();
     const { spacing, points } = grid(box, unit);
     this.#lines = {
-      desired: painter.line(paths.line("desired", null)),
-      compensated: painter.line(paths.line("desired", "correction")),
-      actual: painter.line(paths.line("closest", "before")),
-      after: painter.line(paths.line("closest", "after")),
-      whiskers: painter.line(paths.whiskers(), true),
-      outline: painter.line(stock.edges(frame), true),
-      grid: painter.line(points, true),
-      axes: axes.map(({ frame, long }) => axesOf(frame, long).map((line) => painter.line(line, true))),
+      desired: painter.lines.take(paths.line("desired", null)),
+      compensated: painter.lines.take(paths.line("desired", "correction")),
+      actual: painter.lines.take(paths.line("closest", "before")),
+      after: painter.lines.take(paths.line("closest", "after")),
+      whiskers: painter.lines.take(paths.whiskers(), true),
+      outline: painter.lines.take(stock.edges(frame), true),
+      grid: painter.lines.take(points, true),
+      axes: axes.map(({ frame, long }) => axesOf(frame, long).map((line) => painter.lines.take(line, true))),
     };
     return spacing;
   }
@@ -129,16 +131,16 @@ export class Picture {
           colour: tones[part.tone],
         }))
       : [];
-    painter.stains(looksDown ? [] : parts.map((part) => ({ ...shadow(part), colour: tones.shadow })));
+    painter.tubes.stains(looksDown ? [] : parts.map((part) => ({ ...shadow(part), colour: tones.shadow })));
     this.#drawLines(camera, sharp, shown, factor);
     const frame = matrixOf(frames.workpiece);
     if (shown.solid) part.draw({ camera: matrix, frame, factor, light, eye: out });
     const tube = { radius, width: 0, colour: tones.tube, strength: TUBE, every: this.#every(camera) };
-    if (radius) painter.veil(this.#lines.desired, tube);
+    if (radius) painter.lines.veil(this.#lines.desired, tube);
     const whole = Math.max(0, ...parts.map(({ strength }) => strength));
-    painter.solids(parts.filter(({ strength }) => strength === whole));
+    painter.tubes.solids(parts.filter(({ strength }) => strength === whole));
     if (shown.solid && !part.drawn) stock.draw({ camera: matrix, frame, colour: tones.glass });
-    painter.solids(parts.filter(({ strength }) => strength < whole));
+    painter.tubes.solids(parts.filter(({ strength }) => strength < whole));
     this.#drawMarks(marks, factor, sharp);
   }
 
@@ -159,10 +161,10 @@ export class Picture {
    */
   #drawLines(camera, sharp, shown, factor) {
     const [painter, tones, lines] = [this.#painter, this.#tones, this.#lines];
-    painter.draw(lines.grid, { width: sharp, colour: tones.grid });
+    painter.lines.draw(lines.grid, { width: sharp, colour: tones.grid });
     for (const axes of lines.axes)
-      axes.forEach((axis, i) => painter.draw(axis, { width: 2 * sharp, colour: tones.axes[i], bias: 1e-6 }));
-    painter.draw(lines.outline, { width: 1.25 * sharp, colour: tones.outline });
+      axes.forEach((axis, i) => painter.lines.draw(axis, { width: 2 * sharp, colour: tones.axes[i], bias: 1e-6 }));
+    painter.lines.draw(lines.outline, { width: 1.25 * sharp, colour: tones.outline });
     const dash = 10 * camera.pixel();
     const largest = this.#paths.largest || 1e-9;
     const every = this.#every(camera);
@@ -170,7 +172,7 @@ export class Picture {
      * @param {Line} line
      * @param {LineStyle} style
      */
-    const draw = (line, style) => painter.draw(line, { ...style, every });
+    const draw = (line, style) => painter.lines.draw(line, { ...style, every });
     if (shown.desired) draw(lines.desired, { width: 1.75 * sharp, rapid: sharp, colour: tones.desired, bias: 1e-6 });
     if (shown.actual) draw(lines.whiskers, { factor, largest, width: sharp, fade: 0.45, bias: 1e-6 });
     if (shown.compensated)
@@ -193,7 +195,7 @@ export class Picture {
      * @param {number[]} colour
      */
     const dot = (point, width, colour) =>
-      painter.dot(new Float32Array([...vertex(point), ...vertex(point)]), { width: width * sharp, colour });
+      painter.lines.dot(new Float32Array([...vertex(point), ...vertex(point)]), { width: width * sharp, colour });
     if (side) {
       const place = paths.tip(worst, side, factor);
       const own = colour(length(paths[side](worst)) / (paths.largest || 1)).map((v) => v / 255);
@@ -203,7 +205,7 @@ export class Picture {
     }
     const from = [...paths.closest(row)];
     const to = paths.tip(row, "before", factor);
-    painter.dot(new Float32Array([...vertex(from), ...vertex(to)]), { width: 1.5 * sharp, colour: ink });
+    painter.lines.dot(new Float32Array([...vertex(from), ...vertex(to)]), { width: 1.5 * sharp, colour: ink });
     dot(from, 8, ink);
     dot(from, 4.5, paper);
     dot(to, 11, paper);

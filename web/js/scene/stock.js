@@ -1,7 +1,7 @@
 // What the path is cut from, in its place: the stock like glass; without one, a light outline around the path.
 
 import { plus } from "./camera.js";
-import { vertex } from "./gl.js";
+import { vertex } from "./line-gl.js";
 import { GlassPainter } from "./glass-gl.js";
 
 const STRENGTH = 0.13; // of a face's colour
