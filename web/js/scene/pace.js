@@ -1,4 +1,4 @@
-// How often the picture takes over results while they stream in: they are not to wait for it.
+// How often the picture is drawn, and takes over results while they stream in: they are not to wait for it.
 
 const SHARE = 4; // it rests so many times as long as it has worked
 
@@ -26,5 +26,25 @@ export function paced(action, least) {
     } finally {
       isBusy = false;
     }
+  };
+}
+
+/**
+ * `action`, called with the next picture however often it is asked for, with what was given last.
+ * @template {unknown[]} A
+ * @param {(...args: A) => void} action
+ * @returns {(...args: A) => void}
+ */
+export function eachFrame(action) {
+  /** @type {A | null} */
+  let given = null;
+  return (...args) => {
+    if (!given)
+      requestAnimationFrame(() => {
+        const last = /** @type {A} */ (given);
+        given = null;
+        action(...last);
+      });
+    given = args;
   };
 }

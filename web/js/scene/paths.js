@@ -14,6 +14,8 @@ const AT = { desired: DESIRED, closest: CLOSEST, before: BEFORE, after: AFTER, c
 const WHISKERS = 120;
 const MOST_LEGS = 1500; // of a path when its spacing is measured
 
+/** @typedef {{ side: "before" | "after", row: number }} Worst a worst place, before or after compensation */
+
 export class Paths {
   /** @type {Float64Array} */
   #track;
@@ -94,6 +96,16 @@ export class Paths {
   #hasCuts() {
     for (let row = 0; row < this.count; row++) if (this.cuts(row)) return true;
     return false;
+  }
+
+  /**
+   * The worst place of what is `shown`, or none; before compensation first.
+   * @param {Record<string, boolean>} shown
+   * @returns {Worst | undefined}
+   */
+  worstOf({ actual, after }) {
+    if (actual) return { side: "before", row: this.worst.before };
+    return after ? { side: "after", row: this.worst.after } : undefined;
   }
 
   /** Largest deviation before compensation where the tool cuts [mm]. */

@@ -4,41 +4,35 @@ import * as core from "../core/client.js";
 import { cursor, onCursor, setCursor } from "../page/cursor.js";
 import { onSetting } from "../page/settings.js";
 import { inLength, lengthText, lengthUnit } from "../page/units.js";
-import { armPoints } from "./arm.js";
 import { around, extent, isElsewhere } from "./boxes.js";
-import { Camera, VIEWS, length, project } from "./camera.js";
+import { length, project } from "./camera.js";
 import { steer } from "./controls.js";
+import { factsOf } from "./facts.js";
 import { Labels, axisLabels } from "./labels.js";
-import { paced } from "./pace.js";
+import { eachFrame, paced } from "./pace.js";
 import { furnish } from "./panel.js";
-import { Part } from "./part.js";
 import { Paths } from "./paths.js";
 import { pictureOn } from "./picture.js";
 import { Player } from "./play.js";
 import { Pose } from "./pose.js";
 import { Readout, momentText } from "./readout.js";
-import { Section } from "./section.js";
-import { Stock } from "./stock.js";
+import { Solids } from "./solids.js";
+import { sharpen, watch } from "./stage.js";
 import { tonesOf } from "./tones.js";
+import { Viewpoint, viewOf } from "./viewpoint.js";
 
 /**
  * @import { StockSolid, Summary } from "../../pkg/armill.js"
- * @import { Frames } from "./arm.js"
  * @import { Named, Rectangle } from "./labels.js"
  * @import { Picture } from "./picture.js"
+ * @import { Worst } from "./paths.js"
  */
-
-/** @typedef {{ side: "before" | "after", row: number }} Worst the worst place that is shown */
-
-/** @typedef {[x: number, y: number, pressed: boolean]} Pointed where the pointer is [px] */
 
 const MOST = 50_000; // points of a path that are drawn
 const REACH = 14; // how near a path a pointer must be [px]
 const STREAM_MS = 200; // while results stream in, the picture rests at least so long
 const QUIET_MS = 300; // a result that has stood this long has its part simulated
 const FITTED = 400; // points of the path that a view is fitted to
-/** @type {Record<string, string>} */
-const VIEW_KEYS = { 1: "top", 2: "front", 3: "side", 4: "iso", 5: "tool", f: "fit", a: "all", 0: "fit" };
 
 /**
  * The picture in `node`; `show(summary)` takes over a new result.
@@ -55,10 +49,8 @@ class Scene {
   #labels;
   #player = new Player();
   #readout = new Readout();
-  #section = new Section();
-  #stock = new Stock();
-  #part = new Part((first) => (first && !this.#steered ? this.#look(this.#fitted) : this.#redraw()));
-  #camera = new Camera();
+  #solids = new Solids((first) => (first ? this.#refit() : this.#redraw()));
+  #viewpoint = new Viewpoint();
   /** @type {Picture | null | undefined} */
   #picture; // undefined until it is first seen, null while there are no graphics
   /** @type {Summary} */
@@ -74,15 +66,12 @@ class Scene {
   #shown = { desired: true, actual: true, after: false, compensated: true, tube: false, arm: true, solid: true };
   /** @type {{ factor: number | null, tube: boolean | null }} */
   #chosen = { factor: null, tube: null }; // what was chosen by hand
-  #fitted = "fit";
-  #steered = false; // whether the camera was moved by hand since it showed all
-  #due = false;
+  /** @type {[number, number]} */
   #room = [0, 0]; // of the picture [px]
   #near = true; // whether the picture is on the screen or about to be
-  /** @type {Pointed | null} */
-  #pointed = null; // where the pointer is, until it has been looked up
-  /** @type {number | undefined} */
-  #waiting; // timer for the part
+  #redraw = eachFrame(() => {
+    if (this.#picture && this.#paths && this.#room[0] && this.#near) this.#draw();
+  });
   #catchUp = paced(() => this.#appear().then(painted), STREAM_MS);
 
   /** @param {HTMLElement} node */
@@ -92,63 +81,42 @@ class Scene {
       view: (name) => this.#look(name),
       shown: (name, on) => this.#switch(name, on),
       factor: (value) => ((this.#chosen.factor = value), this.#redraw()),
-      worst: () => this.#worst && this.#goTo(this.#worst.row),
+      worst: () => {
+        const worst = this.#paths.worstOf(this.#shown);
+        if (worst) this.#goTo(worst.row);
+      },
     });
     const { canvas, stage, labels } = this.#panel;
     this.#labels = new Labels(labels);
-    this.#panel.corner(this.#part.node);
+    this.#panel.corner(this.#solids.part.node);
     this.#panel.below(this.#player.node, this.#readout.node);
     this.#panel.after(this.#readout.text);
     // On the page it has a place of its own, in the view of the result.
     const place = document.getElementById("section");
-    if (place) place.append(this.#section.node);
-    else this.#panel.after(this.#section.node);
-    steer(canvas, this.#camera, {
-      move: () => ((this.#steered = true), this.#redraw()),
-      point: (x, y, pressed) => this.#pointSoon(x, y, pressed),
+    if (place) place.append(this.#solids.section.node);
+    else this.#panel.after(this.#solids.section.node);
+    steer(canvas, this.#viewpoint.camera, {
+      move: () => ((this.#viewpoint.steered = true), this.#redraw()),
+      point: eachFrame((x, y, pressed) => this.#point(x, y, pressed)),
       key: (key) => this.#key(key),
     });
-    this.#camera.look(VIEWS.iso);
-    this.#observe(canvas, stage);
+    watch(canvas, stage, {
+      resized: (room) => ((this.#room = room), this.#appear()),
+      near: (near) => ((this.#near = near), this.#appear()),
+      lost: () => this.#lose(),
+      restored: () => (this.#begin(), this.#appear()),
+    });
     onCursor(() => this.#follow());
     onSetting(() => requestAnimationFrame(() => this.#recolour())); // a theme that has just been chosen is applied by then
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#recolour());
-  }
-
-  /**
-   * @param {HTMLCanvasElement} canvas
-   * @param {HTMLElement} stage
-   */
-  #observe(canvas, stage) {
-    new ResizeObserver(() => {
-      this.#room = [stage.clientWidth, stage.clientHeight];
-      this.#appear();
-    }).observe(stage);
-    new IntersectionObserver(
-      (entries) => {
-        this.#near = entries[entries.length - 1].isIntersecting;
-        this.#appear();
-      },
-      { rootMargin: "100%" },
-    ).observe(stage);
-    canvas.addEventListener("webglcontextlost", (event) => {
-      event.preventDefault();
-      this.#drawWith(null);
-      this.#panel.say(
-        "The graphics were lost; waiting for the browser to restore them. The charts show the same paths.",
-      );
-    });
-    canvas.addEventListener("webglcontextrestored", () => (this.#begin(), this.#appear()));
   }
 
   /** @param {Summary} summary */
   show(summary) {
     this.#summary = summary;
     this.#player.duration = summary.duration_s;
-    clearTimeout(this.#waiting);
-    this.#part.offer(summary);
-    this.#section.offer(summary);
-    this.#panel.menu.offerPart(this.#part.offered);
+    this.#solids.offer(summary);
+    this.#panel.menu.offerPart(this.#solids.part.offered);
     // Around the legs of a program a tube would hide what it is to show.
     this.#shown.tube = this.#chosen.tube ?? !summary.program;
     this.#panel.menu.set("tube", this.#shown.tube);
@@ -160,11 +128,9 @@ class Scene {
     const { canvas } = this.#panel;
     const [width, height] = this.#room;
     if (!width || !this.#summary) return;
-    const sharp = Math.min(2, devicePixelRatio || 1);
-    if (canvas.width !== Math.round(width * sharp) || canvas.height !== Math.round(height * sharp)) {
-      [canvas.width, canvas.height] = [Math.round(width * sharp), Math.round(height * sharp)];
-      [this.#camera.width, this.#camera.height] = [width, height];
-      if (this.#paths && !this.#steered) this.#look(this.#fitted);
+    if (sharpen(canvas, this.#room)) {
+      [this.#viewpoint.camera.width, this.#viewpoint.camera.height] = [width, height];
+      this.#refit();
       if (this.#picture && this.#paths) this.#draw(); // a canvas is cleared by its new size
     }
     if (!this.#near) return;
@@ -182,14 +148,18 @@ class Scene {
     );
   }
 
+  #lose() {
+    this.#drawWith(null);
+    this.#panel.say("The graphics were lost; waiting for the browser to restore them. The charts show the same paths.");
+  }
+
   /**
    * Draws with another picture, or with none.
    * @param {Picture | null} picture
    */
   #drawWith(picture) {
     this.#picture = picture;
-    this.#part.drawWith(picture?.gl ?? null);
-    this.#stock.drawWith(picture?.gl ?? null);
+    this.#solids.drawWith(picture?.gl ?? null);
     if (picture) this.#recolour();
   }
 
@@ -212,21 +182,12 @@ class Scene {
    * @param {number} quiet [ms]
    */
   #simulate(quiet) {
-    clearTimeout(this.#waiting);
-    if (!this.#part.offered) return;
     const summary = this.#loaded;
-    const isCurrent = () => summary === this.#summary;
-    this.#waiting = setTimeout(async () => {
-      try {
-        const solid = await core.stockSolid();
-        if (!isCurrent()) return;
-        this.#enclose(solid);
-        if (this.#shown.solid && this.#picture) await this.#part.load(isCurrent);
-        if (isCurrent()) await this.#section.begin();
-      } catch {
-        // Replaced by a newer result or a recovery, which loads its own.
-      }
-    }, quiet);
+    this.#solids.simulate(quiet, {
+      isCurrent: () => summary === this.#summary,
+      isSeen: () => this.#shown.solid && Boolean(this.#picture),
+      enclose: (solid) => this.#enclose(solid),
+    });
   }
 
   /**
@@ -234,10 +195,11 @@ class Scene {
    * @param {StockSolid | undefined} solid
    */
   #enclose(solid) {
-    const first = this.#stock.given !== Boolean(solid);
-    this.#stock.take(solid, this.#paths.boxIn(this.#pose.frames.workpiece));
+    const { stock } = this.#solids;
+    const first = stock.given !== Boolean(solid);
+    stock.take(solid, this.#paths.boxIn(this.#pose.frames.workpiece));
     this.#upload();
-    if (first && !this.#steered) this.#look(this.#fitted);
+    if (first) this.#refit();
   }
 
   async #load() {
@@ -248,9 +210,9 @@ class Scene {
       const before = this.#paths?.box;
       this.#paths = new Paths(track);
       // Until its own stock is there, the one before is as good a guess as any.
-      if (summary.surface && this.#stock.given) this.#upload();
+      if (summary.surface && this.#solids.stock.given) this.#upload();
       else this.#enclose(undefined);
-      if (!before || isElsewhere(before, this.#paths.box)) this.#look(before ? this.#fitted : "iso");
+      if (!before || isElsewhere(before, this.#paths.box)) this.#look(before ? this.#viewpoint.fitted : "iso");
       this.#describe();
       if (summary === this.#summary) this.#simulate(QUIET_MS);
     } catch {
@@ -262,14 +224,15 @@ class Scene {
     if (!this.#picture) return;
     const { base, joints, workpiece } = this.#pose.frames;
     const box = around(this.#paths.box, [base.origin, ...joints.map((joint) => joint.origin)]);
-    const part = around(this.#paths.cutBox, this.#stock.corners(workpiece));
+    const { stock } = this.#solids;
+    const part = around(this.#paths.cutBox, stock.corners(workpiece));
     this.#axes = [
       { name: "base", frame: base, long: extent(box) / 9 },
       { name: "workpiece", frame: workpiece, long: extent(part) / 7 },
     ];
     const spacing = this.#picture.take({
       paths: this.#paths,
-      stock: this.#stock,
+      stock,
       frame: workpiece,
       axes: this.#axes,
       box,
@@ -302,7 +265,7 @@ class Scene {
   #follow() {
     if (!this.#paths || !this.#picture || !this.#room[0]) return;
     this.#redraw();
-    this.#section.follow();
+    this.#solids.section.follow();
     this.#pose.follow(
       () => this.#sample(),
       () => this.#redraw(),
@@ -310,31 +273,25 @@ class Scene {
   }
 
   /**
-   * Once a picture is often enough, however often the pointer moves.
-   * @param {Pointed} where
+   * The pointer is at a place of the picture [px].
+   * @param {number} x
+   * @param {number} y
+   * @param {boolean} pressed
    */
-  #pointSoon(...where) {
-    if (!this.#pointed)
-      requestAnimationFrame(() => {
-        if (this.#pointed) this.#point(...this.#pointed);
-        this.#pointed = null;
-      });
-    this.#pointed = where;
-  }
-
-  /** @param {Pointed} where */
-  #point(...[x, y, pressed]) {
+  #point(x, y, pressed) {
     if (!this.#paths || this.#player.playing) return;
-    const { width, height } = this.#camera;
+    const { camera } = this.#viewpoint;
+    const { width, height } = camera;
     const view = { width, height, factor: this.#factor(), shown: this.#shown, reach: pressed ? 2 * REACH : REACH };
-    const row = this.#paths.pick(this.#camera.matrix(), [x, y], view);
+    const row = this.#paths.pick(camera.matrix(), [x, y], view);
     if (row >= 0) this.#goTo(row);
   }
 
   /** @param {string} key */
   #key(key) {
+    const view = viewOf(key);
     if (key === " ") this.#player.toggle();
-    else if (VIEW_KEYS[key.toLowerCase()]) this.#look(VIEW_KEYS[key.toLowerCase()]);
+    else if (view) this.#look(view);
     else return false;
     return true;
   }
@@ -345,17 +302,18 @@ class Scene {
    */
   #look(name) {
     if (!this.#paths) return;
-    const { tcp, workpiece } = this.#pose.frames;
-    if (name === "fit" || name === "all") this.#fitted = name;
-    else if (name === "tool") this.#camera.lookFrom(tcp.z.map((v) => -v));
-    else this.#camera.look(VIEWS[name]);
-    if (name === "top" || name === "tool") this.#fitted = "fit";
-    this.#steered = false;
-    const solid = this.#shown.solid ? [...this.#part.corners(workpiece), ...this.#stock.corners(workpiece)] : [];
-    const arm = this.#fitted === "all" ? armPoints(this.#pose.frames) : [];
+    const { frames } = this.#pose;
+    const solid = this.#shown.solid ? this.#solids.corners(frames.workpiece) : [];
     const path = this.#paths.cutRows(FITTED).map((row) => this.#paths.tip(row, "before", this.#factor()));
-    this.#camera.fit([...path, ...this.#paths.cutPoints(FITTED), ...solid, ...arm], this.#panel.edges());
+    const points = [...path, ...this.#paths.cutPoints(FITTED), ...solid];
+    this.#viewpoint.look(name, frames, points, this.#panel.edges());
     this.#redraw();
+  }
+
+  /** Shows all again, unless the camera was moved by hand. */
+  #refit() {
+    if (!this.#viewpoint.steered) this.#look(this.#viewpoint.fitted);
+    else this.#redraw();
   }
 
   #factor() {
@@ -364,50 +322,41 @@ class Scene {
 
   #recolour() {
     this.#picture?.recolour(tonesOf(this.#node));
-    this.#part.recolour(tonesOf(this.#node).dark);
+    this.#solids.part.recolour(tonesOf(this.#node).dark);
     if (!this.#paths) return;
     this.#upload();
     this.#describe();
   }
 
-  #redraw() {
-    if (this.#due) return;
-    this.#due = true;
-    requestAnimationFrame(() => {
-      this.#due = false;
-      if (this.#picture && this.#paths && this.#room[0] && this.#near) this.#draw();
-    });
-  }
-
-  /** The worst place of what is shown, or none; before compensation first. */
-  get #worst() {
-    const { before, after } = this.#paths.worst;
-    if (this.#shown.actual) return { side: /** @type {const} */ ("before"), row: before };
-    return this.#shown.after ? { side: /** @type {const} */ ("after"), row: after } : undefined;
-  }
-
   #draw() {
-    const [paths, camera, factor, worst] = [this.#paths, this.#camera, this.#factor(), this.#worst];
+    const [paths, pose, shown] = [this.#paths, this.#pose, this.#shown];
+    const { camera } = this.#viewpoint;
+    const { part, stock, section } = this.#solids;
+    const [factor, worst] = [this.#factor(), paths.worstOf(shown)];
     const taken = this.#panel.taken();
     const row = paths.rowOf(this.#sample());
     const summary = this.#loaded ?? this.#summary;
     // Half as wide as passes are apart, so that it leaves them in sight.
-    const radius = this.#shown.tube ? Math.min(summary.tolerance_mm * factor, paths.spacing / 4) : 0;
+    const radius = shown.tube ? Math.min(summary.tolerance_mm * factor, paths.spacing / 4) : 0;
     this.#picture?.draw({
       camera,
-      shown: this.#shown,
-      pose: this.#pose,
-      part: this.#part,
-      stock: this.#stock,
+      shown,
+      pose,
+      part,
+      stock,
       factor,
       radius,
       marks: { row, side: worst?.side ?? null, worst: worst?.row ?? 0 },
     });
-    this.#section.magnify(factor);
+    section.magnify(factor);
     this.#write(worst, factor, taken);
     this.#readout.at(this.#timeOf(row), paths, row);
-    this.#panel.beyond(this.#pose);
-    this.#report(row, factor, radius, worst);
+    this.#panel.beyond(pose);
+    const sample = this.#sample();
+    Object.assign(
+      this.#node.dataset,
+      factsOf({ camera, paths, pose, part, stock, solid: shown.solid, sample, factor, radius, worst: worst?.row }),
+    );
   }
 
   /**
@@ -418,7 +367,8 @@ class Scene {
    */
   #write(worst, factor, taken) {
     const { worst: button } = this.#panel;
-    const matrix = this.#camera.matrix();
+    const { camera } = this.#viewpoint;
+    const matrix = camera.matrix();
     button.hidden = !worst;
     let first;
     if (worst) {
@@ -428,38 +378,9 @@ class Scene {
       first = { node: button, point: this.#paths.tip(worst.row, worst.side, factor) };
     }
     /** @param {number[]} point */
-    const place = (point) => project(matrix, point, this.#camera.width, this.#camera.height);
+    const place = (point) => project(matrix, point, camera.width, camera.height);
     if (first) this.#node.dataset.worstAt = place(first.point).slice(0, 2).join(" ");
     this.#labels.write(axisLabels(this.#axes), first, place, this.#room, taken);
-  }
-
-  /**
-   * What is drawn, for those who cannot read pixels.
-   * @param {number} row
-   * @param {number} factor
-   * @param {number} radius
-   * @param {Worst | undefined} worst
-   */
-  #report(row, factor, radius, worst) {
-    const { azimuth, elevation, distance, target } = this.#camera;
-    /** @param {number} angle */
-    const degrees = (angle) => ((angle * 180) / Math.PI).toFixed(2);
-    Object.assign(this.#node.dataset, {
-      azimuth: degrees(azimuth),
-      elevation: degrees(elevation),
-      distance: distance.toFixed(2),
-      target: target.map((v) => v.toFixed(2)).join(" "),
-      sample: String(this.#sample()),
-      factor: String(factor),
-      points: String(this.#paths.count),
-      part: this.#part.drawn && this.#shown.solid ? this.#part.side : "none",
-      stock: String(this.#stock.given),
-      triangles: String(this.#part.triangles),
-      tip: this.#pose.frames.tcp.origin.map((v) => v.toFixed(6)).join(" "),
-      beyond: this.#pose.beyond.join(" "),
-      tube: radius.toFixed(3),
-      worst: worst ? String(this.#paths.sample(worst.row)) : "none",
-    });
   }
 
   /** What a new result, or another unit, changes around the picture. */
