@@ -1,6 +1,6 @@
 // Fields and their values in words.
 
-import { KIENZLE, OWN } from "../job/job.js";
+import { KIENZLE, OWN } from "../job/shape.js";
 import { plainNumber } from "../page/number.js";
 import { shownUnit, shownUnits, shownValue } from "./shown.js";
 

@@ -1,13 +1,13 @@
 // The job as the page holds it: a plain object in the shape of the job file, read and written by
 // path.
 //
-// Some parts of a job take one of several shapes: a robot or material by preset or by numbers, a
-// path of some kind, a shaper or "none". A choice ending in `.preset` or `.kind` decides; the other
+// Some parts of a job take one of several shapes (shape.js). A choice ending in `.preset` or `.kind` decides; the other
 // fields of that part name in `when` what they need: a value of that choice, or the state of the
 // part itself ("preset", "table", "opw", "kienzle" or "hz").
 
 import { copy, frozen, listed, textOf } from "./data.js";
 import { decides, draftKey, keyOf, keysOf, parentOf, twin } from "./field-path.js";
+import { EXTENTS, shapeNow, shaped } from "./shape.js";
 
 /**
  * @import { Field, Presets } from "../../pkg/armill.js"
@@ -15,14 +15,10 @@ import { decides, draftKey, keyOf, keysOf, parentOf, twin } from "./field-path.j
  */
 
 const TURN = 2 * Math.PI;
-export const OWN = "table"; // what a preset choice says when the numbers are one's own
-export const KIENZLE = "kienzle"; // the same for a material by k_c1.1 and m_c
 export const FROM_STOCK = "from-stock"; // the engagement that a stock brings with it
-const OWN_FORMS = [OWN, "opw", KIENZLE]; // a robot's may be ortho-parallel parameters instead
 
 const ENGAGEMENT = "cutting.engagement";
 const FEED_RULE = "motion.feed_rule";
-const EXTENTS = ["stock.allowance_mm", "stock.top_mm"]; // what the extents of a program give by themselves
 
 export class Job {
   /** @type {Field[]} */
@@ -109,7 +105,7 @@ export class Job {
     if (decides(field) && part === "none") return "none";
     const value = this.#read(field.path);
     if (value !== undefined) return value;
-    if (field.path.endsWith(".preset") && part) return this.#stateOf(parentOf(field.path));
+    if (field.path.endsWith(".preset") && part) return this.#shapeOf(parentOf(field.path));
     return this.#presetOf(parentOf(field.path))[keyOf(field.path)] ?? this.#standard(field);
   }
 
@@ -137,7 +133,7 @@ export class Job {
     if (!field.when) return true;
     const decider = this.#find(field.when.path);
     if (decider) return this.shows(decider) && field.when.is.includes(this.get(decider));
-    return field.when.is.includes(this.#stateOf(field.when.path));
+    return field.when.is.includes(this.#shapeOf(field.when.path));
   }
 
   /**
@@ -304,30 +300,15 @@ export class Job {
    */
   #write(path, value) {
     const parent = parentOf(path);
-    if (parent && typeof this.#read(parent) !== "object") this.#write(parent, this.#shape(parent, new Map()));
+    if (parent && typeof this.#read(parent) !== "object")
+      this.#write(parent, shaped(this.#fields, parent, { drafts: this.#drafts }));
     const part = parent ? this.#read(parent) : this.#data;
     part[keyOf(path)] = value;
   }
 
   /** @param {string} path */
-  #stateOf(path) {
-    const part = this.#read(path);
-    if (path === "uncertainty") return this.#stiffnessKnown(part);
-    if (part?.frequency_hz !== undefined) return "hz";
-    if (part?.opw !== undefined) return "opw";
-    if (part?.kc11_n_mm2 !== undefined || part?.mc !== undefined) return KIENZLE;
-    if (part?.preset === undefined) return OWN;
-    const preset = this.#presetOf(path);
-    return preset.kc11_n_mm2 !== undefined ? `${KIENZLE}-preset` : preset.orthogonal ? "orthogonal-preset" : "preset";
-  }
-
-  /**
-   * In which of three ways the job says how well stiffness is known.
-   * @param {JobData} part
-   */
-  #stiffnessKnown(part) {
-    if (part?.compliance_covariance !== undefined) return "covariance";
-    return part?.stiffness_factor !== undefined ? "factor" : "percent";
+  #shapeOf(path) {
+    return shapeNow(path, this.#read(path), this.#presetOf(path));
   }
 
   /**
@@ -337,17 +318,6 @@ export class Job {
   #isOtherUnit(field) {
     const other = twin(field.path);
     return other !== undefined && this.#read(other) !== undefined;
-  }
-
-  /**
-   * Whether a part with the `known` keys gives the quantity by this field's twin; rad/s unless Hz
-   * is known.
-   * @param {Field} field
-   * @param {Map<string, any>} known
-   */
-  #inOtherUnit(field, known) {
-    if (!this.otherUnit(field)) return false;
-    return field.path.endsWith("_hz") !== known.has("frequency_hz");
   }
 
   /**
@@ -388,7 +358,8 @@ export class Job {
       }
     }
     if (path === "stock" && choice === "none") return this.#dropStock();
-    this.#write(path, choice === "none" ? "none" : this.#shape(path, known, decider, choice));
+    const given = { known, drafts: this.#drafts, decider, choice };
+    this.#write(path, choice === "none" ? "none" : shaped(this.#fields, path, given));
   }
 
   /** Without a stock, neither engagement nor feed can follow from it. */
@@ -396,35 +367,5 @@ export class Job {
     delete this.#data.stock;
     if (this.#read(FEED_RULE)) this.#write(FEED_RULE, "programmed");
     if (this.#read(ENGAGEMENT) === FROM_STOCK) this.#forget(ENGAGEMENT);
-  }
-
-  /**
-   * An object with every field of a part that is needed when `decider` is `choice`.
-   * @param {string} path
-   * @param {Map<string, any>} known
-   * @param {Field} [decider]
-   * @param {string} [choice]
-   */
-  #shape(path, known, decider, choice) {
-    const own = OWN_FORMS.includes(choice ?? "");
-    const byPreset = decider?.path.endsWith(".preset") && !own;
-    /** @type {Record<string, any>} */
-    const shape = {};
-    for (const field of this.#fields) {
-      const key = keyOf(field.path);
-      if (parentOf(field.path) !== path) continue;
-      if (field.path === decider?.path) {
-        if (!own) shape[key] = choice;
-        continue;
-      }
-      const { when } = field;
-      const asked = when && (when.path === decider?.path || (own && when.path === path));
-      const unneeded = asked && !when.is.includes(String(choice));
-      if (byPreset || unneeded || this.#inOtherUnit(field, known)) continue;
-      if (choice === "extents" && EXTENTS.includes(field.path)) continue;
-      const standard = field.defaults?.[choice ?? ""] ?? field.default;
-      shape[key] = structuredClone(known.get(key) ?? this.#drafts.get(draftKey(field, choice)) ?? standard);
-    }
-    return shape;
   }
 }
