@@ -4,7 +4,7 @@
 // computes the next one. A run that is invalid, cancelled or trapped therefore never takes the
 // shown result away.
 
-import { compileCore, startWorker } from "./assets.js";
+import { startAsked } from "./asked.js";
 
 const SUPERSEDE_MS = [400, 1500]; // a run older than this is cut off when a newer job arrives; a younger one may finish
 const LARGE = 100_000; // samples: a Worker that has held more is not used again, for its memory never shrinks
@@ -13,6 +13,7 @@ const CANCELLED = { code: "cancelled", message: "Cancelled." };
 /**
  * @import { ChartEntry, ChartOptions, ChartValues, Controller, Field, Format, Presets, Summary } from "../../pkg/armill.js"
  * @import { JobData } from "../job/data.js"
+ * @import { Asked } from "./asked.js"
  */
 
 /**
@@ -45,14 +46,6 @@ const CANCELLED = { code: "cancelled", message: "Cancelled." };
  * }} Events what is heard of runs; `took` is in milliseconds
  */
 
-/**
- * @typedef {{
- *   stop(reason: Failure): void,
- *   large: boolean,
- *   ask(kind: string, ...args: unknown[]): Promise<any>,
- * }} Asked a Worker; `large` says whether it holds a long run
- */
-
 /** @type {Events} */
 let events; // given to start()
 /** @type {Asked | null} */
@@ -61,8 +54,6 @@ let shown = null; // Worker with the shown result
 let spare = null; // Worker to compute in
 /** @type {number | null} */
 let since = null; // when the run in progress began
-/** @type {Promise<WebAssembly.Module> | undefined} */
-let compiled; // promise of the core's module: every Worker starts from the same one
 /** @type {Promise<Hello> | undefined} */
 let hello; // promise of what a form is built from
 /** @type {{ json?: string, result: Promise<Result>, since?: number } | undefined} */
@@ -169,7 +160,7 @@ export const thesis = () => (spare ??= spawn()).ask("thesis");
 /**
  * A Worker of its own, `{ ask(kind, ...args) }`, for what has nothing to do with the shown result.
  */
-export const helper = () => spawn(() => {});
+export const helper = () => startAsked({ onprogress() {}, onfail() {} });
 
 /**
  * One chart of the shown result, drawn at `options.width` pixels.
@@ -350,61 +341,12 @@ function retire(worker) {
   if (worker === spare) spare = spawn();
 }
 
-/** The core's module, loaded and compiled once; after a failure the next Worker tries again. */
-function moduleOfCore() {
-  compiled ??= compileCore().catch((error) => {
-    compiled = undefined;
-    throw error;
+/** Another Worker for runs. If it fails to load, the next question starts another one. */
+function spawn() {
+  return startAsked({
+    onprogress: (progress) => events?.onprogress(progress),
+    onfail(worker) {
+      if (worker === spare) spare = null;
+    },
   });
-  return compiled;
-}
-
-/**
- * A Worker that answers `ask(kind, ...args)` with a promise.
- * @param {(progress: Progress) => void} [onprogress]
- * @returns {Asked}
- */
-function spawn(onprogress = (progress) => events?.onprogress(progress)) {
-  const worker = startWorker();
-  /** @type {Map<number, { resolve(value: unknown): void, reject(reason: Failure): void }>} */
-  const waiting = new Map();
-  let count = 0;
-  /** @type {Failure | undefined} */
-  let ended; // why it answers no more
-  /** @param {Failure} reason */
-  const stop = (reason) => {
-    ended = reason;
-    worker.terminate();
-    for (const { reject } of waiting.values()) reject(reason);
-    waiting.clear();
-  };
-  /** @param {{ message: string }} error */
-  const fail = ({ message }) => {
-    if (own === spare) spare = null; // the next question starts another one
-    stop({ code: "load", message: message || "the browser does not say why", fatal: true });
-  };
-  worker.addEventListener("message", ({ data: { id, value, error, progress } }) => {
-    if (progress) return onprogress(progress);
-    const question = waiting.get(id);
-    waiting.delete(id);
-    if (error) question?.reject(error);
-    else question?.resolve(value);
-  });
-  worker.addEventListener("error", (event) => {
-    event.preventDefault();
-    fail(event);
-  });
-  /** @type {Asked} */
-  const own = {
-    stop,
-    large: false, // whether it holds a long run
-    ask: (kind, ...args) =>
-      new Promise((resolve, reject) => {
-        if (ended) return reject(ended);
-        waiting.set(++count, { resolve, reject });
-        worker.postMessage({ id: count, kind, args });
-      }),
-  };
-  moduleOfCore().then((module) => worker.postMessage({ module }), fail);
-  return own;
 }

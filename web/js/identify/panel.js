@@ -6,7 +6,7 @@ import { makeResponse } from "./response.js";
 import { makeStiffness } from "./stiffness.js";
 
 /**
- * @import { Asked } from "../core/client.js"
+ * @import { Asked } from "../core/asked.js"
  * @import { JobData } from "../job/data.js"
  */
 

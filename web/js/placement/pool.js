@@ -3,7 +3,8 @@
 import { helper } from "../core/client.js";
 
 /**
- * @import { Asked, Failure } from "../core/client.js"
+ * @import { Asked } from "../core/asked.js"
+ * @import { Failure } from "../core/client.js"
  */
 
 const MOST = 8;

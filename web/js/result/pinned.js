@@ -5,7 +5,7 @@ import { helper } from "../core/client.js";
 
 /**
  * @import { Chart, ChartOptions, Summary } from "../../pkg/armill.js"
- * @import { Asked } from "../core/client.js"
+ * @import { Asked } from "../core/asked.js"
  */
 
 /** The letters that there are. */
