@@ -1,4 +1,5 @@
-//! The pipeline as a rule: a stage uses nothing to its right, and only `lib.rs` knows `wasm`.
+//! The pipeline as a rule: a stage uses nothing to its right, and only `lib.rs` knows `wasm`. Files have a length to
+//! be read in, those of the page as well.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use std::path::Path;
@@ -40,7 +41,7 @@ fn files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
         let path = entry.unwrap().path();
         if path.is_dir() {
             files(&path, found);
-        } else if path.extension().is_some_and(|ending| ending == "rs") {
+        } else if path.extension().is_some_and(|ending| ending == "rs" || ending == "js") {
             found.push(path);
         }
     }
@@ -78,12 +79,14 @@ fn no_stage_uses_one_to_its_right() {
 
 #[test]
 fn files_stay_readable_in_one_sitting() {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut found = Vec::new();
-    files(&source, &mut found);
-    for file in found {
-        let lines = std::fs::read_to_string(&file).unwrap().lines().count();
-        assert!(lines <= 450, "{} has {lines} lines", file.display());
+    for (folder, least, most) in [("src", 150, 450), ("web/js", 100, 400)] {
+        let mut found = Vec::new();
+        files(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder), &mut found);
+        assert!(found.len() > least, "the walk finds the files of {folder}");
+        for file in found {
+            let lines = std::fs::read_to_string(&file).unwrap().lines().count();
+            assert!(lines <= most, "{} has {lines} lines, {most} at most", file.display());
+        }
     }
 }
 

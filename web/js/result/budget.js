@@ -11,6 +11,35 @@ const KEYS = ["s1", "s2", "s3", "s4", "s5", "s6", "tool", "shaping"];
 const NAMED = 0.24; // share of a bar from which a part carries its name, and its short one
 const SHORT = 0.1;
 
+document.querySelector(".budget")?.append(...emptyBudget());
+
+/** What stands below the heading of the section: sentence, two bars, and a table that can be opened. */
+function emptyBudget() {
+  /** @param {string} id */
+  const bar = (id) => make("div", { className: "budget-bar", id, "aria-hidden": "true" });
+  const unit = () => make("span", { className: "unit", "data-unit": "length" }, lengthUnit());
+  /** @param {(Node | string)[]} content */
+  const head = (...content) => make("th", { scope: "col" }, ...content);
+  const heads = [head("Part"), head("max ", unit()), head("%"), head("mean ", unit()), head("%")];
+  const table = make("table", { id: "budget-table" }, make("thead", {}, make("tr", {}, ...heads)), make("tbody"));
+  const note =
+    "Each part is its vector, projected on the contour error; they add up to it. " +
+    "A negative part pulls the tip back to the path.";
+  return [
+    make("p", { id: "budget-sentence" }, "–"),
+    make(
+      "p",
+      { className: "budget-of" },
+      "Where it is largest ",
+      make("span", { className: "unit", id: "budget-time" }),
+    ),
+    bar("budget-worst"),
+    make("p", { className: "budget-of" }, "On average"),
+    bar("budget-mean"),
+    make("details", {}, make("summary", {}, "In numbers"), table, make("p", { className: "unit" }, note)),
+  ];
+}
+
 /**
  * Shows the budget of a result.
  * @param {Budget} budget
