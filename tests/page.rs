@@ -210,7 +210,12 @@ fn invalid_input_is_answered_beside_the_field_and_the_last_result_stays() -> Res
             );
             assert!(text(page, "status").await?.contains("last valid result"));
             assert_eq!(page.value("#motion-feed_mm_s").await?, typed, "nothing that was typed is lost");
+            assert_eq!(page.text("#group-motion .digest").await?, "1 error");
         }
+        page.type_into("#motion-acceleration_mm_s2", "quick").await?;
+        stale(page).await?;
+        assert_eq!(page.text("#group-motion .digest").await?, "2 errors");
+        page.type_into("#motion-acceleration_mm_s2", "200").await?;
         page.type_into("#motion-feed_mm_s", "100").await?;
         shows(page, &run(&[])).await?;
         assert_eq!(marked("motion-feed_mm_s").await?, false);

@@ -104,6 +104,39 @@ fn a_frame_shows_scene_budget_and_units_if_asked_to() -> Result {
 }
 
 #[test]
+fn the_room_of_the_budget_is_there_before_the_first_result() -> Result {
+    let watch = "window.seen = []; addEventListener('DOMContentLoaded', () => {
+        const budget = document.querySelector('.budget');
+        const rows = () => document.querySelectorAll('#budget-table tbody tr').length;
+        const look = () => budget.offsetHeight && window.seen.push([rows(), budget.offsetHeight]);
+        new ResizeObserver(look).observe(budget);
+    });";
+    // From the other page: only a new document runs the script.
+    for (before, address) in
+        [("/", "/embed.html#show=budget&inputs=none&charts=none"), ("/embed.html", "/#view=budget")]
+    {
+        visit(before, DESKTOP, async |page| {
+            page.devtools("Page.addScriptToEvaluateOnNewDocument", json!({ "source": watch })).await?;
+            page.goto(address).await?;
+            page.wait_for("document.querySelectorAll('#budget-table tbody tr').length > 8", 30.0).await?;
+            current(page).await?;
+            page.js("return new Promise(done => setTimeout(done, 300))").await?;
+            let seen: Vec<(usize, u64)> = serde_json::from_value(page.js("return window.seen").await?)?;
+            let height = page.js("return document.querySelector('.budget').offsetHeight").await?;
+            let height = height.as_u64().unwrap();
+            assert_eq!(seen[0].0, 0, "it is seen before the first result");
+            assert!(height > 100 && seen.iter().all(|each| each.1 == height), "{address}: {seen:?}");
+            // Bars, table and the note on how the parts are counted are the same on both pages.
+            let parts = listed(page, ".budget > *, .budget details > *", "localName").await?;
+            let parts: Vec<String> = serde_json::from_value(parts)?;
+            assert_eq!(parts[1..], ["p", "p", "div", "p", "div", "details", "summary", "table", "p"]);
+            Ok(())
+        })?;
+    }
+    Ok(())
+}
+
+#[test]
 fn what_cannot_be_shown_is_said() -> Result {
     visit("/embed.html#preset=unobtainium", DESKTOP, async |page| {
         let wrong = [
