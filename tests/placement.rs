@@ -70,6 +70,27 @@ fn every_place_is_what_a_whole_run_there_says() {
     assert!(seen[0] > 3 && seen[2] > 0 && seen[3] > 3, "the map has every kind of place: {seen:?}");
 }
 
+/// A bracket with drilled holes: the largest force acts in plunges that are shorter than the distance of
+/// even stations.
+#[test]
+fn short_stretches_of_large_force_count() {
+    let opening = Job::opening().unwrap();
+    let survey = PlacementMap::new(&opening).unwrap();
+    for [x, y] in [[1900.0, -40.0], [1125.0, -520.0], [1600.0, 600.0]] {
+        let place = survey.at(Vector3::new(x, y, 700.0) * 1e-3);
+        let mut there = opening.clone();
+        there.workpiece_frame.xyz_mm = [x, y, 700.0];
+        let run = armill::run(&there, &mut armill::Progress::none()).unwrap();
+        let whole = run.summary().before_mm.deflection.max;
+        // Even stations alone are 55 % off.
+        assert!(
+            (place.max / 1e-3 / whole - 1.0).abs() < 0.05,
+            "{x}, {y}: {} of {whole} mm",
+            place.max / 1e-3
+        );
+    }
+}
+
 #[test]
 fn the_present_place_is_on_the_map_and_the_extent_holds_all_that_can_be_reached() {
     let survey = PlacementMap::new(&job([0.0, 500.0, 400.0], &[])).unwrap();

@@ -197,10 +197,16 @@ impl Trajectory {
     /// A few stations instead of every sample, for searches over many poses. They are evenly spaced
     /// along the path, each at the full speed of its move.
     pub fn stations(path: &Path, limits: &MotionLimits, count: usize) -> Self {
+        let even = |k: usize| path.length() * k as f64 / (count - 1) as f64;
+        Self::stations_at(path, limits, &(0..count).map(even).collect::<Vec<_>>())
+    }
+
+    /// The same at arc lengths of choice [m], which rise.
+    pub fn stations_at(path: &Path, limits: &MotionLimits, arc_lengths: &[f64]) -> Self {
+        let count = arc_lengths.len();
         let mut timing = TimingLaw::with_capacity(count);
         let mut position = Vec::with_capacity(count);
-        for k in 0..count {
-            let s = path.length() * k as f64 / (count - 1) as f64;
+        for &s in arc_lengths {
             let place = path.locate(s);
             let step = &path.moves()[place.0];
             timing.arc_length.push(s);

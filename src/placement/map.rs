@@ -1,15 +1,18 @@
 //! The contour error at a place for the part, for a map of places.
 //!
-//! A place is evaluated at [`STATIONS`] stations along the path instead of all samples, and with
-//! the cutting force alone: the shaper's contribution hardly depends on the place. The part keeps
-//! its orientation and the tool its fixed spin (for a free spin, the angle it is compared with).
+//! A place is evaluated at [`STATIONS`] stations along the path instead of all samples, and where a
+//! larger force acts between two of them, such as in a plunge; and with the cutting force alone: the
+//! shaper's contribution hardly depends on the place. The part keeps its orientation and the tool its
+//! fixed spin (for a free spin, the angle it is compared with).
 
+use crate::cutting::along;
 use crate::deviation::contour::MeanMax;
 use crate::deviation::{Reference, Source, Sources, simulate};
 use crate::error::Error;
 use crate::job::Job;
 use crate::math::Pose;
 use crate::motion::Trajectory;
+use crate::path::Path;
 use crate::plan::Plan;
 use crate::progress::Progress;
 use crate::report::singularity::{ANGLE_MARGIN, JUMP, SHOULDER_MARGIN};
@@ -22,6 +25,12 @@ use std::sync::Arc;
 /// Number of stations along the path. On smooth paths the largest error agrees with that over all
 /// samples within 2 % (tests/placement.rs).
 pub const STATIONS: usize = 121;
+/// Places between two stations at which the force is looked at.
+const BETWEEN: usize = 128;
+/// A force so much larger than at both stations around it has a station of its own, if it is at least
+/// this share of the largest.
+const LARGER: f64 = 1.02;
+const LARGE: f64 = 0.3;
 /// A joint that turns further from one station to the next has changed its branch [rad].
 const STATION_JUMP: f64 = 12.0 * JUMP;
 
@@ -55,8 +64,40 @@ pub struct Place {
 pub struct PlacementMap {
     /// The job's plan as it is, at stations.
     plan: Plan,
+    /// Arc lengths of the stations [m], rising.
+    stations: Vec<f64>,
     /// Current origin of the workpiece frame, in the cell [m].
     origin: Vector3<f64>,
+}
+
+/// The stations of a path.
+fn trajectory(path: &Path, setup: &Setup, stations: &[f64]) -> Arc<Trajectory> {
+    Arc::new(Trajectory::stations_at(path, &setup.limits, stations))
+}
+
+/// Arc lengths of the stations [m], rising: even ones, and where the force is larger between them.
+fn stations(setup: &Setup) -> Vec<f64> {
+    let dense = Trajectory::stations(&setup.path, &setup.limits, (STATIONS - 1) * BETWEEN + 1);
+    let forces = along::forces(&setup.path, &dense.timing, &setup.mean_force, &setup.loading);
+    let size: Vec<f64> = forces.iter().map(Vector3::norm).collect();
+    let largest = size.iter().copied().fold(0.0, f64::max);
+    let mut chosen = vec![0.0];
+    for from in (0..size.len() - 1).step_by(BETWEEN) {
+        let to = from + BETWEEN;
+        let most = (from..=to).fold(from, |most, k| if size[k] > size[most] { k } else { most });
+        if size[most] > LARGER * size[from].max(size[to]) && size[most] > LARGE * largest {
+            chosen.push(dense.timing.arc_length[most]);
+        }
+        chosen.push(dense.timing.arc_length[to]);
+    }
+    chosen
+}
+
+/// Mean of values along the path, by length.
+fn mean(arc_lengths: &[f64], values: &[Vector3<f64>]) -> f64 {
+    let steps = arc_lengths.windows(2).zip(values.windows(2));
+    let sum: f64 = steps.map(|(s, e)| (s[1] - s[0]) * (e[0].norm() + e[1].norm()) / 2.0).sum();
+    sum / arc_lengths[arc_lengths.len() - 1]
 }
 
 impl PlacementMap {
@@ -66,22 +107,25 @@ impl PlacementMap {
     /// See [`Setup::of`].
     pub fn new(job: &Job) -> Result<Self, Error> {
         let setup = Arc::new(Setup::of(job, &mut Progress::none())?);
-        let trajectory = Arc::new(Trajectory::stations(&setup.path, &setup.limits, STATIONS));
+        let stations = stations(&setup);
+        let trajectory = trajectory(&setup.path, &setup, &stations);
         let plan = Plan { robot: setup.robot.clone(), path: setup.path.clone(), trajectory, setup };
-        Ok(Self { plan, origin: Vector3::from(job.workpiece_frame.xyz_mm) * MM })
+        Ok(Self { plan, stations, origin: Vector3::from(job.workpiece_frame.xyz_mm) * MM })
     }
 
     /// Evaluates the path with the workpiece frame's origin at `xyz` in the cell [m].
     pub fn at(&self, xyz: Vector3<f64>) -> Place {
         let shift = self.plan.setup.base.inverse().direction(&(xyz - self.origin));
         let path = self.plan.path.placed(&Pose { position: shift, ..Pose::identity() });
-        let plan = self.plan.at_stations(path, STATIONS);
+        let trajectory = trajectory(&path, &self.plan.setup, &self.stations);
+        let plan = Plan { path, trajectory, ..self.plan.clone() };
         let Ok(joints) = plan.joints(&mut Progress::none()) else {
             return Place { max: f64::NAN, mean: f64::NAN, status: PlacementStatus::Unreachable };
         };
         let reference = Reference::along(&plan, Sources::only(Source::Deflection));
         let bent = simulate(&plan, &reference, &joints.q, &mut Progress::none());
-        let MeanMax { mean, max } = bent.statistics;
+        let MeanMax { max, .. } = bent.statistics;
+        let mean = mean(&self.stations, &bent.contour_error);
         let near = |margin: &Margin| {
             margin.wrist < ANGLE_MARGIN || margin.elbow < ANGLE_MARGIN || margin.shoulder < SHOULDER_MARGIN
         };

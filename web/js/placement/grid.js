@@ -47,8 +47,17 @@ export function gridOf([i, k, rest], values, count) {
  */
 export function placeAt(found, column, row) {
   const numbers = found[row];
-  if (!numbers) return null;
-  const [max, mean, mark] = numbers.subarray(3 * column, 3 * column + 3);
+  return numbers && placeIn(numbers, column);
+}
+
+/**
+ * One of the places whose numbers were found, by its index.
+ * @param {Float64Array} numbers
+ * @param {number} index
+ * @returns {Place}
+ */
+export function placeIn(numbers, index) {
+  const [max, mean, mark] = numbers.subarray(3 * index, 3 * index + 3);
   return { max, mean, mark };
 }
 

@@ -5,23 +5,23 @@ import { byId, debounced, make, makeSvg } from "../page/dom.js";
 import { formatNumber } from "../page/number.js";
 import { onSetting } from "../page/settings.js";
 import { lengthText, lengthUnit } from "../page/units.js";
-import { AXES, gridOf, placeAt, ranked } from "./grid.js";
+import { AXES, gridOf, placeAt, placeIn, ranked } from "./grid.js";
 import { legendItems } from "./legend.js";
 import { draw, scaleGradient } from "./map.js";
 import { survey } from "./pool.js";
 import { makeRanges } from "./ranges.js";
 import { tableParts } from "./table.js";
-import { prospect, spot } from "./words.js";
+import { prospect, sized, spot } from "./words.js";
 
 /**
  * @import { Present } from "../identify/panel.js"
- * @import { Cell, Drawn } from "./map.js"
+ * @import { Cell, Drawn, Place } from "./map.js"
  */
 
 /**
- * A map, the job and ranges it belongs to, and its plane.
+ * A map, the job and ranges it belongs to, its plane, and what was found where the part is now.
  *
- * @typedef {Drawn & { key: string | null, axes: number[], fixed: number }} Surveyed
+ * @typedef {Drawn & { key: string | null, axes: number[], fixed: number, now?: Place }} Surveyed
  */
 
 /**
@@ -114,7 +114,7 @@ export function makePlacement(node, { job, use }) {
     // The map does not depend on where the part is now.
     const json = JSON.stringify({ ...others, workpiece_frame: { ...frame, xyz_mm: [0, 0, 0] } });
     const key = JSON.stringify([json, plane, count, values]);
-    if (map?.key === key && !always) return show();
+    if (map?.key === key && !always) return restate(json, xyz);
     cursor = null;
     running?.abort();
     const mine = (running = new AbortController());
@@ -141,11 +141,12 @@ export function makePlacement(node, { job, use }) {
     try {
       await survey(
         json,
-        bands,
+        [...bands, Float64Array.from(xyz)],
         (index, numbers) => {
           if (mine !== running) return;
-          found[index] = numbers;
-          bar.value = ++done / rows.length;
+          if (map && index === rows.length) map.now = placeIn(numbers, 0);
+          else found[index] = numbers;
+          bar.value = ++done / (rows.length + 1);
           soon();
         },
         mine.signal,
@@ -159,6 +160,22 @@ export function makePlacement(node, { job, use }) {
     }
     running = null;
     cancel.disabled = bar.hidden = true;
+    show();
+  }
+
+  /**
+   * Finds out about another place of the part on the same map.
+   * @param {string} json
+   * @param {number[]} xyz
+   */
+  async function restate(json, xyz) {
+    const mine = map;
+    if (mine) mine.now = undefined;
+    show();
+    const keep = (/** @type {number} */ _, /** @type {Float64Array} */ numbers) => {
+      if (mine && mine === map) mine.now = placeIn(numbers, 0);
+    };
+    await survey(json, [Float64Array.from(xyz)], keep, new AbortController().signal).catch(() => {});
     show();
   }
 
@@ -180,14 +197,18 @@ export function makePlacement(node, { job, use }) {
     ramp.style.setProperty("background", scaleGradient());
     low.textContent = "0";
     high.textContent = `${lengthText(end)} ${lengthUnit()} and more`;
+    const { now } = map;
+    const better = top && !(now?.mark === 0 && now.max <= top.max);
     verdict.textContent = top
-      ? `Best on this map: ${spot(map, top.i, top.k)}, at most ${lengthText(top.max)} ${lengthUnit()} off the path before compensation.`
+      ? better
+        ? `Best on this map: ${sized(spot(map, top.i, top.k), top)}.`
+        : `${sized("No place on this map is better than where the part is", /** @type {Place} */ (now))}.`
       : limit !== undefined
         ? "Every place on this map violates a limit or is near a singularity."
         : running
           ? ""
           : "No place on this map is within reach.";
-    best.disabled = !top;
+    best.disabled = !better;
     best.onclick = () => top && put(top.i, top.k);
     tell();
     if (details.open) fillTable();

@@ -35,3 +35,11 @@ export function prospect({ max, mean, mark }) {
   const also = mark ? `; ${MARKS[mark]}` : "";
   return `at most ${lengthText(max)} ${lengthUnit()}, mean ${lengthText(mean)}${also}`;
 }
+
+/**
+ * A place and how far off the path the tip would be.
+ * @param {string} where
+ * @param {Place} place
+ */
+export const sized = (where, { max }) =>
+  `${where}, at most ${lengthText(max)} ${lengthUnit()} off the path before compensation`;
