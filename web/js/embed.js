@@ -32,6 +32,8 @@ let options; // what the host page asks for
 let scene; // if it is asked for
 /** @type {Job} */
 let job;
+/** @type {Form | undefined} */
+let form;
 let origin = ""; // what there is to say about the job of a link, until it is changed
 let missing = ""; // what the host page asks for and there is none of
 
@@ -76,6 +78,7 @@ function cannotStart(error) {
 /** @param {Shown} shown */
 function show({ summary, charts }) {
   showFigures(summary);
+  form?.takeProgram(summary.program);
   scene?.show(summary);
   showSurface(summary);
   showFeedRule(summary.feed_rule);
@@ -148,7 +151,8 @@ try {
     origin = "The link’s job was computed with an earlier model; figures differ. ";
   calculator.open(job);
   calculator.compute(); // while the form is built
-  calculator.form = new Form(byId("form"), job, fields, hello.presets, edited);
+  calculator.form = form = new Form(byId("form"), job, fields, hello.presets, edited);
+  form.takeProgram(calculator.shown?.summary.program);
   for (const group of /** @type {NodeListOf<HTMLDetailsElement>} */ (document.querySelectorAll(".group")))
     group.open = !options.inputs.includes("all");
   showPanel(byId("panel-embed"));

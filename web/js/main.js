@@ -51,6 +51,8 @@ let job;
 let session;
 /** @type {ReturnType<typeof makeTabs>} */
 let tabs;
+/** @type {Form | undefined} */
+let form;
 /** @type {string} */
 let arm; // the robot of the inputs, by its key
 /** @type {{ job: JobData, opening: JobData }} */
@@ -126,6 +128,7 @@ function showFigures() {
   if (!shown) return;
   showSummary(shown.summary, (patch) => session.load(merged(job.data, patch)));
   showProgram(shown.summary.program, shown.summary.duration_s);
+  form?.takeProgram(shown.summary.program);
   compare.show();
 }
 
@@ -293,7 +296,7 @@ async function open() {
   job = new Job(hello.opening, hello);
   calculator.open(job);
   byId("version").textContent = `v${hello.version}`;
-  const form = new Form(byId("form"), job, hello.fields, hello.presets, typed);
+  form = new Form(byId("form"), job, hello.fields, hello.presets, typed);
   calculator.form = form;
   byId("group-robot").querySelector("legend")?.after(armView.node);
   byId("group-path").querySelector("legend")?.after(programTools(opening.useProgram, status.warn));

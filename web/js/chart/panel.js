@@ -201,13 +201,15 @@ function put(place, list) {
   if (!as) place.replaceChildren(...list.map((figure) => figure.node));
 }
 
-document.body.append(
-  make(
-    "p",
-    { id: "chart-keys", className: "hidden-text" },
-    "Left and right arrows move the cursor, Page Up and Page Down by a tenth, Home and End to the ends of what is " +
-      "shown. Plus and minus zoom, zero shows all, Shift and arrows pan. S selects a stretch: press it at both ends. " +
-      "Enter leads to the line of the program, " +
-      "Escape takes the cursor away. The button Table shows the values as a table.",
-  ),
-);
+document
+  .querySelector("main")
+  ?.append(
+    make(
+      "p",
+      { id: "chart-keys", className: "hidden-text" },
+      "Left and right arrows move the cursor, Page Up and Page Down by a tenth, Home and End to the ends of what is " +
+        "shown. Plus and minus zoom, zero shows all, Shift and arrows pan. S selects a stretch: press it at both ends. " +
+        "Enter leads to the line of the program, " +
+        "Escape takes the cursor away. The button Table shows the values as a table.",
+    ),
+  );

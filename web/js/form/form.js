@@ -13,7 +13,7 @@ import { Mistake } from "./number-cell.js";
 import { goTo, label, makeRow, retype, setError, typedIn, unfold } from "./row.js";
 
 /**
- * @import { Field, Presets } from "../../pkg/armill.js"
+ * @import { Field, Presets, Understood } from "../../pkg/armill.js"
  * @import { Failure } from "../core/client.js"
  * @import { JobData } from "../job/data.js"
  * @import { Job } from "../job/job.js"
@@ -31,6 +31,8 @@ export class Form {
   #robots;
   #groups;
   #note;
+  /** @type {Understood | undefined} */
+  #program;
   /** @type {Row[]} */
   #rows;
 
@@ -113,13 +115,27 @@ export class Form {
         row.editor.write(this.#job.get(row.field));
       row.reset.classList.toggle("idle", !this.#job.changed(row.field));
       if (row.editor.meaning) label(row);
-      this.#note(row, robot);
+      this.#note(row, robot, this.#program);
     }
     for (const row of this.#rows) {
       const read = row.mistake ? "" : row.editor.understood?.();
       row.understood.textContent = read ? `= ${read}` : "";
     }
     this.#digest();
+  }
+
+  /**
+   * Says beside feed and speed what the program of the shown result states itself.
+   * @param {Understood | undefined} program
+   */
+  takeProgram(program) {
+    this.#program = program;
+    this.#renote();
+  }
+
+  #renote() {
+    const robot = this.#robot;
+    for (const row of this.#rows) this.#note(row, robot, this.#program);
   }
 
   /**

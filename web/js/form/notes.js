@@ -1,15 +1,27 @@
 // What is said below a field of the value that it has: where it comes from, what follows from it.
 
 import { FROM_STOCK } from "../job/job.js";
+import { plainNumber } from "../page/number.js";
+import { shownUnit, shownValue } from "./shown.js";
 
 /**
- * @import { Presets, RobotPreset } from "../../pkg/armill.js"
+ * @import { Presets, RobotPreset, Understood } from "../../pkg/armill.js"
  * @import { Job } from "../job/job.js"
  * @import { Row } from "./row.js"
  */
 
 /**
- * `noteRow(row, robot)` writes the note of a row; `robot` is the library's, if the job has one.
+ * What a program states itself, and the field that this takes the place of.
+ * @type {Record<string, (program: Understood) => [number, number] | undefined>}
+ */
+const STATED = {
+  "motion.feed_mm_s": ({ feeds_mm_s }) => feeds_mm_s,
+  "cutting.spindle_rpm": ({ spindle_rpm }) => spindle_rpm,
+};
+
+/**
+ * `noteRow(row, robot, program)` writes the note of a row; `robot` is the library's, if the job has one, and `program`
+ * what the core understood of the path, if it is one.
  * @param {Job} job
  * @param {Presets} presets
  */
@@ -19,10 +31,12 @@ export function makeNotes(job, { robots, materials }) {
   /**
    * @param {Row} row
    * @param {RobotPreset | undefined} robot
+   * @param {Understood | undefined} program
    */
-  return function noteRow(row, robot) {
+  return function noteRow(row, robot, program) {
     const { field, note } = row;
     if (field.path === "robot.joint_compliance_rad_per_nm") noteCompliance(row, robot, job.changed(field));
+    else if (STATED[field.path]) note.textContent = program ? stated(row, STATED[field.path](program)) : "";
     else if (field.path === "workpiece_frame.xyz_mm") note.textContent = robot?.world_note ?? "";
     else if (field.path === "cutting.engagement") noteEngagement(row, job.hasStock, job.get(field) === FROM_STOCK);
     else note.textContent = field.kind === "choice" ? (ofPresets[job.get(field)] ?? "") : "";
@@ -38,6 +52,18 @@ export function makeNotes(job, { robots, materials }) {
 function noteCompliance({ node, note }, robot, given) {
   note.textContent = robot && !given ? robot.stiffness_note : "";
   node.classList.toggle("assumed", Boolean(robot?.stiffness_assumed && !given));
+}
+
+/**
+ * A number of the program goes before the job's.
+ * @param {Row} row
+ * @param {[number, number] | undefined} range
+ */
+function stated({ field }, range) {
+  if (!range) return "The program states none: this one is used.";
+  const [least, most] = range.map((value) => plainNumber(shownValue(value, field.unit)));
+  const span = least === most ? least : `${least} to ${most}`;
+  return `The program states ${span} ${shownUnit(field.unit)}, which is used; this one only where it states none.`;
 }
 
 /**
