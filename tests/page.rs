@@ -32,6 +32,8 @@ mod identify;
 mod inputs;
 #[path = "page/loading.rs"]
 mod loading;
+#[path = "page/offline.rs"]
+mod offline;
 #[path = "page/part.rs"]
 mod part;
 #[path = "page/personas.rs"]

@@ -15,6 +15,7 @@ import { makeTitle } from "./job/title.js";
 import { setCursor } from "./page/cursor.js";
 import { byId } from "./page/dom.js";
 import { download } from "./page/download.js";
+import { keepOffline } from "./page/offline.js";
 import { openPanels, rememberPanels, restoreGroups } from "./page/open-panels.js";
 import { setLines } from "./page/program-lines.js";
 import { onSetting } from "./page/settings.js";
@@ -114,6 +115,7 @@ function show(shown) {
     performance.mark("first result"); // read by benches
     byId("fingerprint").dataset.seen = "yes";
     compare.restore();
+    keepOffline();
   }
   scene.show(shown.summary);
   judgeTakeAway(shown);

@@ -19,6 +19,9 @@ export async function readText(path) {
 /** Whether embed.html is beside the page. */
 export const EMBEDDABLE = true;
 
+/** The script that keeps the site in the browser; a worker serves the folder that it is in. */
+export const SERVICE_WORKER = "service-worker.js";
+
 /** The core, fetched and compiled. */
 export async function compileCore() {
   const answer = await fetch(urlOf("pkg/armill_bg.wasm"));

@@ -12,6 +12,9 @@ export async function readText(path) {
 /** Whether embed.html is beside the page. */
 export const EMBEDDABLE = false;
 
+/** One file needs no keeping. */
+export const SERVICE_WORKER = undefined;
+
 /** The compiled core. */
 export function compileCore() {
   const packed = Uint8Array.from(atob(textOf("core")), (character) => character.charCodeAt(0));

@@ -4,6 +4,7 @@ pub(crate) mod folder;
 mod policy;
 pub(crate) mod core;
 mod modules;
+mod offline;
 mod page;
 mod standalone;
 
@@ -34,9 +35,11 @@ pub(crate) fn build() -> Result<PathBuf> {
     core::weigh(&pkg.join(core::MODULE), core::LIMITS)?;
     let (web, joined) = (root.join("web"), root.join("target/page"));
     page::join(&web, &pkg, &joined)?;
-    mirror(&joined, &site, &[PKG, STANDALONE])?;
+    mirror(&joined, &site, &[PKG, STANDALONE, offline::WORKER])?;
     mirror(&pkg, &site.join(PKG), &[])?;
     update(standalone::page(&web, &pkg)?.as_bytes(), &site.join(STANDALONE))?;
+    // Last, because it names the content of all other files.
+    update(offline::script(&web, &pkg, &site)?.as_bytes(), &site.join(offline::WORKER))?;
     println!("The site is in target/site");
     Ok(site)
 }
