@@ -6,6 +6,8 @@
 #[path = "page/browser.rs"]
 pub mod browser;
 mod common;
+#[path = "gallery/cards.rs"]
+mod cards;
 #[path = "page/accessibility.rs"]
 mod accessibility;
 #[path = "page/arm.rs"]
@@ -24,6 +26,8 @@ mod embed;
 mod firefox;
 #[path = "page/first_screen.rs"]
 mod first_screen;
+#[path = "page/gallery.rs"]
+mod gallery;
 #[path = "page/hostile.rs"]
 mod hostile;
 #[path = "page/identify.rs"]

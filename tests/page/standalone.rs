@@ -5,6 +5,7 @@ use std::path::Path;
 use serde_json::json;
 
 use crate::browser::{DESKTOP, Result, visit};
+use crate::cards::job;
 use crate::common::run;
 use crate::{current, shows, text};
 
@@ -31,6 +32,14 @@ fn the_one_file_page_works_from_disk() -> Result {
         assert!(text(page, "understood").await?.contains("the tool axis turns"));
         page.click("#download-compensated").await?;
         assert!(page.downloaded("rim-compensated-path.csv").await?.starts_with("time_s,"));
+        // So is the gallery, with its pictures.
+        let shown = "return [...document.querySelectorAll('.card img')].filter((image) => image.naturalWidth === 640).length";
+        assert_eq!(page.js(shown).await?, 8);
+        for name in ["climb", "thesis"] {
+            page.js(&format!("document.querySelector('#card-{name} h2 a').click()")).await?;
+            shows(page, &armill::run(&job(name), &mut armill::Progress::none())?).await?;
+        }
+        page.wait_for("scrollY === 0", 10.0).await?;
         Ok(())
     })
 }

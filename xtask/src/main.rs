@@ -14,6 +14,7 @@ mod reproduce;
 mod audit;
 mod bench;
 mod picture;
+mod gallery;
 
 use std::env;
 use std::process::ExitCode;
@@ -27,6 +28,7 @@ usage: cargo xtask <command>
   serve            build it and serve it on this machine, from port 8080 on
   docs             build the documentation, with the calculator in it, in target/docs
   picture          take the README's picture of the page, docs/page.png
+  gallery          take the gallery's pictures, web/gallery/*.webp
   npm              make the package for npm in target/npm
   test             check formatting, lints and types, run all tests: native, in Node, in the browser, through the page
   test --native    only what needs neither Node nor a browser
@@ -57,6 +59,7 @@ fn run(arguments: &[String]) -> Result<()> {
         ["serve"] => server::serve(&site::build()?),
         ["docs"] => docs::build().map(|_| ()),
         ["picture"] => picture::take(),
+        ["gallery"] => gallery::take(),
         ["npm"] => npm::package().map(|_| ()),
         ["test"] => checks::all(),
         ["test", "--native"] => checks::native(),

@@ -8,13 +8,12 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail};
 use base64::Engine;
-use base64::prelude::{BASE64_STANDARD, BASE64_URL_SAFE_NO_PAD};
-use flate2::{Compression, write::ZlibEncoder};
+use base64::prelude::BASE64_STANDARD;
 use serde_json::{Value, json};
 
 use crate::browser::Driver;
 use crate::server::Server;
-use crate::site;
+use crate::site::{self, gallery::link};
 use crate::workspace;
 
 /// The browser's capabilities, those of the page tests.
@@ -31,48 +30,89 @@ const LIMIT: Duration = Duration::from_secs(60);
 const READY: &str = "return document.querySelector('#results').dataset.state === 'current' \
                      && document.querySelector('svg .series path') !== null";
 
-/// Builds the site, opens it with `docs/bracket.json` and writes `docs/page.png`.
+/// The built site, open in a browser.
+pub(crate) struct Visit {
+    server: Server,
+    driver: Driver,
+    session: String,
+}
+
+impl Visit {
+    /// Builds the site and starts a browser.
+    ///
+    /// # Errors
+    /// If the site does not build, or there is no browser.
+    pub(crate) fn start() -> Result<Visit> {
+        let server = Server::start_anywhere(&site::build()?)?;
+        let driver = Driver::start()?;
+        let capabilities: Value = serde_json::from_str(CAPABILITIES)?;
+        let asked = json!({ "capabilities": { "alwaysMatch": capabilities } });
+        let session = send(&driver, "POST", "/session", &asked)?;
+        let session = session["sessionId"].as_str().context("chromedriver opened no session")?.to_owned();
+        Ok(Visit { server, driver, session })
+    }
+
+    /// Opens the page with this fragment in a view of this size [CSS pixels], and waits for its result.
+    ///
+    /// # Errors
+    /// If the page shows no result in time.
+    pub(crate) fn open(&self, fragment: &str, (width, height): (u32, u32)) -> Result<()> {
+        // The window's frame takes some of its size, so the view's own is set.
+        let view = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+        self.devtools("Emulation.setDeviceMetricsOverride", view)?;
+        // Another fragment alone would not load the page again.
+        self.post("/url", json!({ "url": "about:blank" }))?;
+        self.post("/url", json!({ "url": format!("{}#{fragment}", self.server.url) }))?;
+        let start = Instant::now();
+        while self.js(READY)? != json!(true) {
+            if start.elapsed() > LIMIT {
+                bail!("the page showed no result within {} s", LIMIT.as_secs());
+            }
+            thread::sleep(Duration::from_millis(100));
+        }
+        // The accuracy as a program and the remaining charts follow the result.
+        thread::sleep(Duration::from_secs(4));
+        Ok(())
+    }
+
+    /// Runs the body of a JavaScript function in the page and returns its result.
+    ///
+    /// # Errors
+    /// If it throws.
+    pub(crate) fn js(&self, body: &str) -> Result<Value> {
+        self.post("/execute/sync", json!({ "script": body, "args": [] }))
+    }
+
+    /// Takes a picture, as the DevTools protocol's `Page.captureScreenshot` is asked for it.
+    ///
+    /// # Errors
+    /// If the browser takes none.
+    pub(crate) fn picture(&self, options: Value) -> Result<Vec<u8>> {
+        let picture = self.devtools("Page.captureScreenshot", options)?;
+        Ok(BASE64_STANDARD.decode(picture["data"].as_str().context("the browser took no picture")?)?)
+    }
+
+    fn devtools(&self, command: &str, parameters: Value) -> Result<Value> {
+        self.post("/goog/cdp/execute", json!({ "cmd": command, "params": parameters }))
+    }
+
+    fn post(&self, path: &str, body: Value) -> Result<Value> {
+        send(&self.driver, "POST", &format!("/session/{}{path}", self.session), &body)
+    }
+}
+
+/// Opens the page with `docs/bracket.json` and writes `docs/page.png`.
 ///
 /// # Errors
 /// If the site does not build, there is no browser, or the page shows no result in time.
 pub(crate) fn take() -> Result<()> {
     let root = workspace::root()?;
-    let server = Server::start_anywhere(&site::build()?)?;
-    let driver = Driver::start()?;
-    let capabilities: Value = serde_json::from_str(CAPABILITIES)?;
-    let asked = json!({ "capabilities": { "alwaysMatch": capabilities } });
-    let session = send(&driver, "POST", "/session", &asked)?;
-    let id = session["sessionId"].as_str().context("chromedriver opened no session")?;
-    let post = |path: &str, body: Value| send(&driver, "POST", &format!("/session/{id}{path}"), &body);
-
-    // The window's frame takes some of its size, so the view's own is set.
-    let view = json!({ "width": SIZE.0, "height": SIZE.1, "deviceScaleFactor": 1, "mobile": false });
-    let command = json!({ "cmd": "Emulation.setDeviceMetricsOverride", "params": view });
-    post("/goog/cdp/execute", command)?;
-    let job = fs::read_to_string(root.join("docs/bracket.json"))?;
-    post("/url", json!({ "url": format!("{}#{}", server.url, link(&job)?) }))?;
-    let start = Instant::now();
-    while post("/execute/sync", json!({ "script": READY, "args": [] }))? != json!(true) {
-        if start.elapsed() > LIMIT {
-            bail!("the page showed no result within {} s", LIMIT.as_secs());
-        }
-        thread::sleep(Duration::from_millis(100));
-    }
-    // The accuracy as a program and the remaining charts follow the result.
-    thread::sleep(Duration::from_secs(4));
-    let picture = send(&driver, "GET", &format!("/session/{id}/screenshot"), &Value::Null)?;
-    let bytes = BASE64_STANDARD.decode(picture.as_str().context("chromedriver took no picture")?)?;
-    let file = root.join("docs/page.png");
-    fs::write(&file, &bytes)?;
+    let visit = Visit::start()?;
+    visit.open(&link(&fs::read_to_string(root.join("docs/bracket.json"))?)?, SIZE)?;
+    let bytes = visit.picture(json!({ "format": "png" }))?;
+    fs::write(root.join("docs/page.png"), &bytes)?;
     println!("The picture is in docs/page.png ({} kB)", bytes.len() / 1000);
     Ok(())
-}
-
-/// The fragment that opens the page with a job, see `web/js/job/link.js`.
-fn link(job: &str) -> Result<String> {
-    let mut packed = ZlibEncoder::new(Vec::new(), Compression::default());
-    packed.write_all(job.as_bytes())?;
-    Ok(format!("job=2.{}", BASE64_URL_SAFE_NO_PAD.encode(packed.finish()?)))
 }
 
 /// Sends one WebDriver command and returns its value.
@@ -112,19 +152,4 @@ fn send(driver: &Driver, method: &str, path: &str, body: &Value) -> Result<Value
         bail!("chromedriver: {message}");
     }
     Ok(reply["value"].take())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use flate2::read::ZlibDecoder;
-
-    #[test]
-    fn a_link_holds_the_whole_job() {
-        let link = link("{\"version\":1}").unwrap();
-        let packed = BASE64_URL_SAFE_NO_PAD.decode(link.strip_prefix("job=2.").unwrap()).unwrap();
-        let mut job = String::new();
-        ZlibDecoder::new(packed.as_slice()).read_to_string(&mut job).unwrap();
-        assert_eq!(job, "{\"version\":1}");
-    }
 }

@@ -216,8 +216,9 @@ export class Session {
    */
   #moved() {
     const named = exampleIn(location.hash, this.#examples);
+    if (!named && !holdsJob(location.hash)) return autosave.keepHere(this.#state);
+    scrollTo({ top: 0 }); // the link may stand far below what it opens
     if (named) return this.#show({ job: named }, true);
-    if (!holdsJob(location.hash)) return autosave.keepHere(this.#state);
     this.#openLink((why) => {
       this.#unlink();
       this.#warn(`${why} The inputs are as they were.`);

@@ -3,6 +3,7 @@
 pub(crate) mod folder;
 mod policy;
 pub(crate) mod core;
+pub(crate) mod gallery;
 mod modules;
 mod offline;
 mod page;

@@ -8,13 +8,14 @@ use std::path::Path;
 use anyhow::{Context, Result, bail, ensure};
 
 use super::folder::{entries, mirror, update};
+use super::gallery::with_jobs;
 use super::modules::Script;
 
 /// The entry scripts of the pages and the Worker. `main.js` shares the modules of `start.js`, which
 /// runs first.
 const START: &str = "js/start.js";
 const MAIN: &str = "js/main.js";
-const OTHERS: [&str; 2] = ["js/embed.js", "js/worker.js"];
+const OTHERS: [&str; 3] = ["js/embed.js", "js/gallery.js", "js/worker.js"];
 
 /// Files that stay separate: the element that other pages import, and the styles without
 /// JavaScript.
@@ -47,7 +48,7 @@ pub(super) fn join(web: &Path, pkg: &Path, folder: &Path) -> Result<()> {
             let styles =
                 format!("css/{}.css", entry.with_extension("").file_name().unwrap_or_default().display());
             let (html, css) = with_one_stylesheet(&fs::read_to_string(&entry)?, &styles, &read)?;
-            write(&name.to_string_lossy(), html)?;
+            write(&name.to_string_lossy(), with_jobs(&html, web)?)?;
             write(&styles, css)?;
         } else if entry.is_file() {
             fs::copy(&entry, &twin).with_context(|| format!("cannot copy {}", entry.display()))?;

@@ -10,6 +10,7 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 
 use super::core::{MODULE, compressed};
+use super::gallery;
 use super::modules::Script;
 use super::page::text_of;
 use super::policy::{Hashes, META};
@@ -41,6 +42,7 @@ pub(super) fn page(web: &Path, pkg: &Path) -> Result<String> {
         .filter(|line| !BESIDE.iter().any(|start| line.trim_start().starts_with(start)))
         .collect();
     let html = html.replace("\"icon.svg\"", &format!("\"{icon}\""));
+    let html = gallery::within(&html, web)?;
     let html = replaced(&html, "<link rel=\"stylesheet\" href=\"", ">", |rest| {
         let (file, media) = rest.split_once('"').context("a stylesheet without an address")?;
         Ok(format!("<style{media}>{}</style>", hashes.style(read(Path::new(file))?)?))
