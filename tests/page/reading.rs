@@ -172,7 +172,18 @@ fn on_paper_it_is_a_report() -> Result {
         current(page).await?;
         page.wait_for("document.querySelector('#chart-before-after svg.plot')", 20.0).await?;
         page.js("document.querySelector('#open-settings').click(); document.activeElement.blur()").await?;
+        assert_eq!(page.js("return document.getElementById('paper').checkVisibility()").await?, false);
         page.devtools("Emulation.setEmulatedMedia", json!({ "media": "print" })).await?;
+        // What it is about, when it was printed, and a link that opens the job again.
+        page.wait_for(
+            "dispatchEvent(new Event('beforeprint')) && document.querySelector('#paper a[href*=\"#job=2.\"]')",
+            20.0,
+        )
+        .await?;
+        let head = page.text("#paper").await?;
+        let year = page.js("return String(new Date().getFullYear())").await?;
+        assert!(head.contains("Armill") && head.contains(year.as_str().unwrap_or("no year")), "{head}");
+        let link = page.js("return document.querySelector('#paper a').href").await?;
         let seen = async |css: &str| {
             page.js(&format!(
                 "return [...document.querySelectorAll('{css}')].some(element => element.checkVisibility())"
@@ -206,6 +217,9 @@ fn on_paper_it_is_a_report() -> Result {
         }
         let paper = page.devtools("Page.printToPDF", json!({ "preferCSSPageSize": true })).await?;
         assert!(paper["data"].as_str().is_some_and(|data| data.len() > 10_000));
+        page.js("location.href = 'about:blank'").await?;
+        page.js(&format!("location.href = {link}")).await?;
+        shows(page, &run(&[])).await?;
         Ok(())
     })
 }

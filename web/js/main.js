@@ -26,6 +26,7 @@ import { followTheme } from "./page/theme.js";
 import { makePlacement } from "./placement/panel.js";
 import { makeCompare } from "./result/compare.js";
 import { judgeTakeAway, makeTakeAway } from "./result/export.js";
+import { makePaper, preparePaper } from "./result/paper.js";
 import { showProgram } from "./result/program.js";
 import { shareDialog } from "./result/share.js";
 import { showSummary, showUnits } from "./result/summary.js";
@@ -119,6 +120,7 @@ function show(shown) {
   }
   scene.show(shown.summary);
   judgeTakeAway(shown);
+  preparePaper(shown);
   identify.look();
   placement.look();
   for (const id of OF_RESULT) disable(id, shown.preview);
@@ -281,6 +283,7 @@ function wire() {
 function wireResultTools() {
   /** @param {(shown: Shown) => void} act */
   const withShown = (act) => () => calculator.shown && act(calculator.shown);
+  makePaper();
   const share = shareDialog();
   byId("share").addEventListener(
     "click",
