@@ -9,6 +9,8 @@ import { showSurface } from "./surface.js";
 import { showWarnings } from "./warnings.js";
 import { errorText, forceText, forceUnit, largeText, lengthText, lengthUnit } from "../page/units.js";
 
+const LONG = 150; // letters of a verdict from which on they are smaller
+
 /** @import { Remedy, Statistics, Summary, ThesisRow, Warning } from "../../pkg/armill.js" */
 
 /** @typedef {(patch: Remedy["patch"]) => void} Apply changes the job by the merge patch of a warning's remedy */
@@ -40,6 +42,7 @@ export function showSummary(summary, apply) {
   const { before_mm: before, after_mm: after } = summary;
   showUnits();
   byId("verdict").textContent = summary.verdict;
+  byId("verdict").classList.toggle("long", summary.verdict.length > LONG);
   byId("results").dataset.verdict = summary.verdict_state;
   put("before-mean", before.both.mean, lengthText);
   put("before-max", before.both.max, largeText);
