@@ -141,14 +141,24 @@ fn small_jobs_read_back() {
 
 #[test]
 fn every_example_reads_back() {
-    for (file, kind) in examples() {
-        let report = run(&example(&file, &kind));
+    let reads_back = |file: &str, kind: &str| {
+        let report = run(&example(file, kind));
         for thinning in [1e-6, 1e-5] {
             for id in ["gcode", "apt", "path-csv"] {
                 if id != "gcode" || !report.plan.path.is_multi_axis() {
-                    is_the_compensated_path(&file, &report, id, thinning);
+                    is_the_compensated_path(file, &report, id, thinning);
                 }
             }
         }
-    }
+    };
+    let all = examples();
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for first in 0..threads {
+            let (all, reads_back) = (&all, &reads_back);
+            scope.spawn(move || {
+                all.iter().skip(first).step_by(threads).for_each(|(file, kind)| reads_back(file, kind));
+            });
+        }
+    });
 }
