@@ -55,6 +55,7 @@ pub mod surface;
 pub mod report;
 pub mod placement;
 pub mod simulation;
+pub mod study;
 pub mod identify;
 pub mod chart;
 pub mod export;

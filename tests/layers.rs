@@ -7,7 +7,7 @@ use std::path::Path;
 /// The modules from left to right. The job is read first, but its fields and its setup name things
 /// that the stages offer (robots, materials, shapes), so these stand to its left. `column` is the
 /// currency of report, charts and files.
-const ORDER: [&str; 26] = [
+const ORDER: [&str; 27] = [
     "math",
     "units",
     "spread",
@@ -30,6 +30,7 @@ const ORDER: [&str; 26] = [
     "report",
     "placement",
     "simulation",
+    "study",
     "identify",
     "chart",
     "export",

@@ -1,0 +1,144 @@
+//! Answers questions about a job (the default job without a file): how its errors follow one number
+//! or two, how large a number may be, which robot does it best. Prints one JSON object, or the rows
+//! as CSV.
+//!
+//! ```sh
+//! cargo run --release --example study -- [job.json] --vary cutting.axial_depth_mm=0.5:5:20 [--vary ..]
+//! cargo run --release --example study -- [job.json] --largest cutting.axial_depth_mm=0.1:10 --quantity p95
+//! cargo run --release --example study -- [job.json] --robots [--place kept|front]
+//! ```
+
+use armill::study::{ErrorMeasure, LargestQuestion, PartPlace, ValueRange, robots, sweep};
+use armill::{Error, Job};
+use serde_json::{Value, json};
+use std::process::ExitCode;
+
+const USAGE: &str = "study [job.json] (--vary path=from:to:count[:log] [--vary ..] | --largest path=from:to \
+                     [--quantity nominal|p95|uncompensated] | --robots [--place kept|front]) [--csv]";
+
+/// What is asked on the command line.
+#[derive(Default)]
+struct Asked {
+    job: Option<String>,
+    vary: Vec<String>,
+    largest: Option<String>,
+    quantity: Option<String>,
+    robots: bool,
+    place: Option<String>,
+    csv: bool,
+}
+
+impl Asked {
+    fn read(mut arguments: impl Iterator<Item = String>) -> Result<Self, String> {
+        let mut asked = Self::default();
+        while let Some(argument) = arguments.next() {
+            let mut value = || arguments.next().ok_or(format!("{argument} needs a value"));
+            match argument.as_str() {
+                "--vary" => asked.vary.push(value()?),
+                "--largest" => asked.largest = Some(value()?),
+                "--quantity" => asked.quantity = Some(value()?),
+                "--robots" => asked.robots = true,
+                "--place" => asked.place = Some(value()?),
+                "--csv" => asked.csv = true,
+                other if other.starts_with('-') => return Err(format!("unknown option {other}")),
+                _ if asked.job.is_some() => return Err("one job file at a time".into()),
+                file => asked.job = Some(file.to_owned()),
+            }
+        }
+        let questions = usize::from(!asked.vary.is_empty())
+            + usize::from(asked.largest.is_some())
+            + usize::from(asked.robots);
+        match questions {
+            1 => Ok(asked),
+            _ => Err("one question at a time: --vary, --largest or --robots".into()),
+        }
+    }
+
+    fn place(&self) -> Result<PartPlace, Error> {
+        match self.place.as_deref() {
+            None | Some("kept") => Ok(PartPlace::Kept),
+            Some("front") => Ok(PartPlace::InFront),
+            Some(other) => Err(Error::unknown_name("place", other, "one of", ["kept", "front"])),
+        }
+    }
+
+    fn answer(&self, job: &Job) -> Result<Value, Error> {
+        if let Some(text) = &self.largest {
+            let quantity = ErrorMeasure::named(self.quantity.as_deref().unwrap_or("p95"))?;
+            return Ok(json!(LargestQuestion::read(text, quantity)?.answer(job)?));
+        }
+        if self.robots {
+            return Ok(json!({ "robots": robots(job, self.place()?)? }));
+        }
+        let ranges: Vec<ValueRange> =
+            self.vary.iter().map(|text| ValueRange::read(text)).collect::<Result<_, _>>()?;
+        Ok(json!({ "vary": ranges, "rows": sweep(job, &ranges)? }))
+    }
+}
+
+fn main() -> ExitCode {
+    let asked = match Asked::read(std::env::args().skip(1)) {
+        Ok(asked) => asked,
+        Err(message) => return usage(&message),
+    };
+    let text = match asked.job.as_deref().map(std::fs::read_to_string) {
+        None => Job::default().to_json(),
+        Some(Ok(text)) => text,
+        Some(Err(error)) => return usage(&format!("{}: {error}", asked.job.unwrap_or_default())),
+    };
+    match Job::from_json(&text).and_then(|job| asked.answer(&job)) {
+        Ok(answer) => {
+            let text = if asked.csv {
+                csv(&answer)
+            } else {
+                serde_json::to_string_pretty(&answer).unwrap_or_default()
+            };
+            use std::io::Write;
+            // A reader that closed the pipe early (`| head`) is not an error.
+            let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("{}", json!(error));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// The rows of an answer: a column for each key that a row of this kind can have.
+fn csv(answer: &Value) -> String {
+    let numbers = ["value", "second"];
+    let arm = ["id", "name", "payload_kg", "reach_mm", "stiffness", "duration_s", "force_n"];
+    let (rows, keys): (Vec<&Value>, Vec<&str>) = if let Some(rows) = answer["robots"].as_array() {
+        (rows.iter().collect(), arm.into_iter().chain(OUTCOME).collect())
+    } else if let Some(rows) = answer["rows"].as_array() {
+        let count = answer["vary"].as_array().map_or(1, Vec::len);
+        (rows.iter().collect(), numbers.into_iter().take(count).chain(OUTCOME).collect())
+    } else {
+        (vec![answer], vec!["path", "largest", "quantity", "tolerance_mm", "holds"])
+    };
+    let cell = |value: &Value| match value {
+        Value::Null => String::new(),
+        Value::String(text) if text.contains([',', '"', '\n']) => {
+            format!("\"{}\"", text.replace('"', "\"\""))
+        }
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    };
+    let line = |row: &Value| keys.iter().map(|key| cell(&row[*key])).collect::<Vec<_>>().join(",");
+    let mut text = keys.join(",") + "\n";
+    for row in rows {
+        text += &line(row);
+        text += "\n";
+    }
+    text
+}
+
+/// Keys of an outcome.
+const OUTCOME: [&str; 7] =
+    ["before_max_mm", "after_max_mm", "p50_mm", "p95_mm", "verdict_state", "cannot_run", "error"];
+
+fn usage(message: &str) -> ExitCode {
+    eprintln!("{}", json!({ "code": "usage", "message": message, "usage": USAGE }));
+    ExitCode::FAILURE
+}

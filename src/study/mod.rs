@@ -1,0 +1,21 @@
+//! Questions about a job that one run does not answer: how deep may I go, what if, which robot?
+//!
+//! A question and its answer are values. Every run of an answer is a plain [`run`](crate::run) of a
+//! changed job, so it equals that run bit for bit, whatever the number of threads. A run that fails
+//! is a point of the answer, not its end.
+
+mod at_once;
+mod largest;
+mod outcome;
+mod range;
+mod robots;
+mod sweep;
+mod varied;
+
+pub use at_once::at_once;
+pub use largest::{ErrorMeasure, Holds, LargestAnswer, LargestQuestion};
+pub use outcome::Outcome;
+pub use range::ValueRange;
+pub use robots::{PartPlace, RobotRow, robots};
+pub use sweep::{SweepRow, sweep};
+pub use varied::VariedJob;

@@ -1,0 +1,224 @@
+//! Questions about a job: their answers against plain runs, one by one.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+mod common;
+
+use armill::study::{
+    ErrorMeasure, Holds, LargestQuestion, Outcome, PartPlace, ValueRange, VariedJob, at_once, robots, sweep,
+};
+use armill::{Error, Job, Progress};
+use common::job_text;
+use serde_json::{Value, json};
+use std::process::Command;
+
+/// The default job, coarsely sampled, and without its shaper, so that all errors are by force.
+fn quick(changes: &[(&'static str, Value)]) -> Job {
+    let mut all = vec![("shaper", json!("none")), ("motion.sample_time_s", json!(0.01))];
+    all.extend(changes.iter().cloned());
+    Job::from_json(&job_text(&all)).unwrap()
+}
+
+fn range(text: &str) -> ValueRange {
+    ValueRange::read(text).unwrap()
+}
+
+#[test]
+fn a_sweep_is_single_runs_in_their_order() {
+    let job = quick(&[]);
+    let rows = sweep(&job, &[range("cutting.axial_depth_mm=1:9:5"), range("motion.feed_mm_s=40:160:3:log")])
+        .unwrap();
+    assert_eq!(rows.len(), 15);
+    for (k, row) in rows.iter().enumerate() {
+        let (depth, feed) = ([1.0, 3.0, 5.0, 7.0, 9.0][k / 3], [40.0, 80.0, 160.0][k % 3]);
+        assert_eq!(row.value, depth);
+        assert!((row.second.unwrap() / feed - 1.0).abs() < 1e-12, "{:?}", row.second);
+        let changes =
+            [("cutting.axial_depth_mm", json!(depth)), ("motion.feed_mm_s", json!(row.second.unwrap()))];
+        let run = armill::run(&quick(&changes), &mut Progress::none()).unwrap();
+        assert_eq!(row.outcome.before_max_mm.unwrap().to_bits(), run.summary().before_mm.both.max.to_bits());
+        assert_eq!(row.outcome.after_max_mm.unwrap().to_bits(), run.summary().after_mm.max.to_bits());
+        assert_eq!(row.outcome.p95_mm.unwrap().to_bits(), run.summary().expected_mm.p95.to_bits());
+    }
+    // Whatever runs beside it.
+    let alone: Vec<_> =
+        (0..3).map(|_| sweep(&job, &[range("motion.feed_mm_s=40:160:3:log")]).unwrap()).collect();
+    let beside = at_once(3, |_| sweep(&job, &[range("motion.feed_mm_s=40:160:3:log")]).unwrap());
+    assert_eq!(alone, beside);
+}
+
+#[test]
+fn a_value_that_cannot_be_run_is_a_row() {
+    let rows = sweep(&quick(&[]), &[range("path.radius_mm=300:1500:3")]).unwrap();
+    assert!(rows[0].outcome.before_max_mm.is_some() && rows[0].outcome.error.is_none());
+    let error = rows[2].outcome.error.as_ref().unwrap();
+    assert!(rows[2].outcome.p95_mm.is_none() && error.contains("reach"), "{error}");
+    let rows = sweep(&quick(&[]), &[range("cutting.axial_depth_mm=-1:1:3")]).unwrap();
+    assert!(rows[0].outcome.error.as_ref().unwrap().contains("axial_depth_mm"));
+    assert!(rows[2].outcome.error.is_none());
+    // An element of a list, by its index.
+    let rows = sweep(&quick(&[]), &[range("workpiece_frame.xyz_mm.2=0:20:2")]).unwrap();
+    assert_ne!(rows[0].outcome.before_max_mm, rows[1].outcome.before_max_mm);
+}
+
+#[test]
+fn what_is_no_number_of_a_job_is_refused_with_its_name() {
+    let wrong = |text: &str| sweep(&quick(&[]), &[range(text)]).unwrap_err();
+    let Error::UnknownKey { field, nearest, .. } = wrong("cutting.axial_deph_mm=1:2:3") else { panic!() };
+    assert_eq!(
+        (field.as_str(), nearest.as_deref()),
+        ("cutting.axial_deph_mm", Some("cutting.axial_depth_mm"))
+    );
+    assert!(
+        ValueRange::read("cutting.axial_depth_mm=1:2").unwrap_err().to_string().contains("from:to:count")
+    );
+    assert!(ValueRange::read("a=0:2:3:log").is_err() && ValueRange::read("a=1:2:0").is_err());
+    assert!(LargestQuestion::read("a=2:1", ErrorMeasure::P95).is_err());
+    let index = VariedJob::new(&quick(&[])).unwrap().with([("workpiece_frame.xyz_mm.3", 1.0)]).unwrap_err();
+    assert!(index.to_string().contains("0 to 2"), "{index}");
+}
+
+/// Jobs of all kinds: below the answer the tolerance is met, above it is not.
+#[test]
+fn the_largest_value_agrees_with_runs_on_both_sides() {
+    let mut random = fastrand::Rng::with_seed(19);
+    let mut between = |low: f64, high: f64| low + (high - low) * random.f64();
+    let mut seen = 0;
+    let numbers = [
+        ("cutting.axial_depth_mm", 0.1, 15.0),
+        ("motion.feed_mm_s", 5.0, 400.0),
+        ("cutting.radial_depth_mm", 0.2, 9.0),
+    ];
+    for k in 0..50 {
+        let (path, from, to) = numbers[k % 3];
+        let quantity = [ErrorMeasure::Uncompensated, ErrorMeasure::P95][k % 2];
+        let changes = vec![
+            ("path.radius_mm", json!(between(60.0, 250.0))),
+            ("tool.diameter_mm", json!(between(10.0, 20.0))),
+            ("cutting.engagement", json!(["climb", "conventional"][k / 3 % 2])),
+            ("cutting.radial_depth_mm", json!(between(2.0, 8.0))),
+            ("cutting.axial_depth_mm", json!(between(1.0, 6.0))),
+            ("cutting.feed_per_tooth_mm", json!("from_feed")),
+            ("cutting.spindle_rpm", json!(between(4000.0, 12000.0))),
+            ("compensation.tolerance_mm", json!(between(0.05, 0.6))),
+            ("uncertainty.draws", json!(200)),
+        ];
+        let job = quick(&changes);
+        let answer = LargestQuestion { path: path.into(), from, to, quantity }.answer(&job).unwrap();
+        let tolerance = job.compensation.tolerance_mm;
+        let at = |value: f64| {
+            let mut changed = changes.clone();
+            changed.push((path, json!(value)));
+            quantity.of(&Outcome::of(&quick(&changed)))
+        };
+        let Some(largest) = answer.largest else {
+            assert_eq!(answer.holds, Holds::Nowhere, "{path}");
+            assert!(at(from).is_none_or(|error| error > tolerance));
+            continue;
+        };
+        assert!(at(largest).unwrap() <= tolerance, "{path} = {largest}");
+        assert_eq!(answer.at_largest.as_ref().and_then(|outcome| quantity.of(outcome)), at(largest));
+        if largest < to {
+            seen += 1;
+            assert!(at(largest * 1.001).is_none_or(|error| error > tolerance), "{path} = {largest}");
+        }
+        assert!(answer.runs <= 17 + 20 * answer.crossings.len() + 1, "{} runs", answer.runs);
+    }
+    assert!(seen >= 25, "only {seen} answers lie inside their range");
+}
+
+#[test]
+fn a_job_that_no_value_mends_is_refused_with_its_error() {
+    let job = quick(&[("cutting.radial_depth_mm", json!(3))]);
+    let question = LargestQuestion::read("cutting.axial_depth_mm=0.1:9", ErrorMeasure::P95).unwrap();
+    assert_eq!(question.answer(&job).unwrap_err().field(), Some("cutting.engagement"));
+}
+
+/// The error falls and rises again with the height of the part; where it does not depend on a number
+/// there is no crossing.
+#[test]
+fn more_than_one_crossing_and_none_are_said() {
+    let path = "workpiece_frame.xyz_mm.2";
+    let values: Vec<f64> = (0..60).map(|k| -350.0 + 12.0 * f64::from(k)).collect();
+    let errors: Vec<f64> = at_once(values.len(), |k| plain_z(values[k]).unwrap_or(f64::INFINITY));
+    let (low, high) = (errors.iter().copied().fold(f64::INFINITY, f64::min), errors[0].max(errors[59]));
+    let tolerance = (low + high.min(3.0 * low)) / 2.0;
+    let job = quick(&[("compensation.tolerance_mm", json!(tolerance))]);
+    let question = |path: &str, from: f64, to: f64| LargestQuestion {
+        path: path.into(),
+        from,
+        to,
+        quantity: ErrorMeasure::Uncompensated,
+    };
+    let answer = question(path, -350.0, 358.0).answer(&job).unwrap();
+    let changes = errors.windows(2).filter(|pair| (pair[0] <= tolerance) != (pair[1] <= tolerance)).count();
+    assert_eq!(answer.crossings.len(), changes, "{answer:?}");
+    assert_eq!(answer.holds, Holds::Partly);
+    // There is no rapid move on a circle.
+    let flat = question("motion.rapid_mm_s", 100.0, 300.0).answer(&job).unwrap();
+    assert!(flat.crossings.is_empty());
+    let now = plain_z(0.0).unwrap();
+    let everywhere = now <= tolerance;
+    assert_eq!(flat.holds, if everywhere { Holds::Everywhere } else { Holds::Nowhere });
+    assert_eq!(flat.largest, everywhere.then_some(300.0));
+}
+
+fn plain_z(z: f64) -> Option<f64> {
+    ErrorMeasure::Uncompensated.of(&Outcome::of(&quick(&[("workpiece_frame.xyz_mm", json!([0, 0, z]))])))
+}
+
+#[test]
+fn rows_of_robots_are_single_runs() {
+    let mut opening = Job::opening().unwrap();
+    opening.motion.sample_time_s = 0.05;
+    let kept = robots(&opening, PartPlace::Kept).unwrap();
+    assert_eq!(kept.len(), armill::robot::library::robots().count());
+    for row in kept.iter().step_by(9) {
+        let mut text: Value = serde_json::from_str(&opening.to_json()).unwrap();
+        text["robot"] = json!({ "preset": row.id });
+        let alone = Outcome::of(&Job::from_json(&text.to_string()).unwrap());
+        assert_eq!(row.outcome, alone, "{}", row.id);
+    }
+    let cannot = kept.iter().filter(|row| row.outcome.error.is_some()).count();
+    assert!(cannot > 0 && cannot < kept.len(), "some arms do not reach it: {cannot}");
+    assert!(
+        kept.iter().any(|row| row.stiffness == "guessed")
+            && kept.iter().any(|row| row.stiffness != "guessed")
+    );
+    let front = robots(&opening, PartPlace::InFront).unwrap();
+    let runs =
+        |rows: &[armill::study::RobotRow]| rows.iter().filter(|row| row.outcome.error.is_none()).count();
+    assert!(runs(&front) > runs(&kept), "each arm has its own place");
+}
+
+/// The script's answers are those of the library.
+#[test]
+fn the_script_prints_the_same() {
+    let file = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("study.json");
+    std::fs::write(&file, quick(&[]).to_json()).unwrap();
+    let run = |arguments: &[&str]| {
+        Command::new(env!("CARGO"))
+            .args(["run", "--quiet", "--locked", "--example", "study", "--"])
+            .arg(&file)
+            .args(arguments)
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .output()
+            .unwrap()
+    };
+    let text = |output: &std::process::Output| String::from_utf8_lossy(&output.stdout).into_owned();
+    let printed: Value =
+        serde_json::from_str(&text(&run(&["--vary", "cutting.axial_depth_mm=1:5:3"]))).unwrap();
+    let rows = sweep(&quick(&[]), &[range("cutting.axial_depth_mm=1:5:3")]).unwrap();
+    // Read by the same reader, which may round the last digit.
+    assert_eq!(printed["rows"], serde_json::from_str::<Value>(&json!(rows).to_string()).unwrap());
+    let csv = text(&run(&["--vary", "cutting.axial_depth_mm=1:5:3", "--csv"]));
+    assert_eq!(csv.lines().count(), 4);
+    assert!(csv.starts_with("value,before_max_mm,after_max_mm,p50_mm,p95_mm,verdict_state,"), "{csv}");
+    let largest = run(&["--largest", "cutting.axial_depth_mm=0.1:10", "--quantity", "uncompensated"]);
+    let printed: Value = serde_json::from_str(&text(&largest)).unwrap();
+    assert_eq!(printed["quantity"], "uncompensated");
+    assert!(printed["crossings"].is_array() && printed["tolerance_mm"].is_number());
+    let refused = run(&["--largest", "cutting.axial_depth_mm=0.1:10", "--quantity", "best"]);
+    assert!(!refused.status.success() && String::from_utf8_lossy(&refused.stderr).contains("uncompensated"));
+    let unclear = run(&["--robots", "--vary", "a=1:2:3"]);
+    assert!(String::from_utf8_lossy(&unclear.stderr).contains("one question at a time"));
+}
