@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync, readdirSync } from "node:fs";
 import { test } from "node:test";
-import { languageOf } from "../../web/js/form/language.js";
+import { languageOf, notRead } from "../../web/js/form/language.js";
 
 const here = (path) => new URL(path, import.meta.url);
 
@@ -38,4 +38,18 @@ test("the text tells more than the ending", () => {
 
 test("a word in a comment is no word of a program", () => {
   assert.equal(languageOf("", "; G1 is not used here\n1, 2, 3"), "csv");
+});
+
+test("a file of a kind that is not read is refused by its ending, and what is read is said", () => {
+  for (const [name, kind] of [
+    ["part.STEP", "a drawing or a model"],
+    ["bracket.v2.stl", "a drawing or a model"],
+    ["pocket.src", "a robot program"],
+    ["drawing.pdf", "a document"],
+  ]) {
+    const why = notRead(name) ?? "";
+    assert.ok(why.startsWith(`it is ${kind}.`) && /G-code, APT .* CSV, .* JSON/.test(why), `${name}: ${why}`);
+  }
+  for (const name of ["step", "src", "program", "part.nc", "part.cls", "points.txt", "bracket.step.nc", ""])
+    assert.equal(notRead(name), undefined, name);
 });

@@ -1,7 +1,7 @@
 //! Programs on the page: dropped, followed from chart to line and back, kept when rejected, and
 //! long ones.
 
-use crate::browser::{DESKTOP, Page, Result, THESIS, visit};
+use crate::browser::{DESKTOP, Key, Page, Result, THESIS, visit};
 use crate::common::program::{opened_example, own_cutting};
 use crate::common::{job_text, run};
 use crate::{current, shows, stale, text};
@@ -271,5 +271,71 @@ fn an_opened_program_brings_a_stock() -> Result {
             .await?;
         page.wait_for("document.querySelector('#path-kind').value === 'apt'", 20.0).await?;
         current(page).await
+    })
+}
+
+/// What a dragged file does: its kind of event, and what the frame over the page is afterwards.
+const DRAGGED: &str = "const data = new DataTransfer(); \
+    data.items.add(new File(['1'], 'part.step')); \
+    const over = (kind, on, more) => { const event = new DragEvent(kind, \
+      { dataTransfer: data, bubbles: true, cancelable: true, ...more }); \
+      document.querySelector(on).dispatchEvent(event); \
+      const frame = document.getElementById('drop-zone'); \
+      return frame.checkVisibility() ? frame.textContent : '' };";
+
+/// A frame says what a drop would do while files are over the page, and only then; nothing moves for it.
+#[test]
+fn a_dragged_file_is_awaited_and_one_of_another_kind_refused() -> Result {
+    visit(THESIS, DESKTOP, async |page| {
+        current(page).await?;
+        let drag = async |what: &str| page.js(&format!("{DRAGGED} return {what}")).await;
+        let places =
+            "return [...document.querySelectorAll('main *')].map(each => each.getBoundingClientRect().top)";
+        let before = page.js(places).await?;
+        assert_eq!(drag("over('dragleave', 'body', {})").await?, "");
+        for dark in [false, true] {
+            page.prefer_dark(dark).await?;
+            assert_eq!(drag("over('dragover', '#verdict', {})").await?, "Drop a program or a job");
+            page.screenshot(&format!("drop-{dark}.png")).await?;
+        }
+        page.prefer_dark(false).await?;
+        assert_eq!(page.js(places).await?, before, "nothing moves");
+        // It takes no events, or the next dragover would be its own, and is silent.
+        let frame = page
+            .js("const frame = document.getElementById('drop-zone'); \
+                 return [getComputedStyle(frame).pointerEvents, Boolean(frame.closest('[aria-hidden=true]'))]")
+            .await?;
+        assert_eq!(frame, json!(["none", true]));
+        // From one element to the next it stays; out of the window it goes.
+        let to_next = "over('dragleave', '#verdict', { relatedTarget: document.body })";
+        assert_eq!(drag(to_next).await?, "Drop a program or a job");
+        assert_eq!(drag("over('dragleave', '#verdict', {})").await?, "");
+        assert_ne!(drag("over('dragover', '#verdict', {})").await?, "");
+        page.press(Key::Escape).await?;
+        assert_eq!(page.js("return document.getElementById('drop-zone').hidden").await?, true);
+        // Where measurements are taken it says so, and a text that is dragged is left alone.
+        assert_eq!(
+            drag("over('dragover', '#identify [data-drop] textarea', {})").await?,
+            "Drop measurements (CSV)"
+        );
+        assert_eq!(drag("over('drop', '#identify [data-drop] textarea', {})").await?, "");
+        assert_eq!(drag("over('dragover', '#verdict', { dataTransfer: new DataTransfer() })").await?, "");
+        // A model is no program: it says so, and the job stays as it was.
+        assert_ne!(drag("over('dragover', '#verdict', {})").await?, "");
+        assert_eq!(drag("over('drop', '#verdict', {})").await?, "");
+        page.wait_for(
+            "document.querySelector('#alert').textContent.includes('“part.step” was not opened')",
+            10.0,
+        )
+        .await?;
+        assert!(text(page, "alert").await?.contains("G-code, APT and CL files, points as CSV"));
+        assert_eq!(page.value("#path-kind").await?, "circle");
+        // Where programs are opened, and at the first screen's top, it is said before anything is dragged.
+        page.js("document.getElementById('group-path').open = true").await?;
+        for css in [".program-tools .drop-here", "#inputs-body > .drop-hint"] {
+            let seen = format!("return document.querySelector('{css}').checkVisibility()");
+            assert_eq!(page.js(&seen).await?, true, "{css}");
+        }
+        Ok(())
     })
 }

@@ -7,6 +7,24 @@ const ENDINGS = {
   gcode: ["nc", "ngc", "gcode", "g", "tap", "cnc", "mpf", "spf", "eia", "iso"],
 };
 
+/** @type {Record<string, string[]>} kinds of files that come with programs and are none that are read */
+const FOREIGN = {
+  "a drawing or a model": ["step", "stp", "stl", "igs", "iges", "dxf", "dwg", "3mf", "obj", "svg"],
+  "a robot program": ["src", "mod", "modx", "pgf", "ls", "jbi", "script", "urp", "pgx"],
+  "a document": ["pdf", "doc", "docx", "xls", "xlsx", "htm", "html", "xml"],
+};
+const READ = "Armill reads G-code, APT and CL files, points as CSV, and its own jobs as JSON.";
+
+/**
+ * Why a file of this name is not read; undefined if it may be.
+ * @param {string} name
+ */
+export function notRead(name) {
+  const ending = name.slice(name.lastIndexOf(".") + 1).toLowerCase();
+  const kind = Object.keys(FOREIGN).find((each) => name.includes(".") && FOREIGN[each].includes(ending));
+  return kind && `it is ${kind}. ${READ}`;
+}
+
 /**
  * The language of a program by its text; where that does not tell, by the ending of its name.
  * @param {string} name

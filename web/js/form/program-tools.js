@@ -4,7 +4,7 @@
 import { readText } from "../core/assets.js";
 import { make } from "../page/dom.js";
 import { timeOf } from "../page/program-lines.js";
-import { languageOf } from "./language.js";
+import { languageOf, notRead } from "./language.js";
 import { listing } from "./program-text.js";
 
 /** @import { Stock } from "../../pkg/armill.js" */
@@ -69,7 +69,8 @@ export function programTools(use, fail) {
       fail(message);
     }
   });
-  return make("div", { className: "program-tools" }, open, examples, file);
+  const hint = make("p", { className: "drop-here" }, "or drop a program here");
+  return make("div", { className: "program-tools" }, open, examples, file, hint);
 }
 
 /**
@@ -95,6 +96,8 @@ export async function textIn(file, fail) {
  * @param {(message: string) => void} fail
  */
 export async function openProgram(file, use, fail) {
+  const foreign = notRead(file.name);
+  if (foreign) return fail(`“${file.name}” was not opened: ${foreign}`);
   const text = await textIn(file, fail);
   if (text === undefined) return;
   if (await use(languageOf(file.name, text), text, { file: file.name })) listing.name = file.name;

@@ -46,13 +46,12 @@ export class Source {
     });
     this.node = make(
       "div",
-      { className: "source" },
+      { className: "source", "data-drop": "Drop measurements (CSV)" },
       make("div", { className: "identify-tools" }, open, show, file, ...more),
       this.#area,
       this.#note,
       this.#error,
     );
-    this.node.addEventListener("dragover", (event) => event.preventDefault());
     this.node.addEventListener("drop", async (event) => {
       const [dropped] = event.dataTransfer?.files ?? [];
       if (!dropped) return;

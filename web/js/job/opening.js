@@ -3,6 +3,7 @@
 import { isOfExample, openProgram, textIn } from "../form/program-tools.js";
 import { ask } from "../form/still-asked.js";
 import { byId } from "../page/dom.js";
+import { makeDropZone } from "../page/drop-zone.js";
 import { merged } from "./data.js";
 import { nameOfFile, named } from "./name.js";
 
@@ -114,12 +115,8 @@ export function makeOpening({ core, job, session, examples, warn }) {
 
   /** Files dropped anywhere on the page. */
   function wireDrop() {
-    addEventListener("dragover", (event) => event.preventDefault());
-    addEventListener("drop", (event) => {
-      event.preventDefault();
-      const [file] = event.dataTransfer?.files ?? [];
-      if (!file) return;
-      if (file.name.endsWith(".json")) openJob(file);
+    makeDropZone((file) => {
+      if (file.name.toLowerCase().endsWith(".json")) openJob(file);
       else openProgram(file, useProgram, warn);
     });
   }
