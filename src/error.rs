@@ -51,6 +51,19 @@ pub enum Error {
         /// What is allowed.
         expected: String,
     },
+    /// A sample time too short for how long the path takes.
+    TooManySamples {
+        /// JSON path of the sample time.
+        field: String,
+        /// The sample time [s].
+        value: f64,
+        /// The number of samples that it would give.
+        samples: f64,
+        /// The largest number of samples that is computed.
+        most: f64,
+        /// A sample time that gives few enough [s].
+        least: f64,
+    },
     /// A required key is missing.
     Missing {
         /// JSON path of the key.
@@ -134,7 +147,7 @@ impl Error {
             Error::Json { .. } => "json",
             Error::UnknownKey { .. } => "unknown-key",
             Error::OutOfRange { .. } => "out-of-range",
-            Error::Invalid { .. } => "invalid",
+            Error::Invalid { .. } | Error::TooManySamples { .. } => "invalid",
             Error::Missing { .. } => "missing",
             Error::Text { .. } => "text",
             Error::Unreachable { .. } => "unreachable",
@@ -149,6 +162,7 @@ impl Error {
             Error::UnknownKey { field, .. }
             | Error::OutOfRange { field, .. }
             | Error::Invalid { field, .. }
+            | Error::TooManySamples { field, .. }
             | Error::Missing { field, .. }
             | Error::Text { field, .. } => Some(field),
             Error::Unreachable { .. } | Error::BranchEnds { .. } => None,
@@ -205,6 +219,12 @@ impl fmt::Display for Error {
                 write!(f, "{field} is {value}{space}{unit}; it must be {min} to {max}{space}{unit}")
             }
             Error::Invalid { field, value, expected } => write!(f, "{field} is {}; {expected}", Short(value)),
+            Error::TooManySamples { field, value, samples, most, least } => write!(
+                f,
+                "{field} is {value}; the path would take {} samples, but at most {} are computed: use {least} s or more",
+                grouped(*samples),
+                grouped(*most)
+            ),
             Error::Missing { field, expected } => write!(f, "{field} is missing: {expected}"),
             Error::Text { line, column, found, expected, .. } => {
                 write!(f, "line {line}, column {column}: found {}; {expected}", Short(found))
@@ -284,6 +304,11 @@ impl Serialize for Error {
             object.serialize_entry("min", min)?;
             object.serialize_entry("max", max)?;
             object.serialize_entry("unit", unit)?;
+        }
+        if let Error::TooManySamples { value, least, .. } = self {
+            object.serialize_entry("value", value)?;
+            object.serialize_entry("min", least)?;
+            object.serialize_entry("unit", "s")?;
         }
         object.end()
     }

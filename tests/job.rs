@@ -181,6 +181,43 @@ fn mistakes_are_named() {
     }
 }
 
+/// The error of too many samples holds the least sample time that is accepted: it is, and two digits
+/// less are not. With a shaper, the waits in the many corners grow with it.
+#[test]
+fn too_many_samples_come_with_a_sample_time_that_is_enough() {
+    let corners: Vec<[f64; 3]> =
+        (0..3000).map(|k| [600.0 + f64::from(k % 2), f64::from(k / 2) * 0.1 - 80.0, 100.0]).collect();
+    let zigzag = json!({"kind":"polyline","points_mm":corners});
+    let line = json!({"kind":"line","from_mm":[500,0,100],"to_mm":[700,0,100]});
+    for (path, shaper, feed) in [(zigzag, "zvd", 50.0), (line, "none", 0.002)] {
+        let with = |sample_time: f64| {
+            let shaper = if shaper == "none" {
+                json!("none")
+            } else {
+                json!({"kind":"zvd","frequency_rad_s":18,"damping":0.1})
+            };
+            let job = job_text(&[
+                ("path", path.clone()),
+                ("shaper", shaper),
+                ("motion.feed_mm_s", json!(feed)),
+                ("motion.sample_time_s", json!(sample_time)),
+            ]);
+            let job = Job::from_json(&job).unwrap();
+            armill::setup::Setup::of(&job, &mut armill::Progress::none()).map(|_| ())
+        };
+        let given = 1e-4;
+        let error = with(given).unwrap_err();
+        let data = serde_json::to_value(&error).unwrap();
+        assert_eq!((data["code"].as_str(), data["unit"].as_str()), (Some("invalid"), Some("s")));
+        assert_eq!(data["field"], "motion.sample_time_s");
+        assert_eq!(data["value"], given);
+        let least = data["min"].as_f64().unwrap();
+        assert!(error.to_string().ends_with(&format!("use {least} s or more")), "{error}");
+        assert_eq!(with(least), Ok(()), "{shaper}");
+        assert!(with(0.9 * least).is_err(), "{shaper}: a tenth less would do too");
+    }
+}
+
 #[test]
 fn programs_are_paths_and_their_mistakes_are_placed() {
     let program = |kind: &str, text: &str| ("path", json!({"kind": kind, "text": text}));

@@ -23,8 +23,8 @@ pub use robot::robot;
 pub use stock::proposed as proposed_stock;
 
 use crate::cutting::{Bending, Cut, HeaviestPlace, Loading, MeanForces, StiffnessAlong};
-use crate::error::{Error, grouped};
-use crate::job::{CompensateAt, Frame, Job, Source, Sources, fields};
+use crate::error::Error;
+use crate::job::{CompensateAt, Frame, Job, Motion, Source, Sources, fields};
 use crate::math::Pose;
 use crate::model::MODEL;
 use crate::motion::joints::StartBranch;
@@ -198,12 +198,14 @@ impl Setup {
         let loading = if contacts.is_some() { Loading { run_in: 0.0, ..loading } } else { loading };
         let mean_force = MeanForces::of(&cut, contacts.as_ref());
         let bending = cutting::bending(&job.tool)?;
-        let limits = motion::limits(&job.motion, &shaper);
-        check_samples(&path, &limits)?;
+        let sampled =
+            |sample_time_s| motion::limits(&Motion { sample_time_s, ..job.motion.clone() }, &shaper);
+        let limits = sampled(job.motion.sample_time_s);
+        check_samples(&path, limits.sample_time, sampled)?;
         let (path, contacts, mean_force, feed_rule) =
             match feed_rule::held(job, &path, &mean_force, &loading)? {
                 Some((PathInStock { path, contacts, mean_force }, rule)) => {
-                    check_samples(&path, &limits)?;
+                    check_samples(&path, limits.sample_time, sampled)?;
                     (path, Some(contacts), mean_force, Some(rule))
                 }
                 None => (path, contacts, mean_force, None),
@@ -284,19 +286,38 @@ fn check_name(name: Option<&str>) -> Result<(), Error> {
     Ok(())
 }
 
-/// Refuses a job with too many samples.
-fn check_samples(path: &Path, limits: &MotionLimits) -> Result<(), Error> {
-    let samples = Trajectory::count(path, limits);
+/// Refuses a job with too many samples, with the least sample time that gives few enough, to two
+/// digits. Waits in corners may grow with the sample time, so that twice the time is not always half
+/// the samples: `limits` has them for each.
+fn check_samples(path: &Path, sample_time: f64, limits: impl Fn(f64) -> MotionLimits) -> Result<(), Error> {
+    let count = |time| Trajectory::count(path, &limits(time));
+    let samples = count(sample_time);
+    let mut least = sample_time;
+    let mut still = samples;
+    while still > MAX_SAMPLES && least <= 1.0 {
+        least = two_digits_up(least * still / MAX_SAMPLES);
+        still = count(least);
+    }
     if samples <= MAX_SAMPLES {
         return Ok(());
     }
-    let shortest = limits.sample_time * samples / MAX_SAMPLES;
-    let expected = format!(
-        "the path would take {} samples, but at most {} are computed: use {shortest:.4} s or more",
-        grouped(samples),
-        grouped(MAX_SAMPLES)
-    );
-    Err(Error::invalid("motion.sample_time_s", limits.sample_time, expected))
+    Err(Error::TooManySamples {
+        field: "motion.sample_time_s".into(),
+        value: sample_time,
+        samples,
+        most: MAX_SAMPLES,
+        least,
+    })
+}
+
+/// A time [s] rounded up to two digits. Powers of ten from 1 on are exact, so the result is the
+/// number that its decimals mean.
+fn two_digits_up(time: f64) -> f64 {
+    let mut per_second = 1e9;
+    while time * per_second > 100.0 && per_second > 1.0 {
+        per_second /= 10.0;
+    }
+    (time * per_second).ceil() / per_second
 }
 
 /// The sources to compensate as a set.

@@ -9,7 +9,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 const TYPES: &'static str = r#"
 export interface ArmillError extends Error {
   code: string; field?: string; line?: number; column?: number;
-  value?: number; min?: number; max?: number; unit?: string; // of a number out of range
+  value?: number; min?: number; max?: number; unit?: string; // of a number that has to be within min and max
 }
 "#;
 

@@ -1,7 +1,7 @@
 //! What cures a warning is a button beside it, and undo takes it back.
 
 use crate::browser::{DESKTOP, Result, THESIS, visit};
-use crate::common::job_text;
+use crate::common::{job_text, refused};
 use crate::current;
 use crate::hostile::drop_file;
 use serde_json::json;
@@ -33,5 +33,31 @@ fn a_remedy_is_applied_by_its_button_and_undone() -> Result {
         page.wait_for(&format!("{limit} && document.querySelector('#spin-angle_deg').value === '0'"), 20.0)
             .await?;
         Ok(())
+    })
+}
+
+/// A sample time too short for a long run comes with the least that is enough, as a button.
+#[test]
+fn too_many_samples_have_a_button_with_the_sample_time_that_is_enough() -> Result {
+    let refused = refused(&[("motion.feed_mm_s", json!(0.01))]);
+    let least = serde_json::to_value(&refused)?["min"].as_f64().ok_or("no limit")?;
+    visit(THESIS, DESKTOP, async |page| {
+        current(page).await?;
+        page.type_into("#motion-feed_mm_s", "0.01").await?;
+        page.wait_for("document.querySelector('#alert button')?.textContent.startsWith('Use ')", 20.0)
+            .await?;
+        assert!(page.text("#alert").await?.contains("samples, but at most"));
+        assert_eq!(page.text("#alert button").await?, format!("Use {least} s"));
+        page.click("#alert button").await?;
+        assert_eq!(page.value("#motion-sample_time_s").await?.parse::<f64>()?, least);
+        // It is accepted: two million samples would take long, so they are not waited for.
+        let accepted = "document.querySelector('#results').dataset.state === 'computing' \
+                        && !document.querySelector('#alert').textContent";
+        page.wait_for(accepted, 5.0).await?;
+        page.js("return new Promise(done => setTimeout(done, 1000))").await?;
+        page.wait_for(accepted, 1.0).await?;
+        page.click("#undo").await?;
+        page.click("#undo").await?;
+        current(page).await
     })
 }

@@ -37,8 +37,8 @@ export function showCoreError(rows, error, use) {
  * @param {(value: number) => void} use
  * @returns {Limit | undefined}
  */
-function limitOf({ field, editor }, { code, value = NaN, min, max }, use) {
-  if (code !== "out-of-range" || field.kind === "vector" || editor.inputs.length > 1) return undefined;
+function limitOf({ field, editor }, { value = NaN, min, max }, use) {
+  if (field.kind === "vector" || editor.inputs.length > 1) return undefined;
   const nearest = min !== undefined && value < min ? min : max;
   if (nearest === undefined) return undefined;
   return { label: `Use ${quantity(nearest, field.unit)}`, go: () => use(nearest) };
