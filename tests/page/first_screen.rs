@@ -164,7 +164,7 @@ const SLOT: &str = "G21 G90\nS6000 M3\nG0 X0 Y-40 Z20\nG1 Z-2 F1200\nY40 F900\nG
 fn a_new_job_lists_what_it_still_has_from_the_one_before() -> Result {
     visit("/", DESKTOP, async |page| {
         current(page).await?;
-        let listed = "[...document.querySelectorAll('#still-asked li')].map(each => each.textContent)";
+        let listed = "[...document.querySelectorAll('#still-asked li > button:first-child')].map(each => each.textContent)";
         let list = async || page.js(&format!("return {listed}")).await;
         assert_eq!(list().await?, json!([]), "nothing is asked about the example");
         page.js(&format!(

@@ -339,3 +339,28 @@ fn a_dragged_file_is_awaited_and_one_of_another_kind_refused() -> Result {
         Ok(())
     })
 }
+
+/// A program whose zero is in the robot's foot: nothing fails, so no remedy says so, but one click in the list
+/// of what is still asked about places the part where the core proposes.
+#[test]
+fn a_part_in_the_robot_s_foot_is_placed_in_front_by_one_click() -> Result {
+    visit(THESIS, DESKTOP, async |page| {
+        current(page).await?;
+        drop(page, "slot.nc", SLOT).await?;
+        page.wait_for("document.querySelector('#path-kind').value === 'gcode'", 20.0).await?;
+        current(page).await?;
+        let before = job("gcode", SLOT, 120.0);
+        let proposed = armill::placement::in_front(&armill::Job::from_json(&job_text(&before))?)?;
+        page.click("#place-asked").await?;
+        shows(page, &run(&[before, vec![("workpiece_frame", json!({ "xyz_mm": proposed }))]].concat()))
+            .await?;
+        let listed = "return document.getElementById('still-asked').textContent";
+        let listed = page.js(listed).await?;
+        let listed = listed.as_str().unwrap_or_default();
+        assert!(listed.contains("Tool frame") && !listed.contains("Part’s place"), "{listed}");
+        let focus = "return document.activeElement.parentElement.id";
+        assert_eq!(page.js(focus).await?, "group-frames", "the focus does not vanish with the button");
+        page.click("#undo").await?;
+        shows(page, &run(&job("gcode", SLOT, 120.0))).await
+    })
+}

@@ -5,7 +5,7 @@ import { chartTexts, fixChart, setCharts, showPanel } from "./chart/panel.js";
 import * as core from "./core/client.js";
 import { Form } from "./form/form.js";
 import { followCaret, followPaste, programTools } from "./form/program-tools.js";
-import { ask, showAsked } from "./form/still-asked.js";
+import { ask, offerPlace, showAsked } from "./form/still-asked.js";
 import { makeIdentify } from "./identify/panel.js";
 import { merged } from "./job/data.js";
 import { Job } from "./job/job.js";
@@ -169,13 +169,15 @@ function remedyFor({ code, field }) {
   return { label: "Place the path in front of this robot", go: placeInFront };
 }
 
-/** Moves the workpiece to where the robot reaches the whole path. */
+/** Moves the workpiece to where the robot reaches the whole path; false if there is no such place. */
 async function placeInFront() {
   try {
     session.load(merged(job.data, { workpiece_frame: { xyz_mm: [...(await core.placeInFront(job.text))] } }));
     byId("group-frames").open = true;
+    return true;
   } catch (error) {
     if (!error.fatal) status.warn(error.message);
+    return false;
   }
 }
 
@@ -308,6 +310,7 @@ async function open() {
   followPaste(opening.useProgram);
   followCaret((time) => setCursor(time, "program"));
   opening.wireDrop();
+  offerPlace(placeInFront);
   makeTakeAway(hello.fields, status.say, status.warn);
   restoreGroups();
   session = new Session({ job, form, examples, core, changed: edited, warn: status.warn });

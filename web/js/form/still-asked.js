@@ -15,6 +15,15 @@ const PARTS = {
 };
 const DEPTHS = ["Depths of cut", "cutting"]; // of a job without a stock, which would give them
 
+/** @type {() => Promise<boolean>} */
+let placeInFront = async () => false;
+
+/**
+ * `place()` puts the part in front of the robot, and says whether it did.
+ * @param {() => Promise<boolean>} place
+ */
+export const offerPlace = (place) => (placeInFront = place);
+
 /** @param {unknown} part */
 const textOf = (part) => JSON.stringify(part ?? null);
 
@@ -68,11 +77,29 @@ export function showAsked(data) {
   const links = parts.map(([name, group]) => {
     const button = make("button", { type: "button", className: "quiet" }, name);
     button.addEventListener("click", () => show(group));
-    return make("li", {}, button);
+    const isPlace = name === PARTS.workpiece_frame[0];
+    return make("li", {}, button, ...(isPlace ? [placeButton(data)] : []));
   });
   const confirm = make("button", { type: "button", id: "confirm-asked" }, "These are right");
   confirm.addEventListener("click", () => (keep({}), showAsked(data)));
   box.replaceChildren(make("p", {}, "Still from the job before. Check:"), make("ul", {}, ...links), confirm);
+}
+
+/**
+ * A program's zero may lie in the robot's foot, where the arm reaches it and nothing is wrong with the numbers. So
+ * a place in front is offered always.
+ * @param {import("../job/data.js").JobData} data
+ */
+function placeButton(data) {
+  const button = make("button", { type: "button", id: "place-asked" }, "Place it in front");
+  button.addEventListener("click", async () => {
+    if (!(await placeInFront())) return;
+    const { workpiece_frame: _, ...rest } = kept();
+    keep(rest); // also where it stood there before
+    showAsked(data);
+    show("frames"); // the button is gone, and with it the focus
+  });
+  return button;
 }
 
 /** @param {string} group */
