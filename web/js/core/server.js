@@ -173,7 +173,7 @@ function plain(error) {
     field,
     line,
     column,
-    ...(code === "out-of-range" && { value, min, max, unit }),
+    ...(value !== undefined && { value, min, max, unit }),
     fatal: error instanceof WebAssembly.RuntimeError,
   };
 }
