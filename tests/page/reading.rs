@@ -1,7 +1,7 @@
 //! Reading the page: units, colours, what is remembered; stable while it opens; explained; on
 //! paper; without JavaScript.
 
-use crate::browser::{DESKTOP, PHONE, Result, THESIS, visit};
+use crate::browser::{DESKTOP, Key, PHONE, Result, THESIS, visit};
 use crate::common::run;
 use crate::{current, number, shows, text};
 use serde_json::json;
@@ -134,6 +134,80 @@ fn nothing_moves_while_the_page_opens_and_typing_never_waits() -> Result {
             assert_eq!(pictures[pictures.len() - 1], json!(["123.456789", "computing"]));
             Ok(())
         })?;
+    }
+    Ok(())
+}
+
+/// A view that is opened by its address, and the embedded calculator, reserve room for all that a result brings.
+#[test]
+fn nothing_moves_where_the_budget_is_opened() -> Result {
+    let watch = "window.shifts = []; \
+        new PerformanceObserver((list) => window.shifts.push(...list.getEntries().map((entry) => entry.value)))\
+          .observe({ type: 'layout-shift', buffered: true });";
+    // From another page: only a new document runs the script.
+    for (before, address, size) in [
+        ("/embed.html", "/#view=budget", DESKTOP),
+        ("/embed.html", "/#view=budget", PHONE),
+        ("/", "/embed.html#show=budget", DESKTOP),
+        ("/", "/embed.html#show=budget&inputs=none&charts=none", DESKTOP),
+    ] {
+        visit(before, size, async |page| {
+            page.devtools("Page.addScriptToEvaluateOnNewDocument", json!({ "source": watch })).await?;
+            page.goto(address).await?;
+            page.wait_for("document.querySelectorAll('#budget-table tbody tr').length > 8", 30.0).await?;
+            current(page).await?;
+            page.js("return new Promise(done => setTimeout(done, 1000))").await?;
+            let shift = page.js("return window.shifts.reduce((sum, each) => sum + each, 0)").await?;
+            assert!(shift.as_f64().unwrap() < 0.01, "layout shift {shift} at {address}, {size:?}");
+            Ok(())
+        })?;
+    }
+    Ok(())
+}
+
+/// Counts what a screen reader would say: each time that a live region comes to hold another text.
+const LISTEN: &str = "window.said = []; const live = '[aria-live]:not([aria-live=off]), [role=status], [role=alert]'; \
+    new MutationObserver((changes) => { \
+      const regions = new Set(changes.map(({ target }) => (target.closest ? target : target.parentElement)?.closest(live))); \
+      for (const region of regions) if (region?.textContent.trim() && region.checkVisibility()) \
+        window.said.push(region.textContent.trim()) \
+    }).observe(document.body, { subtree: true, childList: true, characterData: true });";
+
+/// Keys pressed in a row are answered once, with what has been settled on.
+#[test]
+fn settled_results_are_announced_once() -> Result {
+    for address in ["/", THESIS] {
+        for slid in [false, true] {
+            visit(address, DESKTOP, async |page| {
+                current(page).await?;
+                page.wait_for("document.getElementById('announced').textContent", 20.0).await?;
+                page.js("return new Promise(done => setTimeout(done, 2000))").await?;
+                page.js(&format!(
+                    "document.getElementById('group-motion').open = true; {LISTEN} document.querySelector('#motion-feed_mm_s').focus()"
+                ))
+                .await?;
+                let before = page.value("#motion-feed_mm_s").await?;
+                if slid {
+                    page.js("const slider = document.querySelector('.field:has(#motion-feed_mm_s) input[type=range]'); \
+                         const slide = () => (slider.value -= 4, slider.dispatchEvent(new Event('input'))); \
+                         return new Promise(done => [0, 1, 2, 3, 4].forEach(k => \
+                           setTimeout(() => (slide(), k === 4 && done()), 80 * k)))")
+                        .await?;
+                } else {
+                    page.press(Key::Up.to_string().repeat(5)).await?;
+                }
+                assert_ne!(page.value("#motion-feed_mm_s").await?, before, "slid: {slid}");
+                page.js("return new Promise(done => setTimeout(done, 500))").await?;
+                current(page).await?;
+                page.js("return new Promise(done => setTimeout(done, 3000))").await?;
+                let said: Vec<String> = serde_json::from_value(page.js("return window.said").await?)?;
+                let settled = [text(page, "verdict").await?, text(page, "status").await?].join(" ");
+                assert!(!said.is_empty() && said.len() <= 2, "{address} {slid}: {said:#?}");
+                let whole = said.join(" ");
+                assert!(whole.contains(&settled), "{whole}, not {settled}");
+                Ok(())
+            })?;
+        }
     }
     Ok(())
 }

@@ -9,6 +9,7 @@ import { Form } from "./form/form.js";
 import { merged } from "./job/data.js";
 import { Job } from "./job/job.js";
 import { fragmentOf } from "./job/link.js";
+import { announce } from "./page/announce.js";
 import { byId } from "./page/dom.js";
 import { lend } from "./page/settings.js";
 import * as status from "./page/status.js";
@@ -78,6 +79,7 @@ function cannotStart(error) {
 /** @param {Shown} shown */
 function show({ summary, charts }) {
   showFigures(summary);
+  announce("verdict", summary.verdict);
   form?.takeProgram(summary.program);
   scene?.show(summary);
   showSurface(summary);
@@ -142,6 +144,7 @@ try {
   byId("form").addEventListener("submit", (event) => event.preventDefault());
   if (options.theme !== "auto") document.documentElement.dataset.theme = options.theme;
   byId("results").dataset.views = [...options.charts, ...options.show].filter((name) => name !== "none").join(" ");
+  byId("results").dataset.inputs = options.inputs.filter((name) => name !== "none").join(" ");
   furnish();
   const hello = await core.start(calculator.events);
   const fields = fieldsIn(hello.fields, options.inputs);

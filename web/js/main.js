@@ -12,6 +12,7 @@ import { Job } from "./job/job.js";
 import { makeOpening } from "./job/opening.js";
 import { Session } from "./job/session.js";
 import { makeTitle } from "./job/title.js";
+import { announce } from "./page/announce.js";
 import { setCursor } from "./page/cursor.js";
 import { byId } from "./page/dom.js";
 import { download } from "./page/download.js";
@@ -121,6 +122,7 @@ function show(shown) {
   scene.show(shown.summary);
   judgeTakeAway(shown);
   preparePaper(shown);
+  if (!shown.preview) announce("verdict", shown.summary.verdict);
   identify.look();
   placement.look();
   for (const id of OF_RESULT) disable(id, shown.preview);

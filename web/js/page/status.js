@@ -1,5 +1,6 @@
 // How the calculator's state is shown: an attribute for the styles, one line of status, one alert.
 
+import { announce } from "./announce.js";
 import { byId, make, sentence } from "./dom.js";
 
 /** @typedef {{ label: string, go: () => void }} Remedy what a button beside a message does */
@@ -11,10 +12,13 @@ import { byId, make, sentence } from "./dom.js";
 export const become = (state) => (byId("results").dataset.state = state);
 
 /**
- * The line of status.
+ * The line of status; it is read out once the page has settled.
  * @param {string} text
  */
-export const say = (text) => (byId("status").textContent = text);
+export function say(text) {
+  byId("status").textContent = text;
+  announce("status", text);
+}
 
 /**
  * Shows what is wrong, with a button for its `remedy` { label, go }, if there is one.

@@ -1,6 +1,7 @@
 // Export of the program: the controller, the program's accuracy, and its files.
 
 import * as core from "../core/client.js";
+import { announce } from "../page/announce.js";
 import { byId, make } from "../page/dom.js";
 import { download } from "../page/download.js";
 
@@ -114,14 +115,14 @@ const label = () => {
 /** @param {number} quiet [ms] */
 function judgeSoon(quiet) {
   const line = byId("as-program");
-  line.textContent = "";
+  state(line, "");
   line.classList.remove("bad");
   showRemarks([]);
   clearTimeout(waiting);
   const { value } = byId("export-format");
   if (!shown || shown.preview || OTHERS[value]) return; // nothing is promised
   if (shown.took > LONG_MS)
-    line.textContent = "A program has its own timing, so its accuracy may differ; it is simulated on export.";
+    state(line, "A program has its own timing, so its accuracy may differ; it is simulated on export.");
   else waiting = setTimeout(judge, quiet, line, value, core.shownJob());
 }
 
@@ -137,8 +138,17 @@ async function judge(line, controller, json) {
     if (current()) showOutline(line, outline);
   } catch (error) {
     if (!error.fatal && error.code !== "cancelled" && current())
-      line.textContent = `Not as ${names[controller]}: ${error.message}`;
+      state(line, `Not as ${names[controller]}: ${error.message}`);
   }
+}
+
+/**
+ * @param {HTMLElement} line
+ * @param {string} text
+ */
+function state(line, text) {
+  line.textContent = text;
+  announce("program", text);
 }
 
 /**
@@ -147,7 +157,7 @@ async function judge(line, controller, json) {
  * @param {Outline} outline
  */
 function showOutline(line, { met, sentence, remarks }) {
-  line.textContent = sentence;
+  state(line, sentence);
   line.classList.toggle("bad", !met);
   showRemarks(remarks);
 }
