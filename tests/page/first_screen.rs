@@ -131,6 +131,42 @@ fn tablets_and_phones_on_their_side_have_both_pictures() -> Result {
     Ok(())
 }
 
+/// Where tools are always on show, no entry of the legend is cut off or under them, nor the verdict under the figures.
+#[test]
+fn by_touch_the_legend_and_the_tools_have_room() -> Result {
+    for size in [PHONE, (820, 1180)] {
+        visit("/", size, async |page| {
+            let touch = json!({ "enabled": true, "maxTouchPoints": 2 });
+            page.devtools("Emulation.setTouchEmulationEnabled", touch).await?;
+            drawn(page).await?;
+            let boxes = "const boxes = css => [...document.querySelectorAll(css)].filter(each => each.checkVisibility()) \
+                .map(each => each.getBoundingClientRect());";
+            let clear = page
+                .js(&format!(
+                    "{boxes} const entries = boxes('#curve .legend button'), tools = boxes('#curve .chart-tools > *'); \
+                     const [figure] = boxes('#curve .chart-figure'), [legend] = boxes('#curve .legend'); \
+                     const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top; \
+                     return [entries.length, tools.length > 3, \
+                       entries.every(each => each.right <= legend.right + 1 && each.right < figure.right), \
+                       tools.every(each => each.right < figure.right), \
+                       entries.every(each => tools.every(tool => apart(each, tool)))]"
+                ))
+                .await?;
+            assert_eq!(clear, json!([3, true, true, true, true]), "{size:?}");
+            let [top, bottom] = extent(page, "#curve .drawing").await?;
+            assert!(bottom - top >= 180.0, "{size:?}: {top} {bottom}");
+            let ([_, verdict], [figures, _]) =
+                (extent(page, "#verdict").await?, extent(page, ".numbers .big").await?);
+            if size.0 > 700 {
+                assert!(verdict <= figures, "{size:?}: {verdict} {figures}");
+            }
+            assert_eq!(page.wider().await?, Value::Null, "{size:?}");
+            Ok(())
+        })?;
+    }
+    Ok(())
+}
+
 #[test]
 fn the_address_names_the_view() -> Result {
     visit("/#view=forces", DESKTOP, async |page| {

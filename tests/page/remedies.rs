@@ -1,6 +1,6 @@
 //! What cures a warning is a button beside it, and undo takes it back.
 
-use crate::browser::{DESKTOP, Result, THESIS, visit};
+use crate::browser::{DESKTOP, PHONE, Result, THESIS, visit};
 use crate::common::{job_text, refused};
 use crate::current;
 use crate::hostile::drop_file;
@@ -58,6 +58,34 @@ fn too_many_samples_have_a_button_with_the_sample_time_that_is_enough() -> Resul
         page.wait_for(accepted, 1.0).await?;
         page.click("#undo").await?;
         page.click("#undo").await?;
+        current(page).await
+    })
+}
+
+/// On a phone the cure of the worst warning is beside the verdict, whole and large enough for a finger, and the
+/// head is as high as without one.
+#[test]
+fn on_a_phone_the_first_remedy_is_beside_the_verdict() -> Result {
+    visit(THESIS, PHONE, async |page| {
+        let touch = json!({ "enabled": true, "maxTouchPoints": 2 });
+        page.devtools("Emulation.setTouchEmulationEnabled", touch).await?;
+        current(page).await?;
+        let top = "return document.querySelector('.picture').getBoundingClientRect().top";
+        let with = page.js(top).await?;
+        let button = page
+            .js("const button = document.querySelector('#remedy-first'); \
+                 const box = button.getBoundingClientRect(), numbers = document.querySelector('.numbers'); \
+                 return [button.checkVisibility(), box.height >= 44, box.bottom <= innerHeight, \
+                         button.scrollHeight <= button.clientHeight, button.scrollWidth <= button.clientWidth, \
+                         box.right <= innerWidth, box.top >= numbers.getBoundingClientRect().bottom]")
+            .await?;
+        assert_eq!(button, json!([true, true, true, true, true, true, true]));
+        page.screenshot("remedy-phone.png").await?;
+        page.js("document.querySelector('#remedy-first').hidden = true").await?;
+        assert_eq!(page.js(top).await?, with, "the head is as high without it");
+        page.js("document.querySelector('#remedy-first').hidden = false").await?;
+        page.click("#remedy-first").await?;
+        page.wait_for("document.querySelector('#workpiece_frame-xyz_mm-x').value !== '0'", 20.0).await?;
         current(page).await
     })
 }

@@ -31,7 +31,8 @@ function showFirstRemedy(warnings, apply) {
   const button = byId("remedy-first");
   button.hidden = !remedy;
   if (!remedy) return;
-  button.textContent = remedy.label;
+  button.textContent = remedy.label.split(", ")[0]; // what it does; the list has all of it
+  button.title = remedy.label;
   button.onclick = () => apply(remedy.patch);
 }
 
