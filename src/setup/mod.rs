@@ -198,8 +198,7 @@ impl Setup {
         let loading = if contacts.is_some() { Loading { run_in: 0.0, ..loading } } else { loading };
         let mean_force = MeanForces::of(&cut, contacts.as_ref());
         let bending = cutting::bending(&job.tool)?;
-        let sampled =
-            |sample_time_s| motion::limits(&Motion { sample_time_s, ..job.motion.clone() }, &shaper);
+        let sampled = |sample_time_s| motion::limits(&Motion { sample_time_s, ..job.motion }, &shaper);
         let limits = sampled(job.motion.sample_time_s);
         check_samples(&path, limits.sample_time, sampled)?;
         let (path, contacts, mean_force, feed_rule) =
