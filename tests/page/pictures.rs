@@ -34,7 +34,7 @@ const BLOCK: usize = 8;
 /// Difference of a channel's mean from which a block counts as another, of 255.
 const CHANNEL: f64 = 10.0;
 /// Largest share of the blocks that may.
-const SHARE: f64 = 0.015;
+const SHARE: f64 = 0.005;
 
 /// A picture as rows of pixels, red, green and blue.
 struct Picture {
