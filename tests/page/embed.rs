@@ -236,10 +236,10 @@ fn a_page_of_rustdoc_holds_the_calculator() -> Result {
         page.js(&format!(
             "const frame = {inside}.defaultView; dispatchEvent(new MessageEvent('message', \
              {{ source: frame, origin: location.origin, data: {{ type: 'armill-height', \
-             height: 776.5 }} }}))"
+             height: 1776.5 }} }}))"
         ))
         .await?;
-        assert_eq!(page.js(&format!("return {height}")).await?, 777.0, "a sound message counts");
+        assert_eq!(page.js(&format!("return {height}")).await?, 1777.0, "a sound message counts");
 
         // Other attributes, another job, and no new entry in the reader's history.
         let steps = page.js("return history.length").await?;

@@ -10,6 +10,7 @@ use crate::cards::{cards, job};
 use crate::{current, shows};
 
 #[test]
+#[ignore = "takes half a minute: cargo xtask test --heavy"]
 fn every_card_opens_its_job() -> Result {
     visit("/gallery.html", DESKTOP, async |page| {
         let cards = cards();

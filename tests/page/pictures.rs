@@ -1,6 +1,7 @@
 //! Twelve pictures of the page, compared with those in `tests/page/pictures/`: what no box of the
 //! layout tells, such as a part that is not drawn, colours gone or text on text.
-//! `ARMILL_PICTURES=take cargo xtask test` takes them again; look at them before they are committed.
+//! `cargo xtask test --heavy` compares them; with `ARMILL_PICTURES=take` it takes them again: look at
+//! them before they are committed.
 
 use std::fs;
 use std::path::PathBuf;
@@ -129,11 +130,13 @@ fn compare(scenes: &[Scene]) -> Result {
 
 // Two tests, because tests run side by side.
 #[test]
+#[ignore = "takes a minute: cargo xtask test --heavy"]
 fn the_first_screens_look_as_they_did() -> Result {
     compare(&SCENES[..6])
 }
 
 #[test]
+#[ignore = "takes a minute: cargo xtask test --heavy"]
 fn other_views_look_as_they_did() -> Result {
     compare(&SCENES[6..])
 }

@@ -41,16 +41,28 @@ pub(crate) fn all() -> Result<()> {
             .env("ARMILL_NPM_TOOLS", npm::tools()?))
     })?;
     step("changed links", || fuzz::link(3, 41))?;
-    step("tests of the page", || {
-        let docs = Server::start_plain(&docs::build()?)?;
-        let server = Server::start_anywhere(&site::build()?)?;
-        let driver = Driver::start()?;
-        run(cargo(&["test", "--locked", "--test", "page"])?
-            .env("ARMILL_SITE_URL", &server.url)
-            .env("ARMILL_DOCS_URL", &docs.url)
-            .env("ARMILL_NPM_TOOLS", npm::tools()?)
-            .env("ARMILL_WEBDRIVER_URL", driver.url()))
-    })
+    step("tests of the page", || page(&[]))
+}
+
+/// Runs the tests of the page that take long: pictures, and every job of the gallery.
+///
+/// # Errors
+/// As for [`all`].
+pub(crate) fn heavy() -> Result<()> {
+    step("heavy tests of the page", || page(&["--", "--ignored", "--skip", "firefox"]))
+}
+
+/// Serves site and documentation, and drives the page.
+fn page(options: &[&str]) -> Result<()> {
+    let docs = Server::start_plain(&docs::build()?)?;
+    let server = Server::start_anywhere(&site::build()?)?;
+    let driver = Driver::start()?;
+    run(cargo(&["test", "--locked", "--test", "page"])?
+        .args(options)
+        .env("ARMILL_SITE_URL", &server.url)
+        .env("ARMILL_DOCS_URL", &docs.url)
+        .env("ARMILL_NPM_TOOLS", npm::tools()?)
+        .env("ARMILL_WEBDRIVER_URL", driver.url()))
 }
 
 /// Runs the checks of the page's code that need no browser.
