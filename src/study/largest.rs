@@ -7,6 +7,7 @@
 use crate::error::Error;
 use crate::job::Job;
 use crate::progress::Progress;
+use crate::study::range::finite;
 use crate::study::{Outcome, ValueRange, VariedJob, at_once};
 use serde::Serialize;
 
@@ -124,8 +125,7 @@ impl LargestQuestion {
         let wrong = || Error::invalid("largest", text, "path=from:to, such as cutting.axial_depth_mm=0.1:10");
         let (path, rest) = text.split_once('=').ok_or_else(wrong)?;
         let (from, to) = rest.split_once(':').ok_or_else(wrong)?;
-        let number =
-            |text: &str| text.parse::<f64>().ok().filter(|number| number.is_finite()).ok_or_else(wrong);
+        let number = |text: &str| finite(text).ok_or_else(wrong);
         let (from, to) = (number(from)?, number(to)?);
         if from >= to {
             return Err(wrong());
@@ -141,26 +141,20 @@ impl LargestQuestion {
     pub fn answer(&self, job: &Job) -> Result<LargestAnswer, Error> {
         let varied = VariedJob::new(job)?;
         let tolerance = job.compensation.tolerance_mm;
-        let outcome = |value: f64| match varied.with([(self.path.as_str(), value)]) {
-            Ok(job) => Outcome::of(&job),
-            Err(error) => Outcome::of_error(&error),
-        };
+        let varied_to = |value: f64| [(self.path.as_str(), value)];
+        varied.check(varied_to(self.from))?;
+        let outcome = |value: f64| Outcome::of_varied(varied.with(varied_to(value)));
         let tried = |value: f64| Tried {
             value,
             excess: self.quantity.of(&outcome(value)).map_or(f64::INFINITY, |error| error - tolerance),
         };
-        if let Err(error @ (Error::UnknownKey { .. } | Error::Json { .. })) =
-            varied.with([(self.path.as_str(), self.from)])
-        {
-            return Err(error);
-        }
         let logarithmic = self.from > 0.0 && self.to / self.from >= DECADE;
         let range =
             ValueRange { path: self.path.clone(), from: self.from, to: self.to, count: SCAN, logarithmic };
         let scan: Vec<Tried> = at_once(SCAN, |index| tried(range.at(index)));
         if scan.iter().all(|tried| tried.excess == f64::INFINITY) {
             // Nothing can be said of the tolerance: what is wrong is not the value.
-            let job = varied.with([(self.path.as_str(), self.from)])?;
+            let job = varied.with(varied_to(self.from))?;
             crate::simulation::run(&job, &mut Progress::none())?;
         }
         let changes: Vec<[Tried; 2]> = scan

@@ -36,10 +36,16 @@ pub struct Outcome {
 impl Outcome {
     /// The outcome of a job.
     pub fn of(job: &Job) -> Self {
-        match crate::simulation::run(job, &mut Progress::none()) {
-            Ok(report) => Self::of_report(&report),
-            Err(error) => Self::of_error(&error),
-        }
+        Self::of_result(crate::simulation::run(job, &mut Progress::none()))
+    }
+
+    /// The outcome of a job that may have been refused.
+    pub(super) fn of_varied(job: Result<Job, Error>) -> Self {
+        Self::of_result(job.and_then(|job| crate::simulation::run(&job, &mut Progress::none())))
+    }
+
+    fn of_result(result: Result<Report, Error>) -> Self {
+        result.map_or_else(|error| Self::of_error(&error), |report| Self::of_report(&report))
     }
 
     pub(super) fn of_report(report: &Report) -> Self {

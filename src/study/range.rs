@@ -7,6 +7,11 @@ use serde::Serialize;
 /// Most values of a range.
 const MOST: usize = 10_000;
 
+/// A number as it is typed on a command line.
+pub(super) fn finite(text: &str) -> Option<f64> {
+    text.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
 /// Values of one number of a job, evenly spaced or in equal ratios.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ValueRange {
@@ -81,10 +86,5 @@ impl ValueRange {
         } else {
             self.from + (self.to - self.from) * share
         }
-    }
-
-    /// All values.
-    pub fn values(&self) -> impl Iterator<Item = f64> + '_ {
-        (0..self.count).map(|index| self.at(index))
     }
 }

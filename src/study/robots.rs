@@ -81,7 +81,7 @@ fn row(varied: &VariedJob, job: &Job, arm: &Preset, place: PartPlace) -> RobotRo
     match on_arm() {
         Ok((xyz_mm, report)) => {
             row.workpiece_mm = xyz_mm;
-            row.duration_s = Some(report.summary().duration_s);
+            row.duration_s = Some(report.duration());
             row.force_n = Some(report.mean_force().norm());
             row.outcome = Outcome::of_report(&report);
         }

@@ -39,18 +39,15 @@ pub fn sweep(job: &Job, ranges: &[ValueRange]) -> Result<Vec<SweepRow>, Error> {
     }
     let varied = VariedJob::new(job)?;
     let numbers = |index: usize| (first.at(index / inner), second.map(|range| range.at(index % inner)));
-    let changed = |index: usize| {
+    let changes = |index: usize| {
         let (value, other) = numbers(index);
         let second = second.zip(other).map(|(range, value)| (range.path.as_str(), value));
-        varied.with([(first.path.as_str(), value)].into_iter().chain(second))
+        [(first.path.as_str(), value)].into_iter().chain(second)
     };
-    // A path that no job has is wrong for all of them.
-    if let Err(error @ (Error::UnknownKey { .. } | Error::Json { .. })) = changed(0) {
-        return Err(error);
-    }
+    varied.check(changes(0))?;
     Ok(at_once(count, |index| {
         let (value, second) = numbers(index);
-        let outcome = changed(index).map_or_else(|error| Outcome::of_error(&error), |job| Outcome::of(&job));
+        let outcome = Outcome::of_varied(varied.with(changes(index)));
         SweepRow { value, second, outcome }
     }))
 }

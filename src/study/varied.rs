@@ -23,16 +23,6 @@ impl VariedJob {
         })
     }
 
-    /// The number at a path, if there is one.
-    pub fn number(&self, path: &str) -> Option<f64> {
-        let into = |value: &'_ Value, key: &str| match value {
-            Value::Object(members) => members.get(key).cloned(),
-            Value::Array(items) => items.get(key.parse::<usize>().ok()?).cloned(),
-            _ => None,
-        };
-        path.split('.').try_fold(self.0.clone(), |value, key| into(&value, key))?.as_f64()
-    }
-
     /// The job with these numbers at their paths. Keys that the job does not state are added.
     ///
     /// # Errors
@@ -44,6 +34,17 @@ impl VariedJob {
             *place(&mut varied, path)? = written(number);
         }
         Job::from_json(&varied.to_string())
+    }
+
+    /// What is wrong with a path, if it is that of no number of a job: an error for all values.
+    ///
+    /// # Errors
+    /// That one. What a job refuses of this value alone is none.
+    pub fn check<'a>(&self, numbers: impl IntoIterator<Item = (&'a str, f64)>) -> Result<(), Error> {
+        match self.with(numbers) {
+            Err(error @ (Error::UnknownKey { .. } | Error::Json { .. })) => Err(error),
+            _ => Ok(()),
+        }
     }
 
     /// The job with another section.
