@@ -96,6 +96,37 @@ fn closest_point_equals_a_search_of_every_place() {
     }
 }
 
+/// As a CAM system writes it: thousands of short lines, of which the search leaves most out.
+#[test]
+fn on_many_short_lines_it_is_the_best_of_all() {
+    let mut random = fastrand::Rng::with_seed(29);
+    let mut heading = Vector3::x();
+    let mut points = vec![Vector3::zeros()];
+    for _ in 0..5000 {
+        heading = (heading + any_vector(&mut random, 0.1)).normalize();
+        points.push(points[points.len() - 1] + heading * between(&mut random, 1e-5, 2e-4));
+    }
+    let lines = shape::polyline(&points);
+    let path = Path::new(lines.clone()).unwrap();
+    for _ in 0..300 {
+        let near = between(&mut random, 0.0, path.length());
+        let p = path.point(near) + any_vector(&mut random, 0.004);
+        let radius = between(&mut random, 0.0, 0.05);
+        let closest = path.closest(&p, near, radius);
+        let (low, high) = ((near - radius).max(0.0), (near + radius).min(path.length()));
+        let mut start = 0.0;
+        let mut best = f64::INFINITY;
+        for line in &lines {
+            let (from, to) = ((low - start).max(0.0), (high - start).min(line.length()));
+            if from <= to {
+                best = best.min((p - line.point(line.closest(&p, from, to))).norm());
+            }
+            start += line.length();
+        }
+        assert_eq!((p - closest.point).norm().to_bits(), best.to_bits(), "within {radius} of {near}");
+    }
+}
+
 #[test]
 fn a_crossing_is_matched_to_the_own_branch() {
     // A figure that crosses itself at the origin: on the first leg the second one is nearer, but
