@@ -1,13 +1,11 @@
 //! APT and CLDATA input: points, arcs, axes, feeds, units and mistakes, all worked out by hand.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common;
+use crate::common::moves::{assert_sound, described};
 use armill::math;
 use armill::path::apt::{Options, program};
 use armill::path::program::{Program, Tool};
 use armill::path::unit::LengthUnit;
-use common::moves::{assert_sound, described};
 
 fn read(text: &str) -> Result<Program, armill::Error> {
     program(text, &Options { field: "path.text", unit: LengthUnit::Mm }, |_| {})

@@ -1,9 +1,6 @@
 //! The band: against full reruns of the kept commands, closed forms and laws.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-#[path = "common/plant.rs"]
-mod plant;
-
+use crate::plant::drawn_cut;
 use armill::cutting::MeanForces;
 use armill::deviation::{Reference, Sources, simulate};
 use armill::job::Job;
@@ -14,7 +11,6 @@ use armill::spread::{InputSpread, Stiffness};
 use armill::uncertainty::draw::deviates;
 use armill::uncertainty::{BreakEven, Draw};
 use armill::{Progress, run, run_json};
-use plant::drawn_cut;
 use serde_json::{Value, json};
 use std::sync::Arc;
 

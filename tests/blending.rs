@@ -1,12 +1,9 @@
 //! What blended corners and exact stops do, against closed forms.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::run;
 use armill::setup::Controller;
 use armill::verification::{Package, Programs};
-use common::run;
 use serde_json::{Value, json};
 
 /// Legs of 40 mm in the plane, each turned from the one before by `turn` [deg], without a cut: what is

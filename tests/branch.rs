@@ -1,12 +1,9 @@
 //! The arm's branch: where it ends, its whole turns, and a start in the wrist singularity.
 #![allow(clippy::disallowed_methods, reason = "compared within tolerances")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::{refused, run};
 use armill::robot::{Joints, Robot, forward, library};
 use armill::{Error, Report};
-use common::{refused, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 

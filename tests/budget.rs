@@ -1,12 +1,9 @@
 //! The error budget and the scene: their parts add up to the report's totals.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::{column, run};
 use armill::Report;
 use armill::report::scene::{FRAME, ROW};
 use armill::robot::{Joints, forward};
-use common::{column, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 

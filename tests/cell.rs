@@ -1,14 +1,11 @@
 //! The cell: tool, base and workpiece frames with their orientation, checked through every stage by
 //! a second kinematic model written here with quaternions and plain DH steps.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::{column, run};
 use armill::Report;
 use armill::export::ExportOptions;
 use armill::verification::export;
-use common::{column, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 

@@ -1,11 +1,8 @@
 //! What charts of the run can be drawn over, and by which scale.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::run;
 use armill::Report;
 use armill::chart::{CATALOG, Chart, ChartOptions, Over, Scaling, Units, chart, charts_of, data};
-use common::run;
 use serde_json::json;
 
 /// Two lines of cutting with a full stop between them and a wait of a quarter of a second.

@@ -1,14 +1,12 @@
 //! APT as CAM systems write it: Creo, Siemens NX, SolidWorks CAM, drilling cycles, and texts that are
 //! not APT. Lengths are worked out by hand.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common;
+use crate::common::moves::{assert_sound, described};
 use armill::path::apt::{Options, program};
 use armill::path::gcode;
 use armill::path::program::{MovePace, Program};
 use armill::path::unit::LengthUnit;
-use common::moves::{assert_sound, described};
 
 const QUARTER: f64 = std::f64::consts::PI * 5.0;
 

@@ -1,14 +1,11 @@
 //! Force follows deflection: a tool that is pushed away cuts less, and the balance is the solution of
 //! one linear equation where arm and cut are linear.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "independent values come from the standard library")]
 
-mod common;
-
+use crate::common::{self, column, in_stock, refused, run};
 use armill::Report;
 use armill::cutting::CutStiffness;
 use armill::deviation::coupling::{inverse_if_stable, settled};
-use common::{column, in_stock, refused, run};
 use nalgebra::{Matrix2, Matrix3, Vector3};
 use serde_json::{Value, json};
 

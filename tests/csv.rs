@@ -1,12 +1,10 @@
 //! Points as text: columns, separators, decimal signs, units and mistakes, all worked out by hand.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common;
+use crate::common::moves::{assert_sound, described};
 use armill::path::csv::{Options, points, program};
 use armill::path::program::Program;
 use armill::path::unit::{FeedUnit, LengthUnit};
-use common::moves::{assert_sound, described};
 use std::fmt::Write;
 
 const MM: Options<'_> = Options { field: "path.text", unit: LengthUnit::Mm, feed_unit: FeedUnit::MmPerS };

@@ -1,14 +1,11 @@
 //! The deviation all over the part, for pictures: against the tips of a slot, by hand; the mesh closed but for its
 //! bottom and of the right volume; the section against the slot's own.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::in_stock::AT;
+use crate::common::{column, in_stock, run};
 use armill::Report;
 use armill::surface::deviation_map::{DeviationMap, Shift};
 use armill::surface::mesh::PartMesh;
-use common::in_stock::AT;
-use common::{column, in_stock, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

@@ -1,13 +1,10 @@
 //! What the drives cannot follow is said, with its place and its largest value.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::{column, run};
 use armill::Report;
 use armill::report::Warning;
 use armill::robot::library;
-use common::{column, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 

@@ -1,18 +1,14 @@
 //! Arms whose joint 3 is relative to the base: FANUC's pendants, and parallelograms, whose springs
 //! then belong to other turns.
-#![cfg(not(target_arch = "wasm32"))]
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::{self, between, refused, run};
 use armill::identify::Convention;
 use armill::math::Pose;
 use armill::robot::equilibrium::equilibrium;
 use armill::robot::{
     Elbow, JointStatics, Joints, Load, Robot, Spring, compliance, forward, inverse, jacobian, library,
 };
-use common::{between, refused, run};
 use nalgebra::{Vector3, Vector6};
 use rs_opw_kinematics::kinematic_traits::Kinematics;
 use rs_opw_kinematics::parallelogram::Parallelogram;

@@ -1,15 +1,12 @@
 //! Nonlinear springs and the weight of links and spindle: the joints come to rest where every
 //! torque balances.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::{between, refused, run};
 use armill::math::Pose;
 use armill::robot::equilibrium::{Equilibrium, SETTLED, equilibrium};
 use armill::robot::load::GRAVITY;
 use armill::robot::{JointStatics, Joints, Load, Robot, Spring, compliance, forward, library};
-use common::{between, refused, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 

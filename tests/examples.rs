@@ -1,13 +1,10 @@
 //! The page's example programs: each reads as intended, computes, and gains from compensation.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "independent values come from the standard library")]
 
-mod common;
-
+use crate::common::program::{example, folder};
+use crate::common::{column, job_text, run};
 use armill::Report;
 use armill::deviation::{Source, Sources};
-use common::program::{example, folder};
-use common::{column, job_text, run};
 use serde::Deserialize;
 use serde_json::json;
 use std::collections::BTreeSet;

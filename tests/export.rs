@@ -1,10 +1,9 @@
 //! Exported files: thinning stays within its tolerance, orientations multiply back, every file
 //! states its origin.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_types, reason = "nalgebra's own rotations are the second way")]
 
-mod common;
-
+use crate::common::program::{small_jobs, written};
+use crate::common::{any_vector, between, run};
 use armill::export::command::{COARSEST, FINEST};
 use armill::export::fillet;
 use armill::export::orientation::{about_moving_xyz, quaternion, roll_pitch_yaw};
@@ -14,8 +13,6 @@ use armill::math::{Pose, angle_between, rotation_about, sin_cos};
 use armill::path::gcode;
 use armill::units::MM;
 use armill::verification::export;
-use common::program::{small_jobs, written};
-use common::{any_vector, between, run};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use serde_json::json;
 use std::f64::consts::FRAC_PI_2;

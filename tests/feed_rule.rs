@@ -1,16 +1,13 @@
 //! A feed that holds the mean force: what it does to the path, and what not.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "independent values come from the standard library")]
 
-mod common;
-
+use crate::common::{any_vector, between, column, in_stock, refused, run};
 use armill::cutting::{ChipLoad, LinearForce, MeanForces};
 use armill::export::ExportOptions;
 use armill::path::{Move, MovePace};
 use armill::setup::FeedByForce;
 use armill::verification::Programs;
 use armill::{Error, Report};
-use common::{any_vector, between, column, in_stock, refused, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 

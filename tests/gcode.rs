@@ -1,6 +1,5 @@
 //! The G-code reader: a table of snippets worked by hand, equivalent programs, and random texts.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use armill::Error;
 use armill::path::Segment;

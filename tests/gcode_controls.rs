@@ -1,6 +1,5 @@
 //! What one control has and another has not: macros, bits, polar words, offsets. Values are worked by hand
 //! from the controls' manuals.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use armill::path::gcode::{GcodeDialect, Options, program};
 use armill::path::program::Program;

@@ -1,14 +1,11 @@
 //! Laws of the G-code reader: two notations of a path read as the same path, random programs have
 //! no gaps, no text breaks it.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::between;
 use armill::math::{PI, TAU, cos, hypot, sin};
 use armill::path::Segment;
 use armill::path::gcode::{self, Options};
 use armill::path::program::{MovePace, Program};
-use common::between;
 use nalgebra::Vector3;
 use std::fmt::Write;
 

@@ -1,6 +1,5 @@
 //! The G-code reader against LinuxCNC's interpreter: one program, move by move (see
 //! `data/gcode/README.md`).
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use armill::path::Segment;
 use armill::path::gcode::{self, Options};

@@ -1,13 +1,10 @@
 //! The job: every field does what its table states, and every mistake is named.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::{self, job_text, refused, run};
 use armill::job::fields::{FieldKind, fields};
 use armill::report::{Severity, VerdictState};
 use armill::{Error, Job};
-use common::{job_text, refused, run};
 use serde_json::{Value, json};
 
 /// A path of a kind made from the defaults in the table of fields.

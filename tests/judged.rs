@@ -1,16 +1,13 @@
 //! What a run is judged by beside the tip's contour error: what of the path is never reached, and
 //! the error at the top of the cut; and what of the tool the compensation brings onto its place.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::program::small_jobs;
+use crate::common::run;
 use armill::Report;
 use armill::export::ExportOptions;
 use armill::math::Pose;
 use armill::robot::{Joints, forward};
 use armill::verification::{Programs, export, read_back};
-use common::program::small_jobs;
-use common::run;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 

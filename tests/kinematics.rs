@@ -1,14 +1,11 @@
 //! Kinematics and compliance against published cases (tests/data/golden.json) and against their own
 //! definitions.
 #![allow(clippy::disallowed_types, reason = "quaternions by another library, compared within a tolerance")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::{self, any_arm, any_joints, any_vector};
 use armill::math::Pose;
 use armill::robot::inverse::{Branch, Margin, Solution, inverse};
 use armill::robot::{Joints, Link, Opw, Robot, compliance, forward, jacobian, library};
-use common::{any_arm, any_joints, any_vector};
 use nalgebra::{Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
 use serde_json::Value;
 use std::f64::consts::{PI, TAU};

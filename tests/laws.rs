@@ -1,12 +1,9 @@
 //! Laws that hold for any numbers: scaling, symmetry, limits, convergence.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::{self, between, column, run};
 use armill::motion::shaper::{self, Shaper};
 use armill::robot::Joints;
-use common::{between, column, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};

@@ -1,6 +1,5 @@
 //! The pipeline as a rule: a stage uses nothing to its right, and only `lib.rs` knows `wasm`. Files have a length to
 //! be read in, those of the page as well.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use std::path::Path;
 
@@ -89,6 +88,27 @@ fn files_stay_readable_in_one_sitting() {
             assert!(lines <= most, "{} has {lines} lines, {most} at most", file.display());
         }
     }
+}
+
+/// A file of tests that no program names would never run.
+#[test]
+fn every_file_of_tests_is_run() {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let manifest = include_str!("../Cargo.toml");
+    let program = include_str!("native.rs");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(&tests).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        let of_tests = path.extension().is_some_and(|ending| ending == "rs") || path.join("mod.rs").is_file();
+        if of_tests {
+            let named = program.contains(&format!("\nmod {name};\n"))
+                || manifest.contains(&format!("[[test]]\nname = \"{name}\"\n"));
+            assert!(named, "tests/native.rs does not name {name}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 50, "{seen}");
 }
 
 /// Types that mirror a section of the job's JSON keep its name and are read as `job::Tool`; so are

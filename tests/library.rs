@@ -1,18 +1,15 @@
 //! The library of robots: its data are complete, its kinematics agree with another author's, and
 //! its rule for unknown stiffness agrees with the rule's own sources.
-#![cfg(not(target_arch = "wasm32"))]
 #![allow(clippy::disallowed_types, clippy::disallowed_methods, reason = "compared within tolerances")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "quantiles are worth seeing: cargo test -- --nocapture")]
 
-mod common;
-
+use crate::common;
+use crate::common::peer::peer;
+use crate::common::{any_joints, any_vector, between, run};
 use armill::Error;
 use armill::math::Pose;
 use armill::robot::library::{self, RULE_PAYLOAD, RULE_STIFFNESS};
 use armill::robot::{Joints, Opw, Robot, compliance, forward, inverse, jacobian};
-use common::peer::peer;
-use common::{any_joints, any_vector, between, run};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use rs_opw_kinematics::kinematic_traits::Kinematics;
 use serde_json::json;

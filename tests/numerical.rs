@@ -1,15 +1,12 @@
 //! The numerical inverse against the closed form, against the forward model of published arms, and
 //! along a path.
 #![allow(clippy::disallowed_types, clippy::disallowed_methods, reason = "compared within tolerances")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "quantiles are worth seeing: cargo test -- --nocapture")]
 
-mod common;
-
+use crate::common::{any_arm, any_joints, refused, run, rx90};
 use armill::math::Pose;
 use armill::robot::inverse::{Margin, inverse};
 use armill::robot::{Joints, Link, Robot, forward};
-use common::{any_arm, any_joints, refused, run, rx90};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::f64::consts::{FRAC_PI_2, TAU};

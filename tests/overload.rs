@@ -1,12 +1,9 @@
 //! Warnings about a cut that is more than spindle, tool or holder take, with their lines and places.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "independent values come from the standard library")]
 
-mod common;
-
+use crate::common::{column, in_stock, refused, run};
 use armill::report::Warning;
 use armill::{Error, Report};
-use common::{column, in_stock, refused, run};
 use serde_json::{Value, json};
 
 /// A groove, then a wall beside it with a radial depth of 1 mm.

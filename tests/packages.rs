@@ -1,16 +1,12 @@
 //! Packages for robots' controllers, read back by readers that know nothing of Armill.
 #![allow(clippy::disallowed_methods, reason = "compared within a tolerance, not bit by bit")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-mod controllers;
-
+use crate::common::run;
+use crate::controllers::{self, Blend, ControllerProgram, Motion, Target};
 use armill::Report;
 use armill::robot::forward;
 use armill::setup::Controller;
 use armill::verification::{Package, Programs};
-use common::run;
-use controllers::{Blend, ControllerProgram, Motion, Target};
 use nalgebra::{Matrix3, Vector3};
 use serde_json::{Value, json};
 
@@ -214,12 +210,12 @@ fn a_package_stops_waits_and_blends_as_it_says() {
 #[test]
 fn a_long_package_comes_in_parts_that_say_the_same() {
     for (controller, robot, place) in ROBOTS {
-        // Points too far apart to be thinned: 700 corners of a fine saw.
+        // Points too far apart to be thinned: 460 corners of a fine saw.
         let saw: String =
-            (0..700).map(|k| format!("{},{},0\n", f64::from(k) * 0.2, f64::from(k % 2) * 0.3)).collect();
+            (0..460).map(|k| format!("{},{},0\n", f64::from(k) * 0.2, f64::from(k % 2) * 0.3)).collect();
         let path = json!({"kind":"csv","text":format!("x,y,z\n{saw}")});
         let lines = [
-            ("program.lines_per_file", json!(150)),
+            ("program.lines_per_file", json!(100)),
             ("motion.corner_angle_deg", json!(170)),
             // Without a cut nothing is corrected, which a part's stop would change.
             ("cutting.axial_depth_mm", json!(0)),
@@ -231,7 +227,7 @@ fn a_long_package_comes_in_parts_that_say_the_same() {
         assert!(parts >= 5, "{robot}: {parts} parts");
         let longest =
             package.files.iter().filter(|file| !file.path.ends_with(".dtx") && !file.path.ends_with(".LS"));
-        assert!(longest.map(|file| file.text.lines().count()).max().unwrap_or(0) <= 150, "{robot}");
+        assert!(longest.map(|file| file.text.lines().count()).max().unwrap_or(0) <= 100, "{robot}");
         let whole = job(robot, place, &path, &lines[1..]);
         let (_, whole) = self::package(&whole, controller);
         let [parted, whole] = [&program, &whole].map(|program| course(program, program.targets[1].position));

@@ -1,14 +1,11 @@
 //! Paths: geometry of segments, closest point, corners, the trajectory along them.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::{any_vector, between};
 use armill::math::Pose;
 use armill::motion::trajectory::MotionLimits;
 use armill::motion::{TimingLaw, Trajectory};
 use armill::path::{Move, MovePace, Path, Program, Segment, shape};
-use common::{any_vector, between};
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

@@ -1,11 +1,8 @@
 //! The placement map against whole runs: equal errors, equal limits, equal reach.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::job_text;
 use armill::Job;
 use armill::placement::{PlacementMap, PlacementStatus};
-use common::job_text;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 

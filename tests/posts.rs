@@ -1,6 +1,5 @@
 //! Programs in the form that public posts and manuals write, read whole: length, extents, end, moves
 //! and waits, worked by hand (see `data/posts/README.md`). The goal is 38 of the 40.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use armill::path::gcode::{self, Options};
 use armill::path::program::{MovePace, Program};

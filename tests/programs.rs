@@ -1,16 +1,13 @@
 //! Exported programs: they read back as the compensated path and, simulated again, meet the
 //! tolerance.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::program::{chain, commanded, largest_distance, read_back, small_jobs, written};
+use crate::common::run;
 use armill::Report;
 use armill::export::ExportOptions;
 use armill::math::rotation_about;
 use armill::path::{Axes, Move, MovePace, Path, Program, Segment, SourceProgram};
 use armill::verification::export;
-use common::program::{chain, commanded, largest_distance, read_back, small_jobs, written};
-use common::run;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 

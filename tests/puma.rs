@@ -1,6 +1,5 @@
 //! The Puma 560, whose Jacobian and gravity torques are published: kinematics and weight of an arm
 //! that the library does not contain.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 use armill::math::Pose;
 use armill::robot::equilibrium::equilibrium;

@@ -1,9 +1,7 @@
 //! What the spin counts from: tool axes along the workpiece's X, over it, and all around.
 #![allow(clippy::disallowed_methods, reason = "compared within tolerances")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::{any_vector, job_text, refused, run};
 use armill::export::command::Command;
 use armill::export::commanded_path::CommandedPath;
 use armill::export::style::PostStyle;
@@ -11,7 +9,6 @@ use armill::path::{AxisArc, RollReference};
 use armill::robot::{Robot, forward, library};
 use armill::verification::replay;
 use armill::{Report, math::angle_between};
-use common::{any_vector, job_text, refused, run};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::f64::consts::PI;

@@ -1,11 +1,8 @@
 //! A remedy cures: with its patch the job runs again without the warning.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::{self, any_vector, between, job_text};
 use armill::report::{Severity, Warning};
 use armill::{Job, Progress, Report};
-use common::{any_vector, between, job_text};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 

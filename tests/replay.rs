@@ -1,9 +1,8 @@
 //! An exported program, read back by the reader of its language and simulated, reproduces the path
 //! first desired.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::program::small_jobs;
+use crate::common::run;
 use armill::export::ExportOptions;
 use armill::export::commanded_path::CommandedPath;
 use armill::math::Pose;
@@ -11,8 +10,6 @@ use armill::motion::Trajectory;
 use armill::path::{Path, gcode};
 use armill::verification::{Programs, Replay, export, read_back, replay};
 use armill::{Error, Report};
-use common::program::small_jobs;
-use common::run;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::sync::Arc;

@@ -1,11 +1,8 @@
 //! The band against full reruns of the kept commands: jobs of many kinds, each sent through the
 //! whole model at every sample, once for each drawn plant.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-#[path = "common/plant.rs"]
-mod plant;
-
+use crate::common::job_text;
+use crate::plant::drawn_cut;
 use armill::cutting::{MeanForces, StiffnessAlong};
 use armill::deviation::{Reference, Sources, simulate};
 use armill::plan::Plan;
@@ -13,8 +10,6 @@ use armill::setup::Setup;
 use armill::uncertainty::Draw;
 use armill::uncertainty::draw::deviates;
 use armill::{Job, Progress, Report};
-use common::job_text;
-use plant::drawn_cut;
 use serde_json::{Value, json};
 use std::sync::Arc;
 

@@ -1,14 +1,11 @@
 //! The script entry (`examples/run.rs`) as a user at a shell meets it.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
-use common::job_text;
+use crate::common::job_text;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
-/// Runs the example through cargo, because `cargo test --test script` alone would not bring it up
+/// Runs the example through cargo, because `cargo test --test native script` alone would not bring it up
 /// to date.
 fn script() -> Command {
     let mut command = Command::new(env!("CARGO"));

@@ -1,8 +1,5 @@
 //! Programs as shops' posts and hands write them, one for each kind of fault that once kept them from
 //! being read or had them misread, with the values worked by hand.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
-
-mod common;
 
 use armill::path::Program;
 use armill::path::gcode::{Options, program};

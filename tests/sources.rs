@@ -1,12 +1,9 @@
 //! A file corrects the sources that the job names, no more, and states the figure with all of them.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::run;
 use armill::Report;
 use armill::export::ExportOptions;
 use armill::verification::{Programs, replay};
-use common::run;
 use serde_json::{Value, json};
 
 /// A climb-milled circle by an RX-90 whose shaper and force both bend it.

@@ -1,13 +1,10 @@
 //! The stretches of a warning are those at which it holds, no more and no less.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::{self, any_vector, between, column, run};
 use armill::Report;
 use armill::report::{MOST_SPANS, Warning};
 use armill::robot::forward;
-use common::{any_vector, between, column, run};
 use serde_json::json;
 use std::collections::BTreeSet;
 

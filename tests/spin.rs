@@ -1,12 +1,9 @@
 //! Spin about the tool axis: what turns, what must not, and what a free spin gains.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::{column, job_text, refused, run};
 use armill::Report;
 use armill::math::angle_between;
 use armill::robot::forward;
-use common::{column, job_text, refused, run};
 use serde_json::{Value, json};
 
 /// A program of three lines, the spindle at 40 deg on the flange, so that the spin moves all

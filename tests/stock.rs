@@ -1,6 +1,5 @@
 //! The engagement from the stock: closed forms of slots, walls, circles and corners; volumes; what a
 //! program meets at several heights; plunges.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "independent values come from the standard library")]
 
 use armill::Progress;

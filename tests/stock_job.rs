@@ -1,14 +1,12 @@
 //! A stock in the job: what it changes and what not, what is refused, how it is followed.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "independent values come from the standard library")]
 
-mod common;
-
+use crate::common;
+use crate::common::in_stock::{job, plate};
+use crate::common::{column, refused, run};
 use armill::Report;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use common::in_stock::{job, plate};
-use common::{column, refused, run};
 use serde_json::{Value, json};
 
 const SLOT: &str = "G21 G90\nG0 X-20 Y0 Z5\nG1 Z-3 F300\nG1 X20 F600\nG0 Z5\n";

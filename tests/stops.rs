@@ -1,11 +1,8 @@
 //! Where the path stops: at corners of the course, not at those of its rounded points.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::run;
 use armill::Report;
-use common::run;
 use serde_json::json;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;

@@ -1,18 +1,15 @@
 //! The surface that is left: what of it remains, against a dense sampling of the path; its excess against the
 //! tip, by hand; the simulated part as a closed mesh of the right volume.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "independent values come from the standard library")]
 
-mod common;
-
+use crate::common::in_stock::{AT, plate};
+use crate::common::{between, column, in_stock, run};
 use armill::Report;
 use armill::path::{MovePace, Path, gcode};
 use armill::report::PartKind;
 use armill::stock::{Blank, Cutter, Earlier, Outline, Remaining, Solid};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use common::in_stock::{AT, plate};
-use common::{between, column, in_stock, run};
 use nalgebra::{Vector2, Vector3};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

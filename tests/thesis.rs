@@ -1,16 +1,13 @@
 //! The thesis's figures, each with its tolerance and why (design notes: what in the thesis is
 //! right, and what is not).
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::{any_joints, column, run};
 use armill::deviation::{Source, Sources};
 use armill::report::Statistics;
 use armill::report::thesis::{ConstantForce, TABLE_5_1, rows, rx90};
 use armill::robot::{Joints, forward, inverse, jacobian};
 use armill::{Job, Report};
-use common::{any_joints, column, run};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use serde_json::json;
 use std::sync::OnceLock;

@@ -1,13 +1,10 @@
 //! What is promised, and that page, files and script promise the same.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::run;
 use armill::Report;
 use armill::export::{ExportOptions, FORMATS};
 use armill::report::VerdictState;
 use armill::verification::Programs;
-use common::run;
 use serde_json::{Value, json};
 
 /// A rounded rectangle by an arm that can carry the cut, with a tolerance and 95 % ranges.

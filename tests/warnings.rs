@@ -1,13 +1,10 @@
 //! What is said to be impossible, where, and what cures it.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod common;
-
+use crate::common::{column, refused, run};
 use armill::Report;
 use armill::report::{Severity, Warning};
 use armill::robot::library;
-use common::{column, refused, run};
 use serde_json::{Value, json};
 
 fn warning<'r>(report: &'r Report, code: &str) -> Option<&'r Warning> {

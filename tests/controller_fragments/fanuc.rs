@@ -1,7 +1,7 @@
 //! FANUC.
 
+use super::{at, near, package, refuses};
 use crate::controllers::{Blend, ControllerProgram, Motion, fanuc};
-use crate::{at, near, package, refuses};
 use nalgebra::{Matrix3, Vector3};
 
 /// A program of these lines, numbered and ended here, with these positions.

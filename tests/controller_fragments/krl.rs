@@ -1,7 +1,7 @@
 //! KUKA.
 
+use super::{at, near, package, refuses};
 use crate::controllers::{Blend, Motion, krl};
-use crate::{at, near, package, refuses};
 use nalgebra::{Matrix3, Vector3};
 
 const KRL_MAIN: &str = "\

@@ -1,7 +1,7 @@
 //! ABB.
 
+use super::{at, near, package, refuses};
 use crate::controllers::{Blend, ControllerProgram, Motion, rapid};
-use crate::{at, near, package, refuses};
 use nalgebra::Vector3;
 
 const RAPID_MAIN: &str = "\

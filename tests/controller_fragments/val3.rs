@@ -1,7 +1,7 @@
 //! Staubli.
 
+use super::{at, near, package, refuses};
 use crate::controllers::{Blend, Motion, val3};
-use crate::{at, near, package, refuses};
 use nalgebra::{Matrix3, Vector3};
 
 const PROJECT: &str = "<?xml version=\"1.0\" encoding=\"utf-8\"?>

@@ -1,7 +1,7 @@
 //! Mean and instantaneous force: golden cases, laws, and thin slices as an independent computation.
 
+use super::{CHIP, DEG, average, brute, coefficients, golden, half};
 use crate::common::{between, run};
-use crate::{CHIP, DEG, average, brute, coefficients, golden, half};
 use armill::cutting::{Coefficients, Cut, Engagement, Hand};
 use nalgebra::Vector3;
 use serde_json::json;
@@ -325,7 +325,7 @@ fn the_peak_with_runout_is_that_of_thin_slices() {
             ..half()
         };
         let (entry, exit) = cut.engagement.at(0.006);
-        let size = |phi: f64| crate::runout::by_the_wall(&cut, (entry, exit), phi, CHIP, 1000).norm();
+        let size = |phi: f64| super::runout::by_the_wall(&cut, (entry, exit), phi, CHIP, 1000).norm();
         let angle = |step: f64| TAU * step / 720.0;
         let coarse = (0..720).map(f64::from).max_by(|a, b| size(angle(*a)).total_cmp(&size(angle(*b))));
         let fine = (-100..=100).map(|part| angle(coarse.unwrap() + f64::from(part) / 100.0));

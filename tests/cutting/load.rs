@@ -1,7 +1,7 @@
 //! Load along the path: chip by speed, and run-in.
 
+use super::half;
 use crate::common::{column, run};
-use crate::half;
 use armill::cutting::{Cut, Engagement};
 use serde_json::{Value, json};
 use std::f64::consts::PI;

@@ -1,7 +1,7 @@
 //! Coefficients: specific cutting force, orthogonal data, the library.
 
+use super::{DEG, golden};
 use crate::common::{between, run};
-use crate::{DEG, golden};
 use armill::cutting::{Kienzle, material, oblique};
 use nalgebra::Vector3;
 use serde_json::{Value, json};

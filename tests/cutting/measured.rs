@@ -6,7 +6,7 @@
 //! numbers themselves show: any other reading misses by 184 % and more. The force on the tool in {T}
 //! is thus (-y, -x, z).
 
-use crate::DEG;
+use super::DEG;
 use armill::Progress;
 use armill::cutting::{Coefficients, Cut, Engagement, Hand};
 use armill::path::{Path, gcode};

@@ -1,7 +1,7 @@
 //! Radial runout of the teeth.
 
+use super::{CHIP, average, half};
 use crate::common::between;
-use crate::{CHIP, average, half};
 use armill::cutting::{Coefficients, Cut, Engagement};
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};

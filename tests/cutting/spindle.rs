@@ -1,7 +1,7 @@
 //! Torque, power and removal rate.
 
+use super::{CHIP, half};
 use crate::common::run;
-use crate::{CHIP, half};
 use armill::cutting::{Coefficients, Cut, Engagement};
 use serde_json::json;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};

@@ -1,7 +1,7 @@
 //! The remaining wall.
 
+use super::{DEG, brute};
 use crate::common::{column, run};
-use crate::{DEG, brute};
 use armill::cutting::{Cut, Engagement};
 use serde_json::json;
 use std::f64::consts::PI;

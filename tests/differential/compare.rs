@@ -1,8 +1,8 @@
 //! The report against the plain model: every column of every job, with bounds for the quantiles of
 //! their differences.
 
-use crate::arm::{Refusal, column};
-use crate::model::{Answer, Outcome, Question};
+use super::arm::{Refusal, column};
+use super::model::{Answer, Outcome, Question};
 use armill::Report;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;

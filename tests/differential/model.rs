@@ -1,8 +1,8 @@
 //! The whole pipeline a second time, as one plain loop after another.
 
-use crate::arm::{Arm, Joints, Refusal, column, frame};
-use crate::cut::{Beam, Cut, Force};
-use crate::way::{Instant, Piece, Tempo, Way};
+use super::arm::{Arm, Joints, Refusal, column, frame};
+use super::cut::{Beam, Cut, Force};
+use super::way::{Instant, Piece, Tempo, Way};
 use nalgebra::{Matrix4, Vector3};
 use std::f64::consts::{PI, TAU};
 

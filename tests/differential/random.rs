@@ -1,12 +1,12 @@
 //! Random jobs over the valid ranges, each as the JSON that Armill reads and as numbers in SI for
 //! the plain model.
 
-use crate::arm::{Arm, about_z, frame, placed, shift};
+use super::arm::{Arm, about_z, frame, placed, shift};
+use super::cut::{Beam, Cut, Part, Stock};
+use super::model::{Question, Sources, impulses, place};
+use super::track::{program, shape};
+use super::way::{Tempo, Way};
 use crate::common::peer::peer;
-use crate::cut::{Beam, Cut, Part, Stock};
-use crate::model::{Question, Sources, impulses, place};
-use crate::track::{program, shape};
-use crate::way::{Tempo, Way};
 use armill::robot::library::Preset;
 use nalgebra::Vector3;
 use serde_json::{Value, json};

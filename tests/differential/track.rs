@@ -1,7 +1,7 @@
 //! Random paths, as a job's JSON and as plain curves.
 
-use crate::random::Dice;
-use crate::way::{Curve, Piece};
+use super::random::Dice;
+use super::way::{Curve, Piece};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};

@@ -3,7 +3,7 @@
 
 use nalgebra::{Matrix4, Vector3};
 
-use crate::arm::{column, placed};
+use super::arm::{column, placed};
 
 /// A line or an arc (helix), parametrised by arc length.
 #[derive(Debug, Clone, Copy)]

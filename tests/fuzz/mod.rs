@@ -1,12 +1,10 @@
 //! No text breaks a reader, the job or an export: the corpus, and some seconds of mutations of it.
 //! `cargo xtask fuzz` searches for more, guided by coverage.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-#[path = "../controllers/mod.rs"]
-mod controllers;
 mod target;
 mod words;
 
+use crate::controllers;
 use std::time::{Duration, Instant};
 use target::{TARGETS, Target};
 use words::Words;

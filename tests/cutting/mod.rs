@@ -1,10 +1,6 @@
 //! Cutting: golden cases, the laws of the force model, and brute-force sums as an independent
 //! computation.
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
-
-#[path = "../common/mod.rs"]
-mod common;
 
 mod force;
 mod job;

@@ -4,19 +4,15 @@
 //! To run any number of them, at tens of jobs per second and core:
 //!
 //! ```sh
-//! ARMILL_DIFFERENTIAL_JOBS=50000 cargo test --test differential -- --nocapture
+//! ARMILL_DIFFERENTIAL_JOBS=50000 cargo test --test native differential -- --nocapture
 //! ```
 //!
 //! To repeat one that failed: `ARMILL_DIFFERENTIAL_JOBS=1 ARMILL_DIFFERENTIAL_FIRST=its number`.
-#![cfg(not(target_arch = "wasm32"))]
 #![allow(clippy::disallowed_methods, reason = "the language's own functions are the second way")]
 #![allow(clippy::disallowed_types, reason = "quaternions for another library, compared within tolerances")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "quantiles are worth seeing: cargo test -- --nocapture")]
 
 mod arm;
-#[path = "../common/mod.rs"]
-mod common;
 mod compare;
 mod cut;
 mod model;

@@ -1,16 +1,13 @@
 //! The readers of robot programs (`controllers/`) held to public fragments, with matrices derived another way,
 //! and to faulty programs, each refused for its own reason.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "compared within a tolerance, not bit by bit")]
 
-#[path = "../controllers/mod.rs"]
-mod controllers;
 mod fanuc;
 mod krl;
 mod rapid;
 mod val3;
 
-use controllers::{ControllerProgram, File};
+use crate::controllers::{ControllerProgram, File};
 use nalgebra::{Matrix3, Vector3};
 
 type Reader = fn(&[File]) -> Result<ControllerProgram, String>;

@@ -24,10 +24,8 @@
 //! `ARMILL_RASTER_TEXT` prints those that fail:
 //!
 //! ```sh
-//! ARMILL_RASTER_PROGRAMS=200 cargo test --test stock_raster -- --nocapture
+//! ARMILL_RASTER_PROGRAMS=200 cargo test --test native stock_raster -- --nocapture
 //! ```
-#![cfg(not(target_arch = "wasm32"))]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "independent values come from the standard library")]
 #![allow(clippy::print_stdout, reason = "the counts are worth seeing: cargo test -- --nocapture")]
 
