@@ -81,6 +81,8 @@ use armill::verification::Programs;
 use browser::{DESKTOP, Key, PHONE, Page, Result, THESIS, visit};
 use common::run;
 use serde_json::{Value, json};
+use std::time::{Duration, Instant};
+use tokio::time::sleep;
 
 /// Waits until the page shows the result of its current inputs.
 async fn current(page: &Page) -> Result {
@@ -95,6 +97,18 @@ async fn stale(page: &Page) -> Result {
 /// Waits until the page says that a run was stopped.
 async fn stopped(page: &Page) -> Result {
     page.wait_for("document.querySelector('#results').dataset.state === 'stopped'", 60.0).await
+}
+
+/// Waits until the page, charts drawn for its new size included, is no wider than its screen.
+async fn narrow(page: &Page, state: &str) -> Result {
+    let start = Instant::now();
+    loop {
+        match page.wider().await? {
+            Value::Null => return Ok(()),
+            wider if start.elapsed().as_secs() > 10 => return Err(format!("{state}: {wider}").into()),
+            _ => sleep(Duration::from_millis(50)).await,
+        }
+    }
 }
 
 /// A number of the page in full precision.

@@ -35,6 +35,7 @@ async fn goes_on(page: &Page) -> Result {
 }
 
 #[test]
+#[ignore = "takes half a minute: cargo xtask test --heavy"]
 fn files_of_fifty_megabytes_are_answered() -> Result {
     visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
@@ -61,6 +62,7 @@ const MILLION: &str =
     "Array.from({ length: 1e6 }, (_, k) => [600, (k % 1e4) / 100 - 50, 100 + Math.floor(k / 1e4) / 100])";
 
 #[test]
+#[ignore = "takes half a minute: cargo xtask test --heavy"]
 fn a_million_points_are_answered_and_survive_a_reload() -> Result {
     visit(THESIS, DESKTOP, async |page| {
         current(page).await?;

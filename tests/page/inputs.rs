@@ -44,7 +44,7 @@ fn numbers_take_units_and_sums_and_a_doubtful_comma_is_asked_about() -> Result {
             ("90", "", 90.0),
         ] {
             page.type_into("#motion-feed_mm_s", typed).await?;
-            shows(page, &run(&[("motion.feed_mm_s", json!(feed))])).await?;
+            assert_eq!(job(page).await?["motion"]["feed_mm_s"].as_f64(), Some(feed));
             assert_eq!(understood(page, "#motion-feed_mm_s").await?, said, "{typed}");
         }
         // Once it is left, an expression is its number.
@@ -242,7 +242,11 @@ fn a_job_has_a_name_in_files_and_titles() -> Result {
         assert!(page.downloaded("plate-b-columns.csv").await?.starts_with("time_s,"));
         page.click("#share").await?;
         page.js("document.querySelector('#share-markdown').click()").await?;
-        assert!(page.value("#share-text").await?.starts_with("## plate \\<b\\>\n"));
+        page.wait_for(
+            "document.querySelector('#share-text').value.startsWith('## plate \\\\<b\\\\>\\n')",
+            10.0,
+        )
+        .await?;
         page.click("#share-close").await?;
         page.click("#undo").await?;
         assert_eq!(page.value("#job-name").await?, "slot 4");

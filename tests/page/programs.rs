@@ -132,7 +132,8 @@ fn a_rejected_program_stays_and_is_told_where() -> Result {
 fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
     visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
-        let moves: String = (0..25_000).map(|i| format!("X{:.3}\n", 600.0 + f64::from(i) * 2e-3)).collect();
+        let moves: String =
+            (0..12_000).map(|i| format!("X{:.3} (finish)\n", 600.0 + f64::from(i) * 4e-3)).collect();
         let long = format!("G21 G90\nS4000 M3\nG0 X600 Y0 Z100\nG1 F6000\n{moves}M30");
         drop(page, "long.nc", &long).await?;
         page.wait_for("document.querySelector('#path-kind').value === 'gcode'", 20.0).await?;
@@ -140,7 +141,7 @@ fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
         let listing = text(page, "path-text-window").await?;
         assert!(listing.contains("1 G21 G90") && listing.len() < 1000, "{listing}");
         let note = page.text(".listing .note").await?;
-        assert!(note.contains("long.nc: 25\u{202f}005 lines, 0.2 MB"), "{note}");
+        assert!(note.contains("long.nc: 12\u{202f}005 lines, 0.2 MB"), "{note}");
         // An edit elsewhere keeps the text; so does the saved job.
         page.type_into("#motion-feed_mm_s", "90").await?;
         shows(
@@ -155,7 +156,7 @@ fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
         page.js("document.getElementById('path-text-window').scrollTop = 1e9").await?;
         page.wait_for("document.getElementById('path-text-window').textContent.includes('M30')", 5.0).await?;
         page.js("const rows = [...document.querySelectorAll('#path-text-window [data-line]')]; \
-             rows.find(row => row.dataset.line === '25000').click()")
+             rows.find(row => row.dataset.line === '12000').click()")
             .await?;
         let cursor = page.with_module("page/cursor", "({ cursor }) => cursor()").await?;
         assert!(cursor.as_f64().is_some_and(|time| time > 0.1), "{cursor}");
@@ -165,7 +166,7 @@ fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
         page.wait_for("document.querySelector('#chart-before-after .readout button')", 20.0).await?;
         page.click("#chart-before-after .readout button").await?;
         let line = "document.querySelector('#path-text-window [aria-selected=true]')";
-        page.wait_for(&format!("{line} && {line}.dataset.line !== '25000'"), 5.0).await?;
+        page.wait_for(&format!("{line} && {line}.dataset.line !== '12000'"), 5.0).await?;
         let line = page.js(&format!("return {line}.dataset.line")).await?;
         let named = page.text("#chart-before-after .readout").await?;
         assert!(
@@ -176,8 +177,8 @@ fn a_long_program_is_shown_in_part_and_kept_whole() -> Result {
         drop(page, "long.nc", &long.replace("X630.000", "X630.000 A5")).await?;
         stale(page).await?;
         let error = text(page, "path-text-error").await?.to_lowercase();
-        assert!(error.contains("line 15005, column 10"), "{error}");
-        assert!(text(page, "path-text-window").await?.contains("15005 X630.000 A5"));
+        assert!(error.contains("line 7505, column 10"), "{error}");
+        assert!(text(page, "path-text-window").await?.contains("7505 X630.000 A5"));
         // A short program is an editable text again.
         page.choose("#examples", "contour.nc").await?;
         page.wait_for("document.querySelector('#stock-kind').value === 'box'", 20.0).await?;

@@ -147,6 +147,7 @@ fn a_joint_is_red_where_it_is_out_of_its_range() -> Result {
 }
 
 #[test]
+#[ignore = "one of the slower ones: cargo xtask test --heavy"]
 fn from_above_the_arm_does_not_hide_the_path() -> Result {
     visit(THESIS, DESKTOP, async |page| {
         open_part(page, "pocket.nc").await?;
@@ -170,6 +171,7 @@ fn from_above_the_arm_does_not_hide_the_path() -> Result {
 }
 
 #[test]
+#[ignore = "one of the slower ones: cargo xtask test --heavy"]
 fn the_tolerance_is_drawn_on_request_and_leaves_the_passes_in_sight() -> Result {
     visit(THESIS, DESKTOP, async |page| {
         open_part(page, "pocket.nc").await?;
@@ -266,6 +268,7 @@ fn the_scale_of_errors_stands_out_from_light_and_dark_paper() -> Result {
 }
 
 #[test]
+#[ignore = "one of the slower ones: cargo xtask test --heavy"]
 fn it_fits_small_and_large_panes() -> Result {
     visit(THESIS, (1280, 900), async |page| {
         open_part(page, "pocket.nc").await?;
