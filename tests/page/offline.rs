@@ -188,6 +188,7 @@ fn a_visited_page_needs_no_network() -> Result {
 }
 
 #[test]
+#[ignore = "one of the slower ones: cargo xtask test --heavy"]
 fn page_and_core_are_of_one_version() -> Result {
     let first = built()?;
     let (second, third) = (later(&first, "Second")?, later(&first, "Third")?);

@@ -38,6 +38,7 @@ fn a_remedy_is_applied_by_its_button_and_undone() -> Result {
 
 /// A sample time too short for a long run comes with the least that is enough, as a button.
 #[test]
+#[ignore = "one of the slower ones: cargo xtask test --heavy"]
 fn too_many_samples_have_a_button_with_the_sample_time_that_is_enough() -> Result {
     let refused = refused(&[("motion.feed_mm_s", json!(0.01))]);
     let least = serde_json::to_value(&refused)?["min"].as_f64().ok_or("no limit")?;

@@ -130,6 +130,7 @@ fn saved(feed: u32, model: Option<u32>) -> String {
 }
 
 #[test]
+#[ignore = "one of the slower ones: cargo xtask test --heavy"]
 fn what_an_earlier_model_computed_says_so_on_opening() -> Result {
     let of_feed = |feed: u32| run(&[("motion.feed_mm_s", json!(feed))]);
     let kept = "JSON.parse(sessionStorage.getItem('armill-inputs')).state.job";
@@ -283,6 +284,7 @@ fn without_storage_the_page_works_and_says_once_that_nothing_is_kept() -> Result
 }
 
 #[test]
+#[ignore = "one of the slower ones: cargo xtask test --heavy"]
 fn two_tabs_keep_their_own_inputs() -> Result {
     visit(THESIS, DESKTOP, async |page| {
         current(page).await?;
