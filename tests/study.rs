@@ -166,7 +166,7 @@ fn plain_z(z: f64) -> Option<f64> {
 #[test]
 fn rows_of_robots_are_single_runs() {
     let mut opening = Job::opening().unwrap();
-    opening.motion.sample_time_s = 0.1;
+    opening.motion.sample_time_s = 0.2;
     opening.uncertainty.draws = 100;
     let kept = robots(&opening, PartPlace::Kept).unwrap();
     assert_eq!(kept.len(), armill::robot::library::robots().count());

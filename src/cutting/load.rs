@@ -105,7 +105,7 @@ pub struct Loads<'a> {
 
 impl Loads<'_> {
     /// The load at the sample `k` of a timing law: chip c v / v_f, and edge forces that fade in
-    /// proportion to v below [`FADING`] of v_f; none on rapid moves.
+    /// proportion to v below `FADING` of v_f; none on rapid moves.
     pub fn at(&self, timing: &TimingLaw, k: usize) -> CutLoad {
         let index = timing.index[k] as usize;
         let step = &self.path.moves()[index];

@@ -39,7 +39,7 @@ pub struct Warning {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to_s: Option<f64>,
     /// The separate stretches of samples at which it holds, first and last of each; empty if it
-    /// concerns the whole job. At most [`MOST_SPANS`](super::MOST_SPANS), the nearest joined.
+    /// concerns the whole job. At most [`MOST_SPANS`], the nearest joined.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub spans_samples: Vec<(usize, usize)>,
     /// Times of these stretches [s].
