@@ -317,22 +317,26 @@ impl Path {
     /// nearest to `near` wins. Segments that are too far away are left out: over an arc length, a
     /// distance changes by at most as much.
     pub fn closest(&self, p: &Vector3<f64>, near: f64, radius: f64) -> Closest {
-        /// Far more than rounding changes a distance [m].
-        const MARGIN: f64 = 1e-9;
+        /// Segments, from which on leaving some out is faster.
+        const MANY: usize = 32;
         let length = self.length();
         let mut best: Option<(f64, Closest)> = None;
         let radius = radius.min(length / 2.0);
         let (low, high) = (near - radius, near + radius);
-        let mut reached = self.reached(p, near, (low.clamp(0.0, length), high.clamp(0.0, length)));
         let mut search = |low: f64, high: f64, shift: f64| {
             let (mut index, _) = self.locate(low);
+            let many = self.starts.get(index + MANY).is_some_and(|&start| start <= high);
+            let reached = if many { self.reached(p, near, (low, high)) } else { f64::INFINITY };
             while index < self.moves.len() && self.starts[index] <= high {
                 let segment = &self.moves[index].segment;
                 let start = self.starts[index];
-                let too_far_before = start + (p - segment.point(0.0)).norm() - reached - MARGIN;
-                if start + segment.length() < too_far_before {
-                    index = self.locate(too_far_before).0.max(index + 1);
-                    continue;
+                if many {
+                    let least = best.map_or(reached, |(least, _)| reached.min(least.sqrt()));
+                    let next = self.close_enough(p, index, least);
+                    if next > index {
+                        index = next;
+                        continue;
+                    }
                 }
                 let (from, to) = ((low - start).max(0.0), (high - start).min(segment.length()));
                 let within = segment.closest(p, from.min(to), to);
@@ -345,7 +349,6 @@ impl Path {
                 });
                 if better {
                     best = Some((distance, candidate));
-                    reached = reached.min(distance.sqrt());
                 }
                 index += 1;
             }
@@ -362,15 +365,23 @@ impl Path {
         best.map_or(Closest { s: near, point: self.point(near) }, |(_, closest)| closest)
     }
 
-    /// A distance [m] from `p` that some point between two arc lengths [m] keeps: found by a few steps
-    /// along the tangent, infinite where there are too few segments to be worth it.
-    fn reached(&self, p: &Vector3<f64>, near: f64, (low, high): (f64, f64)) -> f64 {
-        /// Segments, from which on leaving some out is faster.
-        const MANY: usize = 8;
-        let mut least = f64::INFINITY;
-        if self.locate(high).0 - self.locate(low).0 < MANY {
-            return least;
+    /// The first move, from `index` on, that may come as close to `p` as `least` [m].
+    fn close_enough(&self, p: &Vector3<f64>, index: usize, least: f64) -> usize {
+        /// Far more than rounding changes a distance [m].
+        const MARGIN: f64 = 1e-9;
+        let (start, segment) = (self.starts[index], &self.moves[index].segment);
+        let too_far_before = start + (p - segment.point(0.0)).norm() - least - MARGIN;
+        if start + segment.length() < too_far_before {
+            self.locate(too_far_before).0.max(index + 1)
+        } else {
+            index
         }
+    }
+
+    /// A distance [m] from `p` that some point between two arc lengths [m] keeps: found by a few steps
+    /// along the tangent.
+    fn reached(&self, p: &Vector3<f64>, near: f64, (low, high): (f64, f64)) -> f64 {
+        let mut least = f64::INFINITY;
         let mut s = near.max(low).min(high);
         for _ in 0..3 {
             let away = p - self.point(s);
