@@ -81,8 +81,6 @@ use armill::verification::Programs;
 use browser::{DESKTOP, Key, PHONE, Page, Result, THESIS, visit};
 use common::run;
 use serde_json::{Value, json};
-use std::time::{Duration, Instant};
-use tokio::time::sleep;
 
 /// Waits until the page shows the result of its current inputs.
 async fn current(page: &Page) -> Result {
@@ -101,14 +99,10 @@ async fn stopped(page: &Page) -> Result {
 
 /// Waits until the page, charts drawn for its new size included, is no wider than its screen.
 async fn narrow(page: &Page, state: &str) -> Result {
-    let start = Instant::now();
-    loop {
-        match page.wider().await? {
-            Value::Null => return Ok(()),
-            wider if start.elapsed().as_secs() > 10 => return Err(format!("{state}: {wider}").into()),
-            _ => sleep(Duration::from_millis(50)).await,
-        }
-    }
+    let fits = "document.documentElement.scrollWidth <= document.documentElement.clientWidth";
+    let fitted = page.wait_for(fits, 10.0).await;
+    assert_eq!(page.wider().await?, Value::Null, "{state}");
+    fitted
 }
 
 /// A number of the page in full precision.

@@ -44,7 +44,7 @@ fn numbers_take_units_and_sums_and_a_doubtful_comma_is_asked_about() -> Result {
             ("90", "", 90.0),
         ] {
             page.type_into("#motion-feed_mm_s", typed).await?;
-            assert_eq!(job(page).await?["motion"]["feed_mm_s"].as_f64(), Some(feed));
+            shows(page, &run(&[("motion.feed_mm_s", json!(feed))])).await?;
             assert_eq!(understood(page, "#motion-feed_mm_s").await?, said, "{typed}");
         }
         // Once it is left, an expression is its number.

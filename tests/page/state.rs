@@ -94,11 +94,10 @@ fn a_link_that_cannot_be_opened_says_why_and_the_example_stands() -> Result {
             (fragment(page, "{\"motor\":1}").await?, "motor"),
         ] {
             open(page, &broken).await?;
-            page.wait_for("document.getElementById('alert').textContent", 20.0).await?;
+            shows(page, &example).await?;
             let alert = text(page, "alert").await?;
             assert!(alert.contains(reason) && alert.contains("This is the example"), "{broken}: {alert}");
         }
-        shows(page, &example).await?;
         // The user's own inputs are one undo away.
         page.click("#undo").await?;
         shows(page, &run(&[("motion.feed_mm_s", json!(70))])).await?;
