@@ -44,7 +44,7 @@ pub(crate) fn all() -> Result<()> {
     step("tests of the page", || page(&[]))
 }
 
-/// Runs the tests of the page that take long: pictures, and every job of the gallery.
+/// Runs the tests of the page that take long, which [`all`] leaves out.
 ///
 /// # Errors
 /// As for [`all`].

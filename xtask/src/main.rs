@@ -33,7 +33,7 @@ usage: cargo xtask <command>
   test             check formatting, lints and types, run all tests: native, in Node, in the browser, through the page
   test --native    only what needs neither Node nor a browser
   test --javascript  only the page's code: its layout, its types, its tests in Node
-  test --heavy     pictures of the page and every job of the gallery: some minutes more
+  test --heavy     the slower tests of the page, pictures and gallery among them: some minutes more
   test --firefox   the page in Firefox: figures, first screen, one program; builds Firefox's driver if there is none
   bench [samples]  time stages and whole jobs, natively and in Chromium, and kinematics beside other crates: about ten minutes
                    for the sizes 20000,200000,1000000, a minute for one
