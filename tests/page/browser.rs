@@ -226,8 +226,12 @@ impl Page {
     /// If there is no such field, or it cannot be typed into.
     pub async fn type_into(&self, css: &str, text: &str) -> Result {
         let select_all = format!("{}a{}", Key::Control, Key::Null);
-        let keys = select_all + if text.is_empty() { "\u{e003}" } else { text };
-        self.element(css).await?.send_keys(&keys).await.map_err(|error| within(css, error))
+        let field = self.element(css).await?;
+        // Firefox does not take what follows a chord in the same call.
+        for keys in [select_all.as_str(), if text.is_empty() { "\u{e003}" } else { text }] {
+            field.send_keys(keys).await.map_err(|error| within(css, error))?;
+        }
+        Ok(())
     }
 
     /// Chooses an option of a `<select>` by its value; the one behind a searched list is set, as it
