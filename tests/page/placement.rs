@@ -66,10 +66,15 @@ fn a_place_is_taken_by_click_or_key_and_given_back_by_undo() -> Result {
         open(page).await?;
         let place = "[...document.querySelectorAll('#workpiece_frame-xyz_mm input')].map(input => Number(input.value))";
         assert_eq!(page.js(&format!("return {place}")).await?, json!([0, 0, 0]));
+        let verdict = |text: &str| {
+            format!("document.querySelector('#placement-verdict').textContent.startsWith('{text}')")
+        };
+        page.wait_for(&verdict("Best on this map: x "), 5.0).await?;
         page.js("document.querySelector('#placement-best').click()").await?;
         page.wait_for(&format!("{place}.some(value => value !== 0)"), 5.0).await?;
         current(page).await?;
-        assert!(page.text("#placement-verdict").await?.starts_with("Best on this map: x "));
+        // The part is there now, as soon as the map knows what its place is worth.
+        page.wait_for(&verdict("No place on this map is better"), 10.0).await?;
         page.js("document.querySelector('#undo').click()").await?;
         page.wait_for(&format!("{place}.every(value => value === 0)"), 5.0).await?;
         let press = |key: &str| {
