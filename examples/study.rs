@@ -1,20 +1,24 @@
 //! Answers questions about a job (the default job without a file): how its errors follow one number
-//! or two, how large a number may be, which robot does it best. Prints one JSON object, or the rows
-//! as CSV.
+//! or two, how large a number may be, which robot and which choice does it best, which input moves it
+//! most, what to measure first. Prints one JSON object, or the rows as CSV.
 //!
 //! ```sh
 //! cargo run --release --example study -- [job.json] --vary cutting.axial_depth_mm=0.5:5:20 [--vary ..]
 //! cargo run --release --example study -- [job.json] --largest cutting.axial_depth_mm=0.1:10 --quantity p95
 //! cargo run --release --example study -- [job.json] --robots [--place kept|front]
+//! cargo run --release --example study -- [job.json] --choices
+//! cargo run --release --example study -- [job.json] --tornado
+//! cargo run --release --example study -- [job.json] --measure-first
 //! ```
 
-use armill::study::{ErrorMeasure, LargestQuestion, PartPlace, ValueRange, robots, sweep};
-use armill::{Error, Job};
+use armill::study::{ErrorMeasure, LargestQuestion, PartPlace, ValueRange, choices, robots, sweep, tornado};
+use armill::{Error, Job, Progress};
 use serde_json::{Value, json};
 use std::process::ExitCode;
 
 const USAGE: &str = "study [job.json] (--vary path=from:to:count[:log] [--vary ..] | --largest path=from:to \
-                     [--quantity nominal|p95|uncompensated] | --robots [--place kept|front]) [--csv]";
+                     [--quantity nominal|p95|uncompensated] | --robots [--place kept|front] | --choices | \
+                     --tornado | --measure-first) [--csv]";
 
 /// What is asked on the command line.
 #[derive(Default)]
@@ -24,6 +28,9 @@ struct Asked {
     largest: Option<String>,
     quantity: Option<String>,
     robots: bool,
+    choices: bool,
+    tornado: bool,
+    measure_first: bool,
     place: Option<String>,
     csv: bool,
 }
@@ -38,6 +45,9 @@ impl Asked {
                 "--largest" => asked.largest = Some(value()?),
                 "--quantity" => asked.quantity = Some(value()?),
                 "--robots" => asked.robots = true,
+                "--choices" => asked.choices = true,
+                "--tornado" => asked.tornado = true,
+                "--measure-first" => asked.measure_first = true,
                 "--place" => asked.place = Some(value()?),
                 "--csv" => asked.csv = true,
                 other if other.starts_with('-') => return Err(format!("unknown option {other}")),
@@ -45,20 +55,19 @@ impl Asked {
                 file => asked.job = Some(file.to_owned()),
             }
         }
-        let questions = usize::from(!asked.vary.is_empty())
-            + usize::from(asked.largest.is_some())
-            + usize::from(asked.robots);
-        match questions {
+        let questions = [
+            !asked.vary.is_empty(),
+            asked.largest.is_some(),
+            asked.robots,
+            asked.choices,
+            asked.tornado,
+            asked.measure_first,
+        ];
+        match questions.iter().filter(|is_asked| **is_asked).count() {
             1 => Ok(asked),
-            _ => Err("one question at a time: --vary, --largest or --robots".into()),
-        }
-    }
-
-    fn place(&self) -> Result<PartPlace, Error> {
-        match self.place.as_deref() {
-            None | Some("kept") => Ok(PartPlace::Kept),
-            Some("front") => Ok(PartPlace::InFront),
-            Some(other) => Err(Error::unknown_name("place", other, "one of", ["kept", "front"])),
+            _ => Err("one question at a time: --vary, --largest, --robots, --choices, --tornado or \
+                      --measure-first"
+                .into()),
         }
     }
 
@@ -68,7 +77,18 @@ impl Asked {
             return Ok(json!(LargestQuestion::read(text, quantity)?.answer(job)?));
         }
         if self.robots {
-            return Ok(json!({ "robots": robots(job, self.place()?)? }));
+            let place = PartPlace::named(self.place.as_deref().unwrap_or("kept"))?;
+            return Ok(json!({ "robots": robots(job, place)? }));
+        }
+        if self.choices {
+            return Ok(json!({ "choices": choices(job) }));
+        }
+        if self.tornado {
+            return Ok(json!({ "tornado": tornado(&armill::run(job, &mut Progress::none())?) }));
+        }
+        if self.measure_first {
+            let report = armill::run(job, &mut Progress::none())?;
+            return Ok(json!({ "measures": report.how_sure().measures }));
         }
         let ranges: Vec<ValueRange> =
             self.vary.iter().map(|text| ValueRange::read(text)).collect::<Result<_, _>>()?;
@@ -108,12 +128,19 @@ fn main() -> ExitCode {
 /// The rows of an answer: a column for each key that a row of this kind can have.
 fn csv(answer: &Value) -> String {
     let numbers = ["value", "second"];
-    let arm = ["id", "name", "payload_kg", "reach_mm", "stiffness", "duration_s", "force_n"];
-    let (rows, keys): (Vec<&Value>, Vec<&str>) = if let Some(rows) = answer["robots"].as_array() {
-        (rows.iter().collect(), arm.into_iter().chain(OUTCOME).collect())
-    } else if let Some(rows) = answer["rows"].as_array() {
+    let rows = |key: &str| answer[key].as_array().map(|rows| rows.iter().collect::<Vec<_>>());
+    let with_outcome = |keys: &[&'static str]| keys.iter().copied().chain(OUTCOME).collect::<Vec<_>>();
+    let (rows, keys) = if let Some(rows) = rows("robots") {
+        (rows, with_outcome(&ARM))
+    } else if let Some(rows) = rows("choices") {
+        (rows, with_outcome(&["choice", "label"]))
+    } else if let Some(bars) = answer["tornado"]["bars"].as_array() {
+        (bars.iter().collect(), vec!["input", "factors", "after_mm", "before_mm"])
+    } else if let Some(rows) = rows("measures") {
+        (rows, vec!["input", "percent", "p95_mm", "sentence"])
+    } else if let Some(rows) = rows("rows") {
         let count = answer["vary"].as_array().map_or(1, Vec::len);
-        (rows.iter().collect(), numbers.into_iter().take(count).chain(OUTCOME).collect())
+        (rows, with_outcome(&numbers[..count]))
     } else {
         (vec![answer], vec!["path", "largest", "quantity", "tolerance_mm", "holds"])
     };
@@ -123,6 +150,8 @@ fn csv(answer: &Value) -> String {
             format!("\"{}\"", text.replace('"', "\"\""))
         }
         Value::String(text) => text.clone(),
+        // Both ends of a range.
+        Value::Array(numbers) => numbers.iter().map(Value::to_string).collect::<Vec<_>>().join(" "),
         other => other.to_string(),
     };
     let line = |row: &Value| keys.iter().map(|key| cell(&row[*key])).collect::<Vec<_>>().join(",");
@@ -134,6 +163,18 @@ fn csv(answer: &Value) -> String {
     text
 }
 
+/// Keys of an arm.
+const ARM: [&str; 9] = [
+    "id",
+    "name",
+    "payload_kg",
+    "reach_mm",
+    "stiffness",
+    "duration_s",
+    "force_n",
+    "limit_room_deg",
+    "singularity_deg",
+];
 /// Keys of an outcome.
 const OUTCOME: [&str; 7] =
     ["before_max_mm", "after_max_mm", "p50_mm", "p95_mm", "verdict_state", "cannot_run", "error"];

@@ -172,6 +172,17 @@ impl Pose {
     }
 }
 
+/// A few items in rising order of a key; equal ones stay as they come. For lists so short that a sort would only
+/// make the core heavier.
+pub fn rising<T>(items: impl IntoIterator<Item = T>, key: impl Fn(&T) -> f64) -> Vec<T> {
+    let mut sorted: Vec<T> = Vec::new();
+    for item in items {
+        let at = sorted.partition_point(|other| key(other) <= key(&item));
+        sorted.insert(at, item);
+    }
+    sorted
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -119,6 +119,17 @@ impl Stiffness {
         }
     }
 
+    /// The factor on one joint's compliance at the standard normal deviate `z` of that joint alone.
+    pub fn alone(&self, joint: usize, z: f64) -> f64 {
+        match self {
+            Self::Each(spreads) => 1.0 / spreads[joint].at(z),
+            Self::Together(both) => {
+                let row = both.0.row(joint);
+                math::exp(z * row.dot(&row).sqrt())
+            }
+        }
+    }
+
     /// The factor on the compliance of the joint that may be softest, at 95 %, among those that give
     /// way.
     fn softest(&self, compliance: &[f64; 6]) -> f64 {

@@ -171,7 +171,7 @@ fn shares_add_up_and_the_measurement_narrows() {
     let report = default_with(json!({"stiffness_percent": 20, "cutting_percent": 30}));
     let sum: f64 = report.band.shares.iter().map(|share| share.share).sum();
     assert!((sum - 1.0).abs() < 1e-12);
-    let measure = report.band.measure_first.unwrap();
+    let measure = report.band.measure_first().unwrap();
     assert_eq!(measure.input, "cutting");
     let after = default_with(json!({"stiffness_percent": 20, "cutting_percent": 10}));
     // It is estimated at the places that decide: within the 2 % that places may miss.

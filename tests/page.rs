@@ -70,6 +70,8 @@ mod standalone;
 mod reading;
 #[path = "page/state.rs"]
 mod state;
+#[path = "page/study.rs"]
+mod study;
 #[path = "page/zoom.rs"]
 mod zoom;
 

@@ -2,7 +2,8 @@
 
 use crate::common::job_text;
 use armill::study::{
-    ErrorMeasure, Holds, LargestQuestion, Outcome, PartPlace, ValueRange, VariedJob, at_once, robots, sweep,
+    ErrorMeasure, EveryRobot, Holds, LargestQuestion, Outcome, PartPlace, Sweep, ValueRange, VariedJob,
+    at_once, choices, robots, sweep, tornado,
 };
 use armill::{Error, Job, Progress};
 use serde_json::{Value, json};
@@ -182,10 +183,144 @@ fn rows_of_robots_are_single_runs() {
         kept.iter().any(|row| row.stiffness == "guessed")
             && kept.iter().any(|row| row.stiffness != "guessed")
     );
+    for row in kept.iter().filter(|row| row.outcome.error.is_none()) {
+        // The warning says "near" within its margin, 5 deg.
+        let beyond = row.limit_room_deg.is_some_and(|room| room < 0.0);
+        let cannot = row.outcome.cannot_run.as_deref().unwrap_or_default();
+        assert!(!beyond || cannot.contains("oint"), "{}: {:?}", row.id, row.outcome);
+        assert!((0.0..=90.0).contains(&row.singularity_deg.unwrap()));
+    }
+    let one = EveryRobot::new(&opening, PartPlace::Kept).unwrap();
+    assert_eq!((one.count(), &one.row(3)), (kept.len(), &kept[3]));
     let front = robots(&opening, PartPlace::InFront).unwrap();
     let runs =
         |rows: &[armill::study::RobotRow]| rows.iter().filter(|row| row.outcome.error.is_none()).count();
     assert!(runs(&front) > runs(&kept), "each arm has its own place");
+}
+
+/// Rows that Workers compute one by one, in any order, are those of the whole answer.
+#[test]
+fn rows_do_not_depend_on_who_computes_them() {
+    let job = quick(&[]);
+    let ranges = [range("cutting.axial_depth_mm=1:9:5")];
+    let whole = sweep(&job, &ranges).unwrap();
+    for index in [4, 0, 2] {
+        assert_eq!(Sweep::new(&job, &ranges).unwrap().row(index), whole[index]);
+    }
+    let question = LargestQuestion::read("cutting.axial_depth_mm=0.1:10", ErrorMeasure::P95).unwrap();
+    let scan = sweep(&job, &[question.scan()]).unwrap();
+    let errors: Vec<_> = scan.iter().map(|row| row.outcome.p95_mm).collect();
+    assert_eq!(question.answer_from(&job, &errors).unwrap(), question.answer(&job).unwrap());
+    assert!(question.answer_from(&job, &errors[1..]).is_err());
+}
+
+/// Each input alone at the end of its range, against the band's shares: an input's share is its part of the sum of
+/// squares. On a short line the arm hardly moves, so the worst place of every input is the same.
+#[test]
+fn the_tornado_agrees_with_the_shares_of_the_band() {
+    for uncertainty in [
+        json!({ "stiffness_percent": 20, "cutting_percent": 30 }),
+        json!({ "stiffness_percent": 10, "cutting_percent": 2 }),
+    ] {
+        let line = json!({ "kind": "line", "from_mm": [650, -10, 100], "to_mm": [650, 10, 100] });
+        let job = quick(&[("path", line), ("uncertainty", uncertainty), ("cutting.coupling", json!("none"))]);
+        let report = armill::run(&job, &mut Progress::none()).unwrap();
+        let tornado = tornado(&report);
+        // The band's places hold the worst within 2 %.
+        assert!((tornado.before_mm / report.summary().before_mm.both.max - 1.0).abs() < 0.02, "{tornado:?}");
+        let swing = |bar: &armill::study::TornadoBar| {
+            (bar.after_mm[0] - tornado.after_mm).abs().max((bar.after_mm[1] - tornado.after_mm).abs())
+        };
+        assert!(tornado.bars.windows(2).all(|pair| swing(&pair[0]) >= swing(&pair[1])));
+        // What is left without a change is next to nothing, so an input's error is its own alone; half the sum
+        // of both ends leaves out what is not linear.
+        let size = |bar: &armill::study::TornadoBar| f64::midpoint(bar.after_mm[0], bar.after_mm[1]);
+        let squares: f64 = tornado.bars.iter().map(|bar| size(bar) * size(bar)).sum();
+        for share in report.band.shares.iter().filter(|share| share.share > 0.0) {
+            let bar = tornado.bars.iter().find(|bar| bar.input == share.input).unwrap();
+            let part = size(bar) * size(bar) / squares;
+            // To first order; at the ends of 20 % the compliance is no longer linear in the stiffness.
+            assert!((part - share.share).abs() < 0.03, "{}: {part} and {}", share.input, share.share);
+        }
+        let first = report.band.shares.iter().max_by(|a, b| a.share.total_cmp(&b.share)).unwrap();
+        assert_eq!(tornado.bars[0].input, first.input);
+    }
+    // Nothing varies, nothing moves.
+    let sure = quick(&[("uncertainty", json!({ "stiffness_percent": 0, "cutting_percent": 0 }))]);
+    assert!(tornado(&armill::run(&sure, &mut Progress::none()).unwrap()).bars.is_empty());
+}
+
+/// A plant that is softer by a factor, in full: the tornado's ends are runs with other compliances.
+#[test]
+fn the_ends_of_the_tornado_are_those_of_a_stiffer_and_a_softer_arm() {
+    let job = quick(&[("uncertainty", json!({ "stiffness_percent": 20, "cutting_percent": 0 }))]);
+    let report = armill::run(&job, &mut Progress::none()).unwrap();
+    let tornado = tornado(&report);
+    let text: Value = serde_json::from_str(&job.to_json()).unwrap();
+    let nominal = report.plan.robot.compliance();
+    for bar in tornado.bars.iter().take(2) {
+        let joint: usize = bar.input.strip_prefix("joint-").unwrap().parse::<usize>().unwrap() - 1;
+        for (factor, before) in bar.factors.iter().zip(bar.before_mm) {
+            let mut compliance: Vec<f64> = nominal.iter().copied().collect();
+            compliance[joint] *= factor;
+            let mut changed = text.clone();
+            changed["robot"]["joint_compliance_rad_per_nm"] = json!(compliance);
+            let run = Outcome::of(&Job::from_json(&changed.to_string()).unwrap());
+            assert!((before / run.before_max_mm.unwrap() - 1.0).abs() < 0.02, "{bar:?} and {run:?}");
+        }
+    }
+}
+
+#[test]
+fn choices_are_single_runs_and_the_same_wall_stays_the_same_wall() {
+    let square = json!({ "kind": "rectangle", "center_mm": [700, 0, 100], "width_mm": 120, "height_mm": 80 });
+    let climb = [("cutting.engagement", json!("climb")), ("cutting.radial_depth_mm", json!(3))];
+    let changes: Vec<(&'static str, Value)> =
+        climb.iter().cloned().chain([("path", square), ("tool.diameter_mm", json!(12))]).collect();
+    let job = quick(&changes);
+    let rows = choices(&job);
+    let of = |choice: &str| rows.iter().filter(|row| row.choice == choice).collect::<Vec<_>>();
+    assert_eq!(rows[0].choice, "as-is");
+    assert_eq!(rows[0].outcome, Outcome::of(&job));
+    assert_eq!((of("direction").len(), of("milling").len(), of("both").len()), (1, 1, 1));
+    assert_eq!((of("start").len(), of("turn").len()), (3, 11));
+    for row in &rows {
+        assert_eq!(row.outcome, Outcome::of(&row.change.applied(&job).unwrap()), "{}", row.change.label);
+    }
+    // The force on the wall comes from the same side: both ways round the error is along its normal, while
+    // climb and conventional push the tool to opposite sides or into it.
+    let wall = of("both")[0].change.applied(&job).unwrap();
+    assert_eq!(wall.path.points_mm.as_ref().unwrap()[1], [640.0, 140.0 - 100.0, 100.0]);
+    // A start elsewhere mills the same square.
+    let turned = of("start")[0].change.applied(&job).unwrap();
+    let points = turned.path.points_mm.unwrap();
+    assert_eq!((points[0], points.len()), ([760.0, -40.0, 100.0], 5));
+    assert_eq!(points[0], points[4]);
+    // A circle starts as an arc of a whole turn, and reversed about the opposite normal.
+    let circle = choices(&quick(&[]));
+    let starts: Vec<_> = circle.iter().filter(|row| row.choice == "start").collect();
+    assert_eq!(starts.len(), 3);
+    assert!(circle.iter().all(|row| row.outcome.error.is_none()), "{circle:?}");
+    // No shape, no direction: a program keeps its own.
+    let program = choices(&{
+        let mut opening = Job::opening().unwrap();
+        opening.motion.sample_time_s = 0.2;
+        opening.uncertainty.draws = 100;
+        opening
+    });
+    assert!(program.iter().skip(1).all(|row| row.choice == "turn"));
+}
+
+#[test]
+fn every_measurement_is_listed_with_what_it_brings() {
+    let job = quick(&[("uncertainty", json!({ "stiffness_percent": 20, "cutting_percent": 30 }))]);
+    let report = armill::run(&job, &mut Progress::none()).unwrap();
+    let known = report.how_sure();
+    let inputs: Vec<_> = known.measures.iter().map(|measure| measure.input).collect();
+    assert_eq!(inputs, ["pass", "cutting", "stiffness"]);
+    assert!(known.measures.windows(2).all(|pair| pair[0].p95_mm <= pair[1].p95_mm));
+    assert_eq!(known.measure_first.as_ref(), known.measures.get(1));
+    assert_eq!(known.measures[0].p95_mm, report.after_max() * 1e3);
 }
 
 /// The script's answers are those of the library.
@@ -217,6 +352,20 @@ fn the_script_prints_the_same() {
     assert!(printed["crossings"].is_array() && printed["tolerance_mm"].is_number());
     let refused = run(&["--largest", "cutting.axial_depth_mm=0.1:10", "--quantity", "best"]);
     assert!(!refused.status.success() && String::from_utf8_lossy(&refused.stderr).contains("uncompensated"));
+    let printed: Value = serde_json::from_str(&text(&run(&["--tornado"]))).unwrap();
+    assert!(printed["tornado"]["bars"].as_array().unwrap().len() > 5);
+    let bars = text(&run(&["--tornado", "--csv"]));
+    assert!(
+        bars.starts_with("input,factors,after_mm,before_mm\njoint-") || bars.contains("\ncutting,"),
+        "{bars}"
+    );
+    let measures = text(&run(&["--measure-first", "--csv"]));
+    assert!(measures.starts_with("input,percent,p95_mm,sentence\npass,0.0,"), "{measures}");
+    let choices = text(&run(&["--choices", "--csv"]));
+    assert!(
+        choices.starts_with("choice,label,before_max_mm,") && choices.contains("\nas-is,As it is,"),
+        "{choices}"
+    );
     let unclear = run(&["--robots", "--vary", "a=1:2:3"]);
     assert!(String::from_utf8_lossy(&unclear.stderr).contains("one question at a time"));
 }

@@ -16,6 +16,7 @@ pub mod over;
 pub mod plot;
 pub mod space;
 pub mod svg;
+pub mod sweep;
 pub mod unit;
 mod content;
 mod cut_in_stock;

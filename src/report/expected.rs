@@ -1,8 +1,9 @@
 //! What to expect on the part, as the summary states it.
 
+use crate::math;
 use crate::report::Report;
 use crate::spread::Stiffness;
-use crate::uncertainty::{BreakEven, Quantiles, Share};
+use crate::uncertainty::{BreakEven, Measure, Quantiles, Share};
 use crate::units::MM;
 use serde::Serialize;
 
@@ -41,6 +42,8 @@ pub struct HowSure {
     /// What to measure first, if that narrows the band.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measure_first: Option<MeasureFirst>,
+    /// Everything that could be measured, what leaves the least error first.
+    pub measures: Vec<MeasureFirst>,
     /// The same band without compensation [mm].
     pub without_compensation_mm: ExpectedError,
     /// The same band at the top of the cut [mm].
@@ -66,17 +69,33 @@ pub struct InputShare {
     pub percent: f64,
 }
 
-/// The measurement that narrows the band most.
+/// A measurement and what it would bring.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeasureFirst {
-    /// Stable slug: `stiffness`, `cutting` or `frequency`.
+    /// Stable slug: `stiffness`, `cutting`, `frequency` or `pass`.
     pub input: &'static str,
-    /// Its 95 % range after the measurement, to each side [%].
+    /// Its 95 % range after the measurement, to each side [%]; of a pass 0, because what it shows is corrected.
     pub percent: f64,
     /// 95 % quantile of the largest contour error after it [mm].
     pub p95_mm: f64,
     /// What to do and what it would bring.
     pub sentence: String,
+}
+
+impl MeasureFirst {
+    fn of(measure: &Measure) -> Self {
+        let p95 = crate::report::length_text(measure.p95, MM, 3);
+        let how = match measure.input {
+            "stiffness" => "the joint stiffness in a few loaded poses (Identify)",
+            "cutting" => "the cutting forces with a dynamometer",
+            _ => "the filter's frequency",
+        };
+        let sentence = format!(
+            "Measure {how}: if it is known to ±{} %, expect at most {p95} mm in 95 of 100 cases.",
+            measure.percent
+        );
+        Self { input: measure.input, percent: measure.percent, p95_mm: measure.p95 / MM, sentence }
+    }
 }
 
 /// What no spread covers.
@@ -131,27 +150,27 @@ impl Report {
         (None, words.to_owned())
     }
 
+    /// What each measurement would bring, what leaves the least error first. A pass that is measured shows what
+    /// all inputs do together; once that is corrected, what is left is what would be if every number were exact.
+    fn measures(&self) -> Vec<MeasureFirst> {
+        let measures = self.band.measures.iter().map(MeasureFirst::of);
+        if self.compensation.passes == 0 {
+            return measures.collect();
+        }
+        let left = self.after_max();
+        let sentence = format!(
+            "Mill a pass, measure it and correct what it shows: {} mm is left, and what does not repeat and what \
+             the gauge cannot tell.",
+            crate::report::length_text(left, MM, 3)
+        );
+        let pass = MeasureFirst { input: "pass", percent: 0.0, p95_mm: left / MM, sentence };
+        math::rising(measures.chain([pass]), |measure| measure.p95_mm)
+    }
+
     /// How sure the figures are.
     pub fn how_sure(&self) -> HowSure {
         let (band, spreads) = (&self.band, &self.setup().spreads);
-        let measure_first = band.measure_first.map(|measure| {
-            let p95 = crate::report::length_text(measure.p95, MM, 3);
-            let how = match measure.input {
-                "stiffness" => "the joint stiffness in a few loaded poses (Identify)",
-                "cutting" => "the cutting forces with a dynamometer",
-                _ => "the filter's frequency",
-            };
-            let sentence = format!(
-                "Measure {how}: if it is known to ±{} %, expect at most {p95} mm in 95 of 100 cases.",
-                measure.percent
-            );
-            MeasureFirst {
-                input: measure.input,
-                percent: measure.percent,
-                p95_mm: measure.p95 / MM,
-                sentence,
-            }
-        });
+        let measure_first = band.measure_first().map(MeasureFirst::of);
         let (break_even_percent, break_even) = self.break_even();
         let shares = band
             .shares
@@ -165,6 +184,7 @@ impl Report {
             draws: spreads.draws,
             shares: shares.collect(),
             measure_first,
+            measures: self.measures(),
             without_compensation_mm: band.before.into(),
             wall_mm: band.wall.into(),
             break_even_percent,

@@ -1,10 +1,19 @@
 //! Many independent runs on all cores.
 
+#[cfg(not(target_arch = "wasm32"))]
 use std::sync::atomic::{AtomicUsize, Ordering};
+#[cfg(not(target_arch = "wasm32"))]
 use std::thread;
 
-/// `of(0)` to `of(count - 1)`, in this order, computed on as many threads as there are cores; on
-/// one where there are no threads, as in a browser. What each gives must not depend on the others.
+/// `of(0)` to `of(count - 1)`, in this order: a browser's core has no threads, its Workers share the runs.
+#[cfg(target_arch = "wasm32")]
+pub fn at_once<T>(count: usize, of: impl Fn(usize) -> T) -> Vec<T> {
+    (0..count).map(of).collect()
+}
+
+/// `of(0)` to `of(count - 1)`, in this order, computed on as many threads as there are cores. What each gives must
+/// not depend on the others.
+#[cfg(not(target_arch = "wasm32"))]
 pub fn at_once<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let threads = thread::available_parallelism().map_or(1, usize::from).min(count);
     if threads < 2 {

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::job::Job;
 use crate::progress::Progress;
 use crate::study::range::finite;
-use crate::study::{Outcome, ValueRange, VariedJob, at_once};
+use crate::study::{Outcome, Sweep, ValueRange, VariedJob, at_once};
 use serde::Serialize;
 
 /// Values of the scan.
@@ -133,25 +133,41 @@ impl LargestQuestion {
         Ok(Self { path: path.to_owned(), from, to, quantity })
     }
 
+    /// The values at which it is looked where the error crosses the tolerance.
+    pub fn scan(&self) -> ValueRange {
+        let logarithmic = self.from > 0.0 && self.to / self.from >= DECADE;
+        ValueRange { path: self.path.clone(), from: self.from, to: self.to, count: SCAN, logarithmic }
+    }
+
     /// Answers it for a job.
     ///
     /// # Errors
     /// If the path is that of no number of the job, or no value of the scan has a result: the error of
     /// the first. Other values without a result miss the tolerance.
     pub fn answer(&self, job: &Job) -> Result<LargestAnswer, Error> {
+        let scan = Sweep::new(job, &[self.scan()])?;
+        self.answer_from(job, &at_once(SCAN, |index| self.quantity.of(&scan.row(index).outcome)))
+    }
+
+    /// The same if the errors at the values of the [`scan`](Self::scan) are known [mm]; `None` without a result.
+    ///
+    /// # Errors
+    /// As for [`answer`](Self::answer), and if there are more or fewer of them than values.
+    pub fn answer_from(&self, job: &Job, scanned: &[Option<f64>]) -> Result<LargestAnswer, Error> {
+        if scanned.len() != SCAN {
+            return Err(Error::invalid("scan", scanned.len(), format!("{SCAN} errors")));
+        }
         let varied = VariedJob::new(job)?;
         let tolerance = job.compensation.tolerance_mm;
         let varied_to = |value: f64| [(self.path.as_str(), value)];
-        varied.check(varied_to(self.from))?;
         let outcome = |value: f64| Outcome::of_varied(varied.with(varied_to(value)));
-        let tried = |value: f64| Tried {
+        let judged = |value: f64, error: Option<f64>| Tried {
             value,
-            excess: self.quantity.of(&outcome(value)).map_or(f64::INFINITY, |error| error - tolerance),
+            excess: error.map_or(f64::INFINITY, |error| error - tolerance),
         };
-        let logarithmic = self.from > 0.0 && self.to / self.from >= DECADE;
-        let range =
-            ValueRange { path: self.path.clone(), from: self.from, to: self.to, count: SCAN, logarithmic };
-        let scan: Vec<Tried> = at_once(SCAN, |index| tried(range.at(index)));
+        let range = self.scan();
+        let scan: Vec<Tried> =
+            scanned.iter().enumerate().map(|(index, error)| judged(range.at(index), *error)).collect();
         if scan.iter().all(|tried| tried.excess == f64::INFINITY) {
             // Nothing can be said of the tolerance: what is wrong is not the value.
             let job = varied.with(varied_to(self.from))?;
@@ -162,6 +178,7 @@ impl LargestQuestion {
             .filter(|pair| pair[0].meets() != pair[1].meets())
             .map(|pair| [pair[0], pair[1]])
             .collect();
+        let tried = |value: f64| judged(value, self.quantity.of(&outcome(value)));
         let narrowed = at_once(changes.len(), |index| narrowed(changes[index], &tried));
         let crossings: Vec<f64> = narrowed.iter().map(|(value, _)| *value).collect();
         let meeting = scan.iter().filter(|tried| tried.meets()).count();

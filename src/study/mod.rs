@@ -5,17 +5,21 @@
 //! is a point of the answer, not its end.
 
 mod at_once;
+mod choices;
 mod largest;
 mod outcome;
 mod range;
 mod robots;
 mod sweep;
+mod tornado;
 mod varied;
 
 pub use at_once::at_once;
+pub use choices::{ChoiceRow, EveryChoice, choices};
 pub use largest::{ErrorMeasure, Holds, LargestAnswer, LargestQuestion};
 pub use outcome::Outcome;
 pub use range::ValueRange;
-pub use robots::{PartPlace, RobotRow, robots};
-pub use sweep::{SweepRow, sweep};
+pub use robots::{EveryRobot, PartPlace, RobotRow, robots};
+pub use sweep::{Sweep, SweepRow, sweep};
+pub use tornado::{Tornado, TornadoBar, tornado};
 pub use varied::VariedJob;

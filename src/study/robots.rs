@@ -2,10 +2,14 @@
 
 use crate::error::Error;
 use crate::job::Job;
+use crate::math;
 use crate::placement;
 use crate::progress::Progress;
+use crate::report::Report;
+use crate::robot::Joints;
 use crate::robot::library::{self, Preset};
 use crate::study::{Outcome, VariedJob, at_once};
+use crate::units::DEG;
 use serde::Serialize;
 use serde_json::json;
 
@@ -16,6 +20,20 @@ pub enum PartPlace {
     Kept,
     /// In front of each arm, as [`placement::in_front`] finds it.
     InFront,
+}
+
+impl PartPlace {
+    /// The place of this name.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] with both names.
+    pub fn named(name: &str) -> Result<Self, Error> {
+        match name {
+            "kept" => Ok(Self::Kept),
+            "front" => Ok(Self::InFront),
+            _ => Err(Error::unknown_name("place", name, "one of", ["kept", "front"])),
+        }
+    }
 }
 
 /// What the job comes to on one arm.
@@ -39,19 +57,53 @@ pub struct RobotRow {
     /// Mean force [N].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force_n: Option<f64>,
+    /// Least distance of a joint from its limits [deg]; negative beyond them, none if they are unknown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit_room_deg: Option<f64>,
+    /// Least angle of elbow and wrist from where they are singular, at places along the path [deg].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub singularity_deg: Option<f64>,
     /// What the run says.
     #[serde(flatten)]
     pub outcome: Outcome,
 }
 
-/// Runs a job on every arm of the library, in its order.
+/// A job to be run on every arm of the library, in its order.
+#[derive(Debug)]
+pub struct EveryRobot {
+    varied: VariedJob,
+    job: Job,
+    arms: Vec<Preset>,
+    place: PartPlace,
+}
+
+impl EveryRobot {
+    /// Of a job.
+    ///
+    /// # Errors
+    /// Never for a job that was read: an arm that cannot do it is a row with an error.
+    pub fn new(job: &Job, place: PartPlace) -> Result<Self, Error> {
+        Ok(Self { varied: VariedJob::new(job)?, job: job.clone(), arms: library::robots().collect(), place })
+    }
+
+    /// Number of arms.
+    pub fn count(&self) -> usize {
+        self.arms.len()
+    }
+
+    /// What the job comes to on one of them.
+    pub fn row(&self, index: usize) -> RobotRow {
+        row(&self.varied, &self.job, &self.arms[index], self.place)
+    }
+}
+
+/// All rows of [`EveryRobot`].
 ///
 /// # Errors
-/// Never for a job that was read: an arm that cannot do it is a row with an error.
+/// See [`EveryRobot::new`].
 pub fn robots(job: &Job, place: PartPlace) -> Result<Vec<RobotRow>, Error> {
-    let varied = VariedJob::new(job)?;
-    let arms: Vec<Preset> = library::robots().collect();
-    Ok(at_once(arms.len(), |index| row(&varied, job, &arms[index], place)))
+    let every = EveryRobot::new(job, place)?;
+    Ok(at_once(every.count(), |index| every.row(index)))
 }
 
 fn row(varied: &VariedJob, job: &Job, arm: &Preset, place: PartPlace) -> RobotRow {
@@ -68,6 +120,8 @@ fn row(varied: &VariedJob, job: &Job, arm: &Preset, place: PartPlace) -> RobotRo
         workpiece_mm: job.workpiece_frame.xyz_mm,
         duration_s: None,
         force_n: None,
+        limit_room_deg: None,
+        singularity_deg: None,
         outcome: Outcome::default(),
     };
     let on_arm = || -> Result<_, Error> {
@@ -83,9 +137,29 @@ fn row(varied: &VariedJob, job: &Job, arm: &Preset, place: PartPlace) -> RobotRo
             row.workpiece_mm = xyz_mm;
             row.duration_s = Some(report.duration());
             row.force_n = Some(report.mean_force().norm());
+            row.limit_room_deg = limit_room(&report).map(|room| room / DEG);
+            row.singularity_deg = singularity(&report).map(|angle| angle / DEG);
             row.outcome = Outcome::of_report(&report);
         }
         Err(error) => row.outcome = Outcome::of_error(&error),
     }
     row
+}
+
+/// Least distance of a joint from its limits [rad].
+fn limit_room(report: &Report) -> Option<f64> {
+    let limits: Vec<_> = report.plan.robot.limits()?.into();
+    let room = |q: &Joints| {
+        let rooms = limits.iter().zip(q.iter()).map(|((low, high), q)| (q - low).min(high - q));
+        rooms.fold(f64::INFINITY, f64::min)
+    };
+    Some(report.q.iter().map(room).fold(f64::INFINITY, f64::min))
+}
+
+/// Least angle of elbow and wrist from where they are singular [rad].
+fn singularity(report: &Report) -> Option<f64> {
+    let stations = report.plan.at_stations(report.plan.path.clone(), placement::STATIONS);
+    let joints = stations.joints(&mut Progress::none()).ok()?;
+    let sines = joints.margin.iter().map(|margin| margin.elbow.min(margin.wrist));
+    Some(math::FRAC_PI_2 - math::acos(sines.fold(1.0, f64::min)))
 }

@@ -4,6 +4,7 @@
 use crate::cutting::PartForces;
 use crate::deviation::Largest;
 use crate::job::Sources;
+use crate::math;
 use crate::plan::Plan;
 use crate::robot::Joints;
 use crate::spread::{COVERAGE, InputSpread, Spreads, Stiffness};
@@ -44,8 +45,8 @@ pub struct ErrorBand {
     pub missed_p95: f64,
     /// What the band consists of where it is widest; the shares add up to 1.
     pub shares: Vec<Share>,
-    /// The measurement that narrows the band most, if one does.
-    pub measure_first: Option<Measure>,
+    /// What each measurement would bring, the one that narrows the band most first.
+    pub measures: Vec<Measure>,
     /// How wrong the model may be.
     pub break_even: BreakEven,
     /// Share of the draws in which compensating makes the largest error larger.
@@ -86,6 +87,11 @@ pub enum BreakEven {
 }
 
 impl ErrorBand {
+    /// The measurement that narrows the band most, if one does.
+    pub fn measure_first(&self) -> Option<&Measure> {
+        self.measures.first().filter(|measure| measure.p95 < WORTH * self.after.p95)
+    }
+
     /// 95 % quantile of the contour error at a sample [m]: at the places as computed; in between, it
     /// differs from the estimate by a straight line.
     pub fn p95_at(&self, sample: usize) -> f64 {
@@ -152,8 +158,7 @@ pub fn band(plan: &Plan, (desired, kept): (&[Joints], &[Joints]), errors: &Nomin
     let missed_p95 = missed_p95(&plants, kept, errors.missed, &draws);
     let after = Quantiles::of(largest);
     ErrorBand {
-        measure_first: measure_first(spreads, &deviates, after.p95, at_decisive)
-            .filter(|measure| measure.input != "frequency" || plants.filtered.len() > 1),
+        measures: measures(spreads, &deviates, plants.filtered.len() > 1, at_decisive),
         shares: decisive.first().map(|&widest| shares(&compensated, widest)).unwrap_or_default(),
         wall: Quantiles::of(draws.iter().map(|draw| top.largest(draw)).collect()),
         // The same commands leave the same.
@@ -285,13 +290,13 @@ fn shares(outcomes: &Outcomes, widest: usize) -> Vec<Share> {
     squares.into_iter().map(|(input, square)| Share { input, share: share(square) }).collect()
 }
 
-/// The measurement that brings most, by the same draws with that input's spread narrowed.
-fn measure_first(
+/// What each measurement brings, by the same draws with that input's spread narrowed.
+fn measures(
     spreads: &Spreads,
     deviates: &[Deviates],
-    p95: f64,
+    is_filtered: bool,
     largest: impl Fn(&Draw) -> f64,
-) -> Option<Measure> {
+) -> Vec<Measure> {
     let [stiffness, cutting, frequency] = MEASURED.map(InputSpread::percent);
     let narrowed = |known: InputSpread, better: InputSpread| {
         if known.deviation() > better.deviation() { better } else { known }
@@ -310,13 +315,12 @@ fn measure_first(
             Spreads { frequency: narrowed(spreads.frequency, frequency), ..spreads.clone() },
         ),
     ];
-    tried
+    let measures = tried
         .into_iter()
-        .filter(|(_, _, tried)| tried != spreads)
+        .filter(|(input, _, tried)| tried != spreads && (is_filtered || *input != "frequency"))
         .map(|(input, percent, tried)| {
             let errors = deviates.iter().map(|z| largest(&Draw::at(&tried, z))).collect();
             Measure { input, percent, p95: Quantiles::of(errors).p95 }
-        })
-        .filter(|measure| measure.p95 < WORTH * p95)
-        .min_by(|a, b| a.p95.total_cmp(&b.p95))
+        });
+    math::rising(measures, |measure| measure.p95)
 }

@@ -17,5 +17,5 @@ mod outcomes;
 
 pub use band::{BreakEven, ErrorBand, Measure, NominalErrors, Share, band};
 pub use draw::Draw;
-pub use largest::largest;
+pub use largest::{largest, largest_errors};
 pub use quantile::Quantiles;

@@ -15,6 +15,7 @@ mod identify;
 mod placement;
 mod part;
 mod scene;
+mod study;
 mod thesis;
 
 pub use export::zip;
@@ -25,6 +26,7 @@ pub use job::{
 };
 pub use placement::Survey;
 pub use run::{Run, run};
+pub use study::{Study, StudyCurves, largest, tornado};
 pub use thesis::thesis_recomputed;
 
 use serde::Serialize;

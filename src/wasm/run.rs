@@ -86,6 +86,7 @@ export interface Summary {
     sentence: string; stiffness: string; cutting: string; frequency: string; draws: number;
     shares: { input: string; percent: number }[];
     measure_first?: { input: string; percent: number; p95_mm: number; sentence: string };
+    measures: { input: string; percent: number; p95_mm: number; sentence: string }[];
     without_compensation_mm: { p50: number; p95: number; p95_interval: [number, number] };
     wall_mm: { p50: number; p95: number; p95_interval: [number, number] };
     break_even_percent?: number; break_even: string; worse_percent: number; left_out: string;

@@ -13,6 +13,22 @@ const result = armill.run(armill.default_job());
 const other = armill.run(JSON.stringify(program));
 const box = { kind: "box", from_mm: [550, -100, 80], to_mm: [650, 60, 105] };
 const stocked = armill.run(JSON.stringify({ ...program, stock: box }));
+const coarse = JSON.stringify({ ...JSON.parse(armill.default_job()), motion: { feed_mm_s: 100, sample_time_s: 0.02 } });
+const studies = [
+  armill.Study.sweep(coarse, ["cutting.axial_depth_mm=1:3:2", "motion.feed_mm_s=50:100:2"]),
+  armill.Study.scan(coarse, "cutting.axial_depth_mm=1:3"),
+  armill.Study.robots(coarse, "kept"),
+  armill.Study.robots(coarse, "front"),
+  armill.Study.choices(coarse),
+];
+const curves = new armill.StudyCurves(
+  "Axial depth",
+  "mm",
+  0.1,
+  2,
+  new Float64Array([1, 2]),
+  new Float64Array([1, 0.1, 0.2, 0.3, 2, 0.2, 0.4, 0.6]),
+);
 const charts = result.charts().map(({ name }) => result.chart(name, { width: 640, height: 300 }));
 const answers = {
   fields: [armill.fields()],
@@ -23,6 +39,11 @@ const answers = {
   zip: [armill.zip("figures", ["a.csv"], ["x,y\n1,2\n"])],
   proposed_stock: [armill.proposed_stock(JSON.stringify(program)), armill.proposed_stock(armill.default_job())],
   thesis_recomputed: [armill.thesis_recomputed()],
+  largest: [
+    armill.largest(coarse, "cutting.axial_depth_mm=0.1:10", "uncompensated"),
+    armill.largest(coarse, "cutting.axial_depth_mm=8:9", "nominal", new Float64Array(17).fill(1)),
+  ],
+  tornado: [armill.tornado(coarse)],
 };
 const methods = {
   summary: [result.summary(), other.summary(), stocked.summary()],
@@ -94,6 +115,12 @@ write(
   'ReturnType<armill.Identified["chart"]>',
   identified.map((each) => each.chart({ width: 640, height: 300 })),
 );
+write(
+  'ReturnType<armill.Study["row"]>',
+  studies.flatMap((study) => [study.row(0), study.row(study.count() - 1)]),
+);
+write('ReturnType<armill.StudyCurves["chart"]>', [curves.chart({ width: 640, height: 300 })]);
+write('ReturnType<armill.StudyCurves["chart_data"]>', [curves.chart_data({ length: "inch" })]);
 writeFileSync("values.ts", `${lines.join("\n")}\n`);
 
 // Whatever a run offers was asked for: what is new has to be added above.

@@ -35,9 +35,10 @@ import { figuresIn, showFigureIndex, showThesis } from "./result/thesis.js";
 import { makeArmView } from "./scene/sketch.js";
 import { makeScene } from "./scene/view.js";
 import { begun } from "./start.js";
+import { makeStudy } from "./study/panel.js";
 
 /**
- * @import { ChartEntry, Summary } from "../pkg/armill.js"
+ * @import { ChartEntry, Field, Summary } from "../pkg/armill.js"
  * @import { Shown, State } from "./calculator.js"
  * @import { Failure } from "./core/client.js"
  * @import { JobData } from "./job/data.js"
@@ -58,6 +59,8 @@ let tabs;
 let form;
 /** @type {string} */
 let arm; // the robot of the inputs, by its key
+/** @type {Field[]} */
+let fields = [];
 /** @type {{ job: JobData, opening: JobData }} */
 let examples; // the core's own jobs: `opening`, and `job`, the thesis's
 
@@ -67,6 +70,11 @@ const placement = makePlacement(byId("placement"), present);
 const identify = makeIdentify(byId("identify"), present);
 const armView = makeArmView((text) => core.armAtZero(text));
 const calculator = new Calculator(core, { ...status, become, show, progress, remedyFor });
+const study = makeStudy(byId("study"), {
+  job: () => job,
+  use: (changed) => session.load(changed),
+  fields: () => fields,
+});
 const compare = makeCompare({
   shown: () => calculator.shown,
   load: (changed) => session.load(changed),
@@ -125,6 +133,7 @@ function show(shown) {
   if (!shown.preview) announce("verdict", shown.summary.verdict);
   identify.look();
   placement.look();
+  study.look();
   for (const id of OF_RESULT) disable(id, shown.preview);
 }
 
@@ -268,6 +277,10 @@ function wire() {
   byId("download-compensated").addEventListener("click", () => save("compensated-csv", "armill-compensated-path.csv"));
   byId("inputs-toggle").addEventListener("click", () => foldInputs(byId("inputs").classList.contains("open")));
   byId("form").addEventListener("submit", (event) => event.preventDefault());
+  byId("form").addEventListener("limit", (event) => {
+    tabs.choose("compare");
+    study.limit(/** @type {CustomEvent<string>} */ (event).detail);
+  });
   wireResultTools();
   fixChart(/** @type {HTMLElement} */ (byId("curve").querySelector(".charts")), "before-after");
   tabs = makeTabs((panel) => {
@@ -302,6 +315,7 @@ function wireResultTools() {
 async function open() {
   const hello = await core.start(calculator.events);
   examples = hello;
+  fields = hello.fields;
   job = new Job(hello.opening, hello);
   calculator.open(job);
   byId("version").textContent = `v${hello.version}`;
@@ -318,6 +332,7 @@ async function open() {
   session = new Session({ job, form, examples, core, changed: edited, warn: status.warn });
   await session.open();
   byId("download-job").disabled = false;
+  study.open();
 }
 
 /**

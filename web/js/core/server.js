@@ -2,6 +2,7 @@
 // it.
 
 import { heldRuns } from "./held-runs.js";
+import { studies } from "./studies.js";
 
 /**
  * @import * as Armill from "../../pkg/armill.js"
@@ -90,6 +91,7 @@ const answers = {
   survey: (json, places) => surveyOf(json).places(places),
   trap: () => armill.trap(),
   ...heldRuns(() => armill),
+  ...studies(() => armill),
 };
 
 /**

@@ -1,6 +1,7 @@
 // A field on the page: its editor with label and unit, help, note, error, and the way back to the default.
 
 import { make } from "../page/dom.js";
+import { LIMITED } from "../study/question.js";
 import { scrub } from "./drag-number.js";
 import { idOf } from "./editors.js";
 import { asText, helpText } from "./field-text.js";
@@ -72,7 +73,14 @@ export function makeRow(field, editor, other, acts) {
   const node = make(
     "div",
     { className: wide ? "field wide" : "field" },
-    make("div", { className: "head" }, title, helpButton(field, help), reset),
+    make(
+      "div",
+      { className: "head" },
+      title,
+      ...(LIMITED.includes(field.path) ? [limitButton(field)] : []),
+      helpButton(field, help),
+      reset,
+    ),
     editor.node,
     editor.slider ?? "",
     understood,
@@ -95,6 +103,19 @@ export function makeRow(field, editor, other, acts) {
   if (editor.step) scrub(title, (count) => editor.step?.(count));
   reset.addEventListener("click", () => acts.reset(row));
   return row;
+}
+
+/**
+ * Asks for the largest value of a field: an event "limit" with its path.
+ * @param {Field} field
+ */
+function limitButton({ path, label: name }) {
+  const title = `Largest ${name.toLowerCase()} for the tolerance`;
+  const button = make("button", { type: "button", className: "limit", title, "aria-label": title }, "max?");
+  button.addEventListener("click", () =>
+    button.dispatchEvent(new CustomEvent("limit", { bubbles: true, detail: path })),
+  );
+  return button;
 }
 
 /**

@@ -48,7 +48,7 @@ export async function fragmentOf(json) {
  * @param {string} fragment
  */
 export async function jobIn(fragment) {
-  const [, format, body] = /^#?job=(\d+)\.([\w-]*)(?:&view=[\w-]*)?$/.exec(fragment) ?? [];
+  const [, format, body] = /^#?job=(\d+)\.([\w-]*)(?:&view=[\w-]*)?(?:&ask=[^&]*)?$/.exec(fragment) ?? [];
   if (format === undefined) throw broken("it is not of the form #job=2.… with letters, digits, - and _ only");
   if (Number(format) > FORMAT)
     throw broken(`it was made by a newer Armill (format ${format}; this one reads formats up to ${FORMAT})`);

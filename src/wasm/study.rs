@@ -1,0 +1,205 @@
+//! Questions about a job. Ranges and questions are texts, the same as on the script's command line.
+
+use crate::chart::sweep::SweepCurves;
+use crate::study::{
+    self, ErrorMeasure, EveryChoice, EveryRobot, LargestQuestion, Outcome, PartPlace, Sweep, SweepRow,
+    ValueRange,
+};
+use crate::wasm::error::thrown;
+use crate::wasm::{chart, object, options};
+use crate::{Error, Job, Progress};
+use wasm_bindgen::JsValue;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+#[wasm_bindgen(typescript_custom_section)]
+const TYPES: &'static str = r#"
+/** What a run comes to: figures, or `error`, why there are none. */
+export interface StudyOutcome {
+  before_max_mm?: number; after_max_mm?: number; p50_mm?: number; p95_mm?: number;
+  verdict_state?: "cannot-run" | "met" | "met-if-nominal" | "not-met"; cannot_run?: string; error?: string;
+}
+export interface SweepRow extends StudyOutcome { value: number; second?: number; }
+export interface RobotRow extends StudyOutcome {
+  id: string; name: string; payload_kg: number; reach_mm: number; stiffness: "measured" | "published" | "guessed";
+  workpiece_mm: [number, number, number]; duration_s?: number; force_n?: number;
+  limit_room_deg?: number; singularity_deg?: number;
+}
+/** `patch` is a JSON merge patch of the job. */
+export interface ChoiceRow extends StudyOutcome {
+  choice: "as-is" | "direction" | "milling" | "both" | "start" | "turn"; label: string; patch: object;
+}
+export interface LargestAnswer {
+  path: string; largest: number | null; quantity: "nominal" | "p95" | "uncompensated"; tolerance_mm: number;
+  holds: "nowhere" | "partly" | "everywhere"; crossings: number[]; at_largest?: StudyOutcome; runs: number;
+}
+export interface TornadoBar {
+  input: string; factors: [number, number]; after_mm: [number, number]; before_mm: [number, number];
+}
+export interface Tornado { after_mm: number; before_mm: number; bars: TornadoBar[]; }
+export type StudyRow = SweepRow | RobotRow | ChoiceRow;
+"#;
+
+/// A question whose answer is many runs, each by itself: Workers share them among each other.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Study {
+    runs: Runs,
+}
+
+#[derive(Debug)]
+enum Runs {
+    Sweep(Sweep),
+    Robots(EveryRobot),
+    Choices(EveryChoice),
+}
+
+#[wasm_bindgen]
+impl Study {
+    /// A job over one range or two, each `path=from:to:count`, with `:log` at the end for equal ratios.
+    /// Throws an error if the job cannot be read, or a range names no number of it.
+    pub fn sweep(json: &str, ranges: Vec<String>) -> Result<Study, JsValue> {
+        let of = || Ok(Runs::Sweep(Sweep::new(&Job::from_json(json)?, &read_ranges(&ranges)?)?));
+        of().map(Study::of).map_err(|error: Error| thrown(&error))
+    }
+
+    /// The scan of `largest`.
+    pub fn scan(json: &str, question: &str) -> Result<Study, JsValue> {
+        let of = || {
+            let range = LargestQuestion::read(question, ErrorMeasure::P95)?.scan();
+            Ok(Runs::Sweep(Sweep::new(&Job::from_json(json)?, &[range])?))
+        };
+        of().map(Study::of).map_err(|error: Error| thrown(&error))
+    }
+
+    /// A job on every robot of the library, with its part where the job has it (`kept`) or in front of each
+    /// (`front`).
+    pub fn robots(json: &str, place: &str) -> Result<Study, JsValue> {
+        let of = || Ok(Runs::Robots(EveryRobot::new(&Job::from_json(json)?, PartPlace::named(place)?)?));
+        of().map(Study::of).map_err(|error: Error| thrown(&error))
+    }
+
+    /// A job with every choice that it leaves open.
+    pub fn choices(json: &str) -> Result<Study, JsValue> {
+        let job = Job::from_json(json).map_err(|error| thrown(&error))?;
+        Ok(Study::of(Runs::Choices(EveryChoice::new(&job))))
+    }
+
+    /// Number of runs.
+    pub fn count(&self) -> usize {
+        match &self.runs {
+            Runs::Sweep(sweep) => sweep.count(),
+            Runs::Robots(robots) => robots.count(),
+            Runs::Choices(choices) => choices.count(),
+        }
+    }
+
+    /// What one run comes to. Throws an error if there are fewer runs.
+    #[wasm_bindgen(unchecked_return_type = "StudyRow")]
+    pub fn row(&self, index: usize) -> Result<JsValue, JsValue> {
+        if index >= self.count() {
+            return Err(thrown(&Error::invalid("index", index, format!("less than {}", self.count()))));
+        }
+        match &self.runs {
+            Runs::Sweep(sweep) => object(&sweep.row(index)),
+            Runs::Robots(robots) => object(&robots.row(index)),
+            Runs::Choices(choices) => object(&choices.row(index)),
+        }
+    }
+
+    fn of(runs: Runs) -> Self {
+        Self { runs }
+    }
+}
+
+/// The largest value of a number for which the error meets the tolerance: `question` is `path=from:to`, and
+/// `quantity` the error, `nominal`, `p95` or `uncompensated`. `scanned` may hold that error [mm] at each value of
+/// [`Study::scan`], NaN without a result.
+#[wasm_bindgen(unchecked_return_type = "LargestAnswer")]
+pub fn largest(
+    json: &str,
+    question: &str,
+    quantity: &str,
+    scanned: Option<Vec<f64>>,
+) -> Result<JsValue, JsValue> {
+    let answer = || {
+        let job = Job::from_json(json)?;
+        let question = LargestQuestion::read(question, ErrorMeasure::named(quantity)?)?;
+        match &scanned {
+            None => question.answer(&job),
+            Some(errors) => {
+                let known: Vec<_> = errors.iter().map(|error| (!error.is_nan()).then_some(*error)).collect();
+                question.answer_from(&job, &known)
+            }
+        }
+    };
+    object(&answer().map_err(|error: Error| thrown(&error))?)
+}
+
+/// Which input moves the largest error most, over its own spread. Throws an error if the job cannot be computed.
+#[wasm_bindgen(unchecked_return_type = "Tornado")]
+pub fn tornado(json: &str) -> Result<JsValue, JsValue> {
+    let report = Job::from_json(json).and_then(|job| crate::run(&job, &mut Progress::none()));
+    object(&study::tornado(&report.map_err(|error| thrown(&error))?))
+}
+
+/// The rows of a sweep over one number, to be drawn.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct StudyCurves {
+    curves: SweepCurves,
+}
+
+#[wasm_bindgen]
+impl StudyCurves {
+    /// Of a number called `label`, in `unit`, which is `now` in the job. `errors_mm` has four values for each of
+    /// `values`: before compensation, after it if every number is exact, at 50 % and at 95 %; NaN without a result.
+    #[wasm_bindgen(constructor)]
+    pub fn new(
+        label: &str,
+        unit: &str,
+        tolerance_mm: f64,
+        now: Option<f64>,
+        values: &[f64],
+        errors_mm: &[f64],
+    ) -> StudyCurves {
+        let known = |error: f64| (!error.is_nan()).then_some(error);
+        let row = |(&value, errors): (&f64, &[f64])| SweepRow {
+            value,
+            second: None,
+            outcome: Outcome {
+                before_max_mm: known(errors[0]),
+                after_max_mm: known(errors[1]),
+                p50_mm: known(errors[2]),
+                p95_mm: known(errors[3]),
+                ..Outcome::default()
+            },
+        };
+        let rows = values.iter().zip(errors_mm.chunks_exact(4)).map(row).collect();
+        StudyCurves {
+            curves: SweepCurves { label: label.to_owned(), unit: unit.to_owned(), now, tolerance_mm, rows },
+        }
+    }
+
+    /// The curves, drawn at the requested size.
+    #[wasm_bindgen(unchecked_return_type = "Chart")]
+    pub fn chart(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "ChartOptions")] options: JsValue,
+    ) -> Result<JsValue, JsValue> {
+        let options = options::chart(options)?;
+        object(&self.curves.chart(&options).map_err(|error| thrown(&error))?)
+    }
+
+    /// The values that the chart shows.
+    #[wasm_bindgen(unchecked_return_type = "ChartColumn[]")]
+    pub fn chart_data(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "ChartUnits")] units: JsValue,
+    ) -> Result<JsValue, JsValue> {
+        chart::columns(self.curves.data(options::units(units)?))
+    }
+}
+
+fn read_ranges(texts: &[String]) -> Result<Vec<ValueRange>, Error> {
+    texts.iter().map(|text| ValueRange::read(text)).collect()
+}

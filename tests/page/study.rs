@@ -1,0 +1,161 @@
+//! Questions about the job: asked by few clicks, answered as the script answers them.
+
+use crate::browser::{DESKTOP, PHONE, Page, Result, THESIS, visit};
+use crate::common::{job_text, run};
+use crate::{current, narrow, text};
+use armill::Job;
+use armill::study::{
+    ErrorMeasure, EveryRobot, LargestQuestion, PartPlace, ValueRange, choices, sweep, tornado,
+};
+use serde_json::{Value, json};
+
+/// The thesis's job at few samples, as the page has it.
+const COARSE: &str = "0.02";
+
+async fn coarse(page: &Page) -> Result<Job> {
+    current(page).await?;
+    page.js("document.getElementById('group-motion').open = true").await?;
+    page.type_into("#motion-sample_time_s", COARSE).await?;
+    current(page).await?;
+    Ok(Job::from_json(&job_text(&[("motion.sample_time_s", json!(COARSE.parse::<f64>()?))]))?)
+}
+
+/// Waits for an answer that begins so.
+async fn answered(page: &Page, begins: &str) -> Result<String> {
+    let answer = format!("document.querySelector('#study-answer').textContent.startsWith({})", json!(begins));
+    page.wait_for(&answer, 120.0).await?;
+    page.wait_for("document.querySelector('#study-cancel').hidden", 10.0).await?;
+    text(page, "study-answer").await
+}
+
+/// The numbers of a column of the answer's table, null where there is none, beside the head of their row.
+async fn column(page: &Page, number: usize) -> Result<Vec<(String, Option<f64>)>> {
+    let rows = page
+        .js(&format!(
+            "return [...document.querySelectorAll('.answer-table tbody tr')].map(row => [row.cells[0].textContent, \
+             row.cells[{number}].dataset.value === undefined ? null : Number(row.cells[{number}].dataset.value)])"
+        ))
+        .await?;
+    Ok(serde_json::from_value(rows)?)
+}
+
+/// How deep may I go? Two clicks and a choice.
+#[test]
+fn the_largest_depth_without_compensation_is_three_clicks_away() -> Result {
+    visit(THESIS, DESKTOP, async |page| {
+        coarse(page).await?;
+        page.js("document.getElementById('group-compensation').open = true").await?;
+        page.type_into("#compensation-tolerance_mm", "0.2").await?;
+        current(page).await?;
+        page.click("#tab-compare").await?;
+        page.click("[data-question=largest]").await?;
+        page.choose("#study-measure", "uncompensated").await?;
+        let said = answered(page, "Largest axial depth").await?;
+        let ends = page
+            .js("return ['from', 'to'].map(end => Number(document.querySelector(`#study-first-${end}`).value))")
+            .await?;
+        let job = Job::from_json(&job_text(&[
+            ("motion.sample_time_s", json!(COARSE.parse::<f64>()?)),
+            ("compensation.tolerance_mm", json!(0.2)),
+        ]))?;
+        let question = format!("cutting.axial_depth_mm={}:{}", ends[0], ends[1]);
+        let native = LargestQuestion::read(&question, ErrorMeasure::Uncompensated)?.answer(&job)?;
+        let shown = page.js("return Number(document.querySelector('#study-answer').dataset.value)").await?;
+        assert_eq!(shown.as_f64().map(f64::to_bits), native.largest.map(f64::to_bits), "{said}");
+        // The curve, its present value and the tolerance are drawn.
+        page.wait_for("document.querySelectorAll('.answer-curve svg [data-key]').length >= 5", 10.0).await?;
+        // It is used by one click, and undone by another.
+        page.click("#study-use").await?;
+        page.wait_for("document.querySelector('#cutting-axial_depth_mm').value !== '2'", 5.0).await?;
+        page.click("#undo").await?;
+        page.wait_for("document.querySelector('#cutting-axial_depth_mm').value === '2'", 5.0).await?;
+        // The same question beside the field.
+        page.click("#tab-overview").await?;
+        page.js("document.getElementById('group-cutting').open = true").await?;
+        page.click(".limit[aria-label^='Largest axial depth']").await?;
+        page.wait_for("!document.querySelector('#panel-compare').hidden", 5.0).await
+    })
+}
+
+/// Which robot? Two clicks; the rows are the script's, bit for bit.
+#[test]
+fn robots_are_compared_by_two_clicks() -> Result {
+    visit(THESIS, DESKTOP, async |page| {
+        let job = coarse(page).await?;
+        page.click("#tab-compare").await?;
+        page.click("[data-question=robots]").await?;
+        answered(page, "").await?;
+        page.wait_for("document.querySelectorAll('.answer-table tbody tr').length > 20", 120.0).await?;
+        let rows = column(page, 4).await?;
+        let every = EveryRobot::new(&job, PartPlace::Kept)?;
+        assert_eq!(rows.len(), every.count());
+        for index in (0..every.count()).step_by(16) {
+            let native = every.row(index);
+            let (_, shown) = rows.iter().find(|(name, _)| *name == native.name).ok_or("no such robot")?;
+            assert_eq!(shown.map(f64::to_bits), native.outcome.p95_mm.map(f64::to_bits), "{}", native.name);
+        }
+        // The least error comes first, and guesses say so.
+        let errors: Vec<f64> = rows.iter().filter_map(|(_, error)| *error).collect();
+        assert!(errors.windows(2).all(|pair| pair[0] <= pair[1]));
+        let stiffness =
+            page.js("return [...document.querySelectorAll('td.stiffness')].map(cell => cell.textContent)");
+        let stiffness: Vec<String> = serde_json::from_value(stiffness.await?)?;
+        assert!(stiffness.iter().any(|word| word == "guessed"));
+        page.click(".answer-table [data-key=reach]").await?;
+        let reach: Vec<f64> = column(page, 8).await?.into_iter().filter_map(|(_, reach)| reach).collect();
+        assert!(reach.len() > 20 && reach.windows(2).all(|pair| pair[0] <= pair[1]));
+        Ok(())
+    })
+}
+
+#[test]
+fn a_link_asks_again_and_other_questions_are_the_script_s() -> Result {
+    let range = "cutting.axial_depth_mm=1:5:5";
+    visit(&format!("{THESIS}&view=compare&ask=sweep~{range}"), PHONE, async |page| {
+        let said = answered(page, "The least error to expect is at axial depth 1 mm").await?;
+        assert!(said.contains("in 95 of 100 cases"), "{said}");
+        let native = sweep(&Job::default(), &[ValueRange::read(range)?])?;
+        let shown: Vec<Option<f64>> = column(page, 3).await?.into_iter().map(|(_, value)| value).collect();
+        assert_eq!(shown, native.iter().map(|row| row.outcome.p95_mm).collect::<Vec<_>>());
+        narrow(page, "an answer").await?;
+        page.click("[data-question=tornado]").await?;
+        answered(page, "Com").await.or(answered(page, "Cut").await)?;
+        let bars = tornado(&run(&[])).bars;
+        let shown: Vec<Option<f64>> = column(page, 3).await?.into_iter().map(|(_, value)| value).collect();
+        assert_eq!(shown, bars.iter().map(|bar| Some(bar.after_mm[1])).collect::<Vec<_>>());
+        page.click("[data-question=measures]").await?;
+        answered(page, "M").await?;
+        page.click("[data-question=choices]").await?;
+        page.wait_for("document.querySelectorAll('.answer-table tbody tr').length > 10", 120.0).await?;
+        page.wait_for("document.querySelector('#study-cancel').hidden", 10.0).await?;
+        let least = choices(&Job::default())
+            .into_iter()
+            .filter(|row| row.outcome.cannot_run.is_none())
+            .filter_map(|row| row.outcome.p95_mm)
+            .fold(f64::INFINITY, f64::min);
+        let able = page.js("return [...document.querySelectorAll('.answer-table .best td.digits')].map(cell => Number(cell.dataset.value))");
+        let able: Vec<f64> = serde_json::from_value(able.await?)?;
+        assert_eq!(able.get(2).copied(), Some(least).filter(|least| least.is_finite()));
+        narrow(page, "choices").await
+    })
+}
+
+#[test]
+fn an_answer_is_cancelled_and_a_wrong_range_is_said() -> Result {
+    visit(THESIS, DESKTOP, async |page| {
+        current(page).await?;
+        page.click("#tab-compare").await?;
+        page.click("[data-question=robots]").await?;
+        page.click("#study-cancel").await?;
+        page.wait_for("document.querySelector('#study-status').textContent === 'Cancelled.'", 10.0).await?;
+        page.click("[data-question=sweep]").await?;
+        page.type_into("#study-first-from", "9").await?;
+        page.type_into("#study-first-to", "3").await?;
+        let says = "document.querySelector('#study-status').textContent.includes('more than')";
+        page.wait_for(says, 10.0).await?;
+        page.type_into("#study-first-to", "12").await?;
+        let value: Value = json!(answered(page, "The least error").await?);
+        assert!(value.as_str().is_some_and(|said| said.contains("axial depth")), "{value}");
+        Ok(())
+    })
+}

@@ -1,0 +1,114 @@
+// A question as a value, and as the text that stands for it in an address.
+
+/** @import { Field } from "../../pkg/armill.js" */
+
+/** @typedef {"p95" | "nominal" | "uncompensated"} Measure the error that is asked about */
+
+/**
+ * A number of the job over a range, in the field's own unit.
+ *
+ * @typedef {{ path: string, from: number, to: number, count: number, log: boolean }} Range
+ */
+
+/**
+ * @typedef {{ kind: "largest", path: string, from: number, to: number, measure: Measure }} Largest
+ * @typedef {{ kind: "sweep", ranges: Range[] }} Sweep
+ * @typedef {{ kind: "robots", place: "kept" | "front" }} Robots
+ * @typedef {{ kind: "choices" } | { kind: "tornado" } | { kind: "measures" }} Plain
+ * @typedef {Largest | Sweep | Robots | Plain} Question
+ */
+
+/** @type {Record<Measure, string>} */
+export const MEASURES = {
+  p95: "after compensation, 95 of 100",
+  uncompensated: "without compensation",
+  nominal: "after compensation, if every number is exact",
+};
+
+/** What a largest value is usually asked of. */
+export const LIMITED = [
+  "cutting.axial_depth_mm",
+  "cutting.radial_depth_mm",
+  "motion.feed_mm_s",
+  "cutting.feed_per_tooth_mm",
+  "motion.acceleration_mm_s2",
+  "tool.stickout_mm",
+  "motion.force_n",
+];
+
+const PLAIN = ["choices", "tornado", "measures"];
+const RANGE = /^([\w.]+)=([^:]+):([^:]+)(?::(\d+)(:log)?)?$/;
+
+/**
+ * A range as the core and the script read it.
+ * @param {Range} range
+ */
+export const rangeText = ({ path, from, to, count, log }) => `${path}=${from}:${to}:${count}${log ? ":log" : ""}`;
+
+/**
+ * Which question of a largest value, as the core and the script read it.
+ * @param {Largest} question
+ */
+export const largestText = ({ path, from, to }) => `${path}=${from}:${to}`;
+
+/**
+ * The text of a question.
+ * @param {Question} question
+ */
+export function written(question) {
+  if (question.kind === "largest") return `largest~${largestText(question)}~${question.measure}`;
+  if (question.kind === "sweep") return ["sweep", ...question.ranges.map(rangeText)].join("~");
+  if (question.kind === "robots") return `robots~${question.place}`;
+  return question.kind;
+}
+
+/**
+ * The question of a text; undefined if it is none.
+ * @param {string} text
+ * @returns {Question | undefined}
+ */
+export function read(text) {
+  const [kind, ...rest] = text.split("~");
+  if (PLAIN.includes(kind) && !rest.length) return /** @type {Plain} */ ({ kind });
+  if (kind === "robots" && (rest[0] === "kept" || rest[0] === "front")) return { kind, place: rest[0] };
+  const ranges = rest.filter((each) => each.includes("=")).map(readRange);
+  if (!ranges.length || ranges.some((range) => !range)) return undefined;
+  const [first] = /** @type {Range[]} */ (ranges);
+  if (kind === "sweep" && ranges.length <= 2 && ranges.every((range) => range && range.count > 1))
+    return { kind, ranges: /** @type {Range[]} */ (ranges) };
+  const measure = /** @type {Measure} */ (rest[1]);
+  if (kind !== "largest" || !(measure in MEASURES)) return undefined;
+  return { kind, path: first.path, from: first.from, to: first.to, measure };
+}
+
+/** @param {string} text */
+function readRange(text) {
+  const [, path, low, high, count, log] = RANGE.exec(text) ?? [];
+  const [from, to] = [Number(low), Number(high)];
+  return path && Number.isFinite(from) && Number.isFinite(to)
+    ? { path, from, to, count: Number(count ?? 0), log: Boolean(log) }
+    : undefined;
+}
+
+/**
+ * The question that a fragment names, as `&ask=...`, or undefined.
+ * @param {string} fragment
+ */
+export function askedIn(fragment) {
+  const [, text] = /(?:^#?|&)ask=([^&]*)/.exec(fragment) ?? [];
+  return text === undefined ? undefined : read(decodeURIComponent(text));
+}
+
+/**
+ * The range in which a field is asked about to begin with: what is usual, with the present value inside.
+ * @param {Pick<Field, "min" | "max" | "usual">} field
+ * @param {number} now
+ * @returns {[number, number]}
+ */
+export function rangeOf({ min = -Infinity, max = Infinity, usual }, now) {
+  const size = Math.abs(now) || 1;
+  const [from, to] = usual ?? (now > 0 ? [now / 4, now * 4] : [now - size, now + size]);
+  /** @param {number} value */
+  const within = (value) => Math.min(max, Math.max(min, value));
+  return [within(Math.min(from, now)), within(Math.max(to, now))];
+}

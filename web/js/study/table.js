@@ -1,0 +1,97 @@
+// The table of an answer: sorted by any column.
+
+import { make } from "../page/dom.js";
+import { cellText } from "./columns.js";
+
+/** @import { Column, Listed } from "./columns.js" */
+
+/**
+ * @typedef {{
+ *   sort?: { key: string, falling: boolean }, marks?(row: any): string, act?(row: any): HTMLElement | undefined,
+ * }} TableOptions `marks(row)` is a class of the row, `act(row)` a button at its end
+ */
+
+/**
+ * A table that sorts itself when the head of a column is pressed.
+ * @param {string} caption
+ * @param {Listed} listed
+ * @param {TableOptions} [options]
+ */
+export function answerTable(caption, { rows, columns }, { sort, marks = () => "", act } = {}) {
+  let sorted = sort;
+  const body = make("tbody");
+  const heads = columns.map((column) => {
+    const button = make(
+      "button",
+      { type: "button", className: "quiet", "data-key": column.key },
+      column.label,
+      column.unit ? make("span", { className: "unit" }, ` ${column.unit}`) : "",
+    );
+    button.addEventListener("click", () => {
+      sorted = { key: column.key, falling: sorted?.key === column.key && !sorted.falling };
+      fill();
+    });
+    return make("th", { scope: "col", className: column.digits ? "digits" : "" }, button);
+  });
+
+  function fill() {
+    const by = columns.find(({ key }) => key === sorted?.key);
+    const order = by ? [...rows].sort((a, b) => compared(by, a, b, Boolean(sorted?.falling))) : rows;
+    heads.forEach((head, k) => {
+      if (columns[k] === by) head.setAttribute("aria-sort", sorted?.falling ? "descending" : "ascending");
+      else head.removeAttribute("aria-sort");
+    });
+    body.replaceChildren(...order.map(rowOf));
+  }
+
+  /** @param {any} row */
+  function rowOf(row) {
+    const [first, ...rest] = columns;
+    const button = act?.(row);
+    return make(
+      "tr",
+      { className: marks(row) },
+      make("th", { scope: "row", className: first.digits ? "digits" : "" }, cellText(first, row)),
+      ...rest.map((column) => cellOf(column, row)),
+      ...(act ? [make("td", {}, button ?? "")] : []),
+    );
+  }
+
+  fill();
+  return make(
+    "div",
+    { className: "answer-table", role: "region", "aria-label": caption, tabIndex: 0 },
+    make(
+      "table",
+      {},
+      make("caption", {}, caption),
+      make("thead", {}, make("tr", {}, ...heads, ...(act ? [make("td")] : []))),
+      body,
+    ),
+  );
+}
+
+/**
+ * @param {Column} column
+ * @param {any} row
+ */
+function cellOf(column, row) {
+  const cell = make("td", { className: column.digits ? "digits" : column.key }, cellText(column, row));
+  const value = column.of(row);
+  if (typeof value === "number") cell.dataset.value = String(value);
+  return cell;
+}
+
+/**
+ * What has no value comes last, whichever way it is sorted.
+ * @param {Column} column
+ * @param {any} a
+ * @param {any} b
+ * @param {boolean} falling
+ */
+function compared({ of }, a, b, falling) {
+  const [x, y] = [of(a), of(b)];
+  if (x === undefined || y === undefined) return Number(x === undefined) - Number(y === undefined);
+  const order = typeof x === "number" && typeof y === "number" ? x - y : String(x).localeCompare(String(y));
+  return falling ? -order : order;
+}
