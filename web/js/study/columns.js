@@ -26,8 +26,8 @@ import { INPUTS } from "./words.js";
 const STATES = { met: "within the tolerance", "met-if-nominal": "within it if every number is exact" };
 
 /** @param {StudyOutcome} row */
-const state = ({ error, cannot_run, verdict_state = "" }) =>
-  error ?? cannot_run ?? STATES[verdict_state] ?? "out of tolerance";
+const state = ({ error, cannot_run, verdict_state }) =>
+  error ?? cannot_run ?? STATES[verdict_state ?? ""] ?? "out of tolerance";
 
 /**
  * @param {string} key
@@ -57,9 +57,9 @@ const known = (value, convert) => (value === undefined ? undefined : convert(val
 const textOf = (value, write) => (value === undefined ? "–" : write(value));
 
 const errors = () => [
-  lengthColumn("before", "Before compensation", (row) => row.before_max_mm),
-  lengthColumn("p50", "After it, half of the cases", (row) => row.p50_mm),
-  lengthColumn("p95", "After it, 95 of 100", (row) => row.p95_mm),
+  lengthColumn("before", "Before, largest", (row) => row.before_max_mm),
+  lengthColumn("p50", "Expected", (row) => row.p50_mm),
+  lengthColumn("p95", "Expected, 95 of 100", (row) => row.p95_mm),
 ];
 /** @returns {Column} */
 const verdict = () => ({ key: "state", label: "Verdict", of: state });

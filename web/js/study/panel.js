@@ -11,7 +11,7 @@ import { listed, tableCsv, tableMarkdown } from "./columns.js";
 import { makeCurve } from "./curve.js";
 import { makeFields } from "./fields.js";
 import { askedIn, written } from "./question.js";
-import { answerTable } from "./table.js";
+import { answerTable, cannot } from "./table.js";
 import { isAlike, ranked, rounded, sentenceOf, titleOf } from "./words.js";
 
 /**
@@ -37,7 +37,7 @@ export function makeStudy(node, { job, use, fields: all }) {
   /** @type {Answered | null} */
   let shown = null;
   const edited = debounced(() => ask(), CALM_MS);
-  const fields = makeFields({ ask, changed: edited });
+  const fields = makeFields({ ask: () => ask(), changed: edited });
   const button = (/** @type {string} */ id, /** @type {string} */ text, /** @type {() => void} */ go) => {
     const made = make("button", { type: "button", id, className: "quiet" }, text);
     made.addEventListener("click", go);
@@ -78,13 +78,18 @@ export function makeStudy(node, { job, use, fields: all }) {
     if (busy) bar.value = 0;
   }
 
-  /** Asks what the inputs say; what is being answered is superseded. */
-  async function ask() {
+  /**
+   * Asks what the inputs say, or what is `given`; what is being answered is superseded.
+   * @param {Question} [given]
+   */
+  async function ask(given) {
     running?.abort();
+    running = null;
+    become(false);
     /** @type {Question | undefined} */
     let question;
     try {
-      question = fields.read();
+      question = given ?? fields.read();
     } catch ({ message }) {
       return void (status.textContent = message);
     }
@@ -138,14 +143,7 @@ export function makeStudy(node, { job, use, fields: all }) {
     table.replaceChildren(
       answerTable(titleOf(question, about), given, {
         sort: best && { key: "p95", falling: false },
-        marks: (row) =>
-          row === best
-            ? "best"
-            : best && row.p95_mm !== undefined && !row.cannot_run && isAlike(row, best)
-              ? "alike"
-              : row.error || row.cannot_run
-                ? "cannot"
-                : "",
+        marks: (row) => markOf(row, best),
         act: found.robots || found.choices ? (row) => useButton(row) : undefined,
       }),
     );
@@ -236,6 +234,7 @@ export function makeStudy(node, { job, use, fields: all }) {
     limit(path) {
       fields.offer(job(), all());
       fields.limit(path);
+      node.scrollIntoView({ block: "start" });
       ask();
     },
     /** Asks what the address asks. */
@@ -244,9 +243,20 @@ export function makeStudy(node, { job, use, fields: all }) {
       if (!question) return;
       fields.offer(job(), all());
       fields.take(question);
-      ask();
+      ask(question);
     },
   };
+}
+
+/**
+ * The class of a row beside the best one.
+ * @param {any} row
+ * @param {any} best
+ */
+function markOf(row, best) {
+  if (row === best) return "best";
+  if (cannot(row)) return "cannot";
+  return best && isAlike(row, best) ? "alike" : "";
 }
 
 /**

@@ -52,8 +52,8 @@ export function answerTable(caption, { rows, columns }, { sort, marks = () => ""
       "tr",
       { className: marks(row) },
       make("th", { scope: "row", className: first.digits ? "digits" : "" }, cellText(first, row)),
-      ...rest.map((column) => cellOf(column, row)),
       ...(act ? [make("td", {}, button ?? "")] : []),
+      ...rest.map((column) => cellOf(column, row)),
     );
   }
 
@@ -65,7 +65,7 @@ export function answerTable(caption, { rows, columns }, { sort, marks = () => ""
       "table",
       {},
       make("caption", {}, caption),
-      make("thead", {}, make("tr", {}, ...heads, ...(act ? [make("td")] : []))),
+      make("thead", {}, make("tr", {}, heads[0], ...(act ? [make("td")] : []), ...heads.slice(1))),
       body,
     ),
   );
@@ -83,15 +83,20 @@ function cellOf(column, row) {
 }
 
 /**
- * What has no value comes last, whichever way it is sorted.
+ * What cannot be run and what has no value come last, whichever way it is sorted.
  * @param {Column} column
  * @param {any} a
  * @param {any} b
  * @param {boolean} falling
  */
 function compared({ of }, a, b, falling) {
+  const unable = Number(cannot(a)) - Number(cannot(b));
+  if (unable) return unable;
   const [x, y] = [of(a), of(b)];
   if (x === undefined || y === undefined) return Number(x === undefined) - Number(y === undefined);
   const order = typeof x === "number" && typeof y === "number" ? x - y : String(x).localeCompare(String(y));
   return falling ? -order : order;
 }
+
+/** @param {import("../../pkg/armill.js").StudyOutcome} row */
+export const cannot = ({ error, cannot_run }) => Boolean(error ?? cannot_run);

@@ -26,9 +26,9 @@ export const INPUTS = {
 
 /** @type {Record<Measure, string>} */
 const MEANT = {
-  p95: "95 of 100 parts, after compensation,",
-  nominal: "the part, after compensation and if every number is exact,",
-  uncompensated: "the part, without compensation,",
+  p95: "the error after compensation, in 95 of 100 cases,",
+  nominal: "the error after compensation, if every number is exact,",
+  uncompensated: "the error without compensation",
 };
 
 /** @param {number} mm */
@@ -41,13 +41,44 @@ const length = (mm) => `${lengthText(mm)} ${lengthUnit()}`;
  * @param {Field[]} fields
  */
 export function sentenceOf(question, answer, fields) {
+  const { rows = [] } = answer;
+  const why = rows.length > 0 && rows.every(({ cannot_run }) => cannot_run) ? rows[0].cannot_run : undefined;
+  const first = why ? `The arm cannot run this at any of these values: ${why}. If it could: ` : "";
+  return first + ofNumbers(question, answer, fields, rows);
+}
+
+/**
+ * The same of what has figures, whether or not the arm can run it.
+ * @param {Question} question
+ * @param {Answer} answer
+ * @param {Field[]} fields
+ * @param {SweepRow[]} rows
+ */
+function ofNumbers(question, answer, fields, rows) {
+  if (isFlat(rows))
+    return `The error does not depend on the ${fields.map(({ label }) => label.toLowerCase()).join(" and ")} here: ${known(rows[0])}.`;
   if (answer.largest) return ofLargest(answer.largest, fields[0], question);
   if (answer.robots) return ofRobots(answer.robots);
   if (answer.choices) return ofChoices(answer.choices);
   if (answer.tornado) return ofTornado(answer.tornado);
   if (answer.measures) return ofMeasures(answer.measures);
-  return ofSweep(answer.rows ?? [], fields);
+  return ofSweep(rows, fields);
 }
+
+/**
+ * Whether all values come to the same: of a program's own feed, say, nothing else is used.
+ * @param {SweepRow[]} rows
+ */
+const isFlat = (rows) =>
+  rows.length > 1 &&
+  rows.every(
+    ({ p95_mm, before_max_mm }) =>
+      before_max_mm !== undefined && p95_mm === rows[0].p95_mm && before_max_mm === rows[0].before_max_mm,
+  );
+
+/** @param {SweepRow} row */
+const known = ({ p95_mm = NaN, before_max_mm = NaN }) =>
+  `${length(before_max_mm)} before compensation, at most ${length(p95_mm)} after it in 95 of 100 cases`;
 
 /**
  * @param {LargestAnswer} answer
@@ -58,15 +89,15 @@ function ofLargest({ largest, holds, crossings, quantity: measure, tolerance_mm 
   if (question.kind !== "largest") return "";
   const [from, to] = [question.from, question.to].map((value) => quantity(rounded(value), unit));
   const name = label.toLowerCase();
-  const within = `within ${length(tolerance_mm)}`;
+  const tolerance = `the tolerance of ${length(tolerance_mm)}`;
   if (holds === "nowhere" || largest === null)
-    return `No ${name} from ${from} to ${to} keeps ${MEANT[measure]} ${within}. Try a lower range, or another tolerance.`;
+    return `No ${name} from ${from} to ${to} is small enough: ${MEANT[measure]} is beyond ${tolerance}.`;
   if (holds === "everywhere")
-    return `Every ${name} from ${from} to ${to} keeps ${MEANT[measure]} ${within}: the limit is beyond this range.`;
-  const most = `Largest ${name}: ${quantity(rounded(largest), unit)}. There ${MEANT[measure]} just stays ${within}.`;
+    return `Every ${name} from ${from} to ${to} will do: ${MEANT[measure]} stays within ${tolerance}. The limit is beyond this range.`;
+  const most = `Largest ${name}: ${quantity(rounded(largest), unit)}. There ${MEANT[measure]} just meets ${tolerance}.`;
   if (crossings.length < 2) return most;
   const all = crossings.map((value) => quantity(rounded(value), unit)).join(", ");
-  return `${most} The error does not simply rise: it crosses the tolerance at ${all}.`;
+  return `${most} It does not simply rise: it crosses the tolerance at ${all}.`;
 }
 
 /**
@@ -82,7 +113,7 @@ function ofRobots(rows) {
   const best = able[0];
   const alike = able.filter((row) => row !== best && isAlike(row, best)).length;
   return (
-    `${able.length} of ${rows.length} robots can run this job. The least error to expect is the ${best.name}’s: at most ` +
+    `${able.length} of ${rows.length} robots can run this job. The least error to expect: ${best.name}, at most ` +
     `${length(best.p95_mm ?? NaN)} in 95 of 100 cases. ${others(alike)}`
   );
 }
@@ -122,8 +153,8 @@ const ofMeasures = (measures) => measures[0]?.sentence ?? "Nothing that could be
  * @param {Field[]} fields
  */
 function ofSweep(rows, fields) {
-  const [best] = ranked(rows);
-  if (!best) return `No value has a result: ${rows[0]?.error ?? rows[0]?.cannot_run ?? "there are none"}.`;
+  const [best] = [...ranked(rows), ...ranked(rows.map((row) => ({ ...row, cannot_run: undefined })))];
+  if (!best) return `No value has a result: ${rows[0]?.error ?? "there are none"}.`;
   const at = [best.value, best.second]
     .slice(0, fields.length)
     .map((value, k) => `${fields[k].label.toLowerCase()} ${quantity(rounded(value ?? NaN), fields[k].unit)}`)
