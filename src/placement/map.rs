@@ -4,6 +4,12 @@
 //! larger force acts between two of them, such as in a plunge; and with the cutting force alone: the
 //! shaper's contribution hardly depends on the place. The part keeps its orientation and the tool its
 //! fixed spin (for a free spin, the angle it is compared with).
+//!
+//! After compensation, what is left is how far a drawn plant's tip is from the nominal one's, for the
+//! commands take the nominal deflection back. It is measured across the path, at the stations with the
+//! largest deflection and a few others. Left out are the shaper with the spread of its frequency, and
+//! what the compensation leaves of the nominal error. On smooth paths it agrees with a whole run within
+//! 5 %, on one with drilled holes within 12 % (tests/placement.rs).
 
 use crate::cutting::along;
 use crate::deviation::contour::MeanMax;
@@ -11,8 +17,10 @@ use crate::deviation::{Reference, Source, Sources, simulate};
 use crate::error::Error;
 use crate::job::Job;
 use crate::math::Pose;
-use crate::motion::Trajectory;
-use crate::path::Path;
+use crate::motion::{Shaper, Trajectory};
+use crate::path::{Path, Roll};
+use crate::placement::drawn::DrawnPlants;
+use crate::placement::part::{PartBox, RobotBase};
 use crate::plan::Plan;
 use crate::progress::Progress;
 use crate::report::singularity::{ANGLE_MARGIN, JUMP, SHOULDER_MARGIN};
@@ -45,6 +53,8 @@ pub enum PlacementStatus {
     Limit,
     /// The arm cannot reach the whole path on the branch that it starts on.
     Unreachable,
+    /// The part's box would be in the robot's base or in the floor, see [`RobotBase`].
+    InBase,
 }
 
 /// A place on the map.
@@ -55,6 +65,10 @@ pub struct Place {
     pub max: f64,
     /// Mean contour error by the cutting force, before compensation [m].
     pub mean: f64,
+    /// 95 % quantile, over the drawn plants, of the largest contour error after compensation [m]; NaN
+    /// where the path is out of reach. If the job does not compensate cutting forces, that with the
+    /// desired path commanded.
+    pub p95: f64,
     /// Whether the place is suitable.
     pub status: PlacementStatus,
 }
@@ -68,6 +82,10 @@ pub struct PlacementMap {
     stations: Vec<f64>,
     /// Current origin of the workpiece frame, in the cell [m].
     origin: Vector3<f64>,
+    plants: DrawnPlants,
+    /// Corners of the part's box from that origin, along the cell's axes [m].
+    part: [Vector3<f64>; 8],
+    base: RobotBase,
 }
 
 /// The stations of a path.
@@ -106,11 +124,36 @@ impl PlacementMap {
     /// # Errors
     /// See [`Setup::of`].
     pub fn new(job: &Job) -> Result<Self, Error> {
-        let setup = Arc::new(Setup::of(job, &mut Progress::none())?);
+        let setup = Setup::of(job, &mut Progress::none())?;
+        let setup = Arc::new(Setup { shaper: Shaper::none(), ..setup });
         let stations = stations(&setup);
         let trajectory = trajectory(&setup.path, &setup, &stations);
-        let plan = Plan { robot: setup.robot.clone(), path: setup.path.clone(), trajectory, setup };
-        Ok(Self { plan, stations, origin: Vector3::from(job.workpiece_frame.xyz_mm) * MM })
+        let in_cell = setup.base.compose(&setup.workpiece);
+        Ok(Self {
+            origin: Vector3::from(job.workpiece_frame.xyz_mm) * MM,
+            plants: DrawnPlants::of(&setup),
+            part: PartBox::of(&setup).corners().map(|corner| in_cell.direction(&corner)),
+            base: RobotBase::of(&setup),
+            plan: Plan { robot: setup.robot.clone(), path: setup.path.clone(), trajectory, setup },
+            stations,
+        })
+    }
+
+    /// The same with the tool at another fixed spin [rad], counted as in the job.
+    pub fn turned(&self, spin: f64) -> Self {
+        let path = self.plan.path.clone().with_roll(Roll::fixed(spin));
+        Self { plan: Plan { path, ..self.plan.clone() }, ..self.clone() }
+    }
+
+    /// Corners of the part's box from the workpiece frame's origin, along the cell's axes [m], see
+    /// [`PartBox`].
+    pub fn part(&self) -> &[Vector3<f64>; 8] {
+        &self.part
+    }
+
+    /// The room that the robot's base takes.
+    pub fn base(&self) -> &RobotBase {
+        &self.base
     }
 
     /// Evaluates the path with the workpiece frame's origin at `xyz` in the cell [m].
@@ -120,7 +163,8 @@ impl PlacementMap {
         let trajectory = trajectory(&path, &self.plan.setup, &self.stations);
         let plan = Plan { path, trajectory, ..self.plan.clone() };
         let Ok(joints) = plan.joints(&mut Progress::none()) else {
-            return Place { max: f64::NAN, mean: f64::NAN, status: PlacementStatus::Unreachable };
+            let none = f64::NAN;
+            return Place { max: none, mean: none, p95: none, status: PlacementStatus::Unreachable };
         };
         let reference = Reference::along(&plan, Sources::only(Source::Deflection));
         let bent = simulate(&plan, &reference, &joints.q, &mut Progress::none());
@@ -130,14 +174,17 @@ impl PlacementMap {
             margin.wrist < ANGLE_MARGIN || margin.elbow < ANGLE_MARGIN || margin.shoulder < SHOULDER_MARGIN
         };
         let jumps = joints.q.windows(2).any(|pair| (pair[1] - pair[0]).amax() > STATION_JUMP);
-        let status = if !joints.q.iter().all(|q| plan.is_within_limits(q)) {
+        let status = if self.base.is_in(&self.part.map(|corner| corner + xyz)) {
+            PlacementStatus::InBase
+        } else if !joints.q.iter().all(|q| plan.is_within_limits(q)) {
             PlacementStatus::Limit
         } else if jumps || joints.margin.iter().any(near) {
             PlacementStatus::Singular
         } else {
             PlacementStatus::Good
         };
-        Place { max, mean, status }
+        let p95 = self.plants.p95(&plan, &joints.q, &bent.contour_error);
+        Place { max, mean, p95, status }
     }
 
     /// Range of places worth mapping: smallest and largest x, y, z of the workpiece frame's origin

@@ -20,6 +20,7 @@ pub use program::{Controller, ProgramOptions};
 pub(crate) use proposal::spindle_speeds;
 pub use proposal::{ProposedCutting, proposed_cutting};
 pub use robot::robot;
+pub(crate) use stock::bounds_of_cuts;
 pub use stock::proposed as proposed_stock;
 
 use crate::cutting::{Bending, Cut, HeaviestPlace, Loading, MeanForces, StiffnessAlong};

@@ -192,7 +192,7 @@ fn block(given: &job::Stock) -> Result<Solid, Error> {
 pub fn proposed(job: &Job) -> Result<Option<job::Stock>, Error> {
     let (path, _) = path::desired(job, &mut Progress::none())?;
     let follows = is_upright(&path) && path.moves().len() <= MOST_MOVES;
-    let Some((low, high)) = bounds(&path).filter(|_| follows) else { return Ok(None) };
+    let Some((low, high)) = bounds_of_cuts(&path).filter(|_| follows) else { return Ok(None) };
     let level = high.z - low.z < 1e-9;
     let top = if level { low.z + job.cutting.axial_depth_mm * MM } else { high.z };
     if top <= low.z {
@@ -203,8 +203,8 @@ pub fn proposed(job: &Job) -> Result<Option<job::Stock>, Error> {
     Ok(Some(job::Stock { kind: StockKind::Extents, top_mm, ..job::Stock::default() }))
 }
 
-/// The smallest and largest coordinates of the moves that cut.
-fn bounds(path: &Path) -> Option<(Vector3<f64>, Vector3<f64>)> {
+/// The smallest and largest coordinates of the moves that cut [m]; `None` if none does.
+pub(crate) fn bounds_of_cuts(path: &Path) -> Option<(Vector3<f64>, Vector3<f64>)> {
     let points = path
         .moves()
         .iter()
@@ -218,7 +218,7 @@ fn bounds(path: &Path) -> Option<(Vector3<f64>, Vector3<f64>)> {
 /// A box around the tool's axis on the moves that cut.
 fn extents(job: &Job, path: &Path) -> Result<Solid, Error> {
     let allowance = job.stock.allowance_mm.unwrap_or(job.tool.diameter_mm) * MM;
-    let Some((low, high)) = bounds(path) else {
+    let Some((low, high)) = bounds_of_cuts(path) else {
         return Err(Error::invalid("stock.kind", "extents", "a program with a move that cuts"));
     };
     let top = match job.stock.top_mm {

@@ -134,6 +134,9 @@ fn turn(plan: &Plan, joint: usize, torque: f64) -> f64 {
     }
 }
 
+/// Rounds in which a command is shifted, where the force follows the tip: each leaves a share of the
+/// rest that is the cut's stiffness beside the arm's.
+const SHIFTS: usize = 4;
 /// Step of a factor that makes a derivative, even with springs that are not linear.
 const STEP: f64 = 1e-3;
 
@@ -155,6 +158,20 @@ impl DrawnPlace {
             let [t, r, a] = self.torque[joint];
             self.moves[joint] * turn(plan, joint, t + r + a + self.weight[joint]) - sag[joint]
         })
+    }
+
+    /// The place with commands that take the nominal deflection back: shifted until the nominal tip is
+    /// where it should be. The posture stays, which so small a shift hardly changes.
+    pub fn compensated(mut self, plan: &Plan) -> Self {
+        let rounds = if self.follows.is_some() { SHIFTS } else { 1 };
+        for _ in 0..rounds {
+            let off = self.tip(plan, &Draw::NOMINAL) - self.target;
+            self.base -= off;
+            if let Some(follows) = &mut self.follows {
+                follows.shift -= off;
+            }
+        }
+        self
     }
 
     /// The actual tip [m] with a drawn plant.

@@ -1,0 +1,121 @@
+//! What may be left at a place after compensation: the drawn plants there.
+
+use crate::cutting::PartForces;
+use crate::plan::Plan;
+use crate::robot::Joints;
+use crate::setup::Setup;
+use crate::uncertainty::draw::{Draw, deviates};
+use crate::uncertainty::place::{DrawnPlace, places};
+use crate::uncertainty::quantile;
+use nalgebra::Vector3;
+use std::cmp::Reverse;
+
+/// Stations that are looked at: those with the largest deflection, and others all along the path,
+/// where another plant may err more.
+const LARGEST: usize = 16;
+const ALONG: usize = 20;
+/// Every so many of them, and those with the largest deflection, are where draws are screened.
+const EVERY: usize = 4;
+const SCREENED: usize = 4;
+/// Share of the draws, those with the largest error to first order there, that are evaluated. The 5 %
+/// above the quantile are nearly all among them; one that is not makes the quantile a little low.
+const EVALUATED: f64 = 0.15;
+/// Step of a factor for that first order, about a standard deviation.
+const STEP: f64 = 0.1;
+
+/// The plants that are drawn, the same for every place.
+#[derive(Debug, Clone)]
+pub(super) struct DrawnPlants {
+    draws: Vec<Draw>,
+    parts: PartForces,
+}
+
+impl DrawnPlants {
+    /// Those of a job: its own draws, as many as it asks for.
+    pub(super) fn of(setup: &Setup) -> Self {
+        let spreads = &setup.spreads;
+        let draws = deviates(spreads.seed, spreads.draws).iter().map(|z| Draw::at(spreads, z)).collect();
+        Self { draws, parts: PartForces::of(&setup.cut, setup.contacts.as_ref()) }
+    }
+
+    /// The 95 % quantile of the largest contour error with compensated commands [m]; `q` [rad] are the
+    /// desired ones and `bent` [m] the contour errors with these, at the plan's stations.
+    pub(super) fn p95(&self, plan: &Plan, q: &[Joints], bent: &[Vector3<f64>]) -> f64 {
+        let timing = &plan.trajectory.timing;
+        let worst = by_size(bent);
+        let mut at: Vec<usize> = worst.iter().copied().take(LARGEST).collect();
+        at.extend((0..ALONG).map(|k| k * (bent.len() - 1) / (ALONG - 1)));
+        at.sort_unstable();
+        at.dedup();
+        let taken_back = plan.sought().deflection;
+        let places: Vec<DrawnPlace> = places(plan, (timing, &self.parts), (q, &at), 0.0)
+            .into_iter()
+            .map(|place| if taken_back { place.compensated(plan) } else { place })
+            .collect();
+        // Squares, until one is chosen.
+        let across = |off: Vector3<f64>, station: usize| {
+            let along = timing.heading[station].dot(&off);
+            (off.norm_squared() - along * along).max(0.0)
+        };
+        let screen: Vec<ScreenedStation> = (at.iter().zip(&places).enumerate())
+            .filter(|(n, (station, _))| {
+                n % EVERY == 0 || worst[..SCREENED.min(worst.len())].contains(station)
+            })
+            .map(|(_, (&station, place))| ScreenedStation::of(plan, place, station))
+            .collect();
+        let first_order =
+            |draw| screen.iter().map(|each| across(each.off(draw), each.station)).fold(0.0, f64::max);
+        let scores: Vec<f64> = self.draws.iter().map(first_order).collect();
+        let least = quantile::of_unsorted(&mut scores.clone(), 1.0 - EVALUATED);
+        let largest = |draw: &Draw| {
+            let each = at.iter().zip(&places);
+            each.map(|(&k, place)| across(place.tip(plan, draw) - place.target, k)).fold(0.0, f64::max)
+        };
+        // The others are below the quantile, however far.
+        let evaluated =
+            |(draw, score): (&Draw, &f64)| if *score < least { 0.0 } else { largest(draw).sqrt() };
+        let mut errors: Vec<f64> = self.draws.iter().zip(&scores).map(evaluated).collect();
+        quantile::of_unsorted(&mut errors, 0.95)
+    }
+}
+
+/// The tip at a station, to first order in the factors of a draw.
+struct ScreenedStation {
+    station: usize,
+    /// From where it should be to the nominal tip [m].
+    nominal: Vector3<f64>,
+    /// Growth with the factors on six compliances and three parts of the force [m].
+    growth: [Vector3<f64>; 9],
+}
+
+impl ScreenedStation {
+    fn of(plan: &Plan, place: &DrawnPlace, station: usize) -> Self {
+        let nominal = place.tip(plan, &Draw::NOMINAL);
+        let growth = std::array::from_fn(|k| {
+            let mut draw = Draw::NOMINAL;
+            let Draw { compliance, force, .. } = &mut draw;
+            if let Some(factor) = compliance.iter_mut().chain(force).nth(k) {
+                *factor += STEP;
+            }
+            (place.tip(plan, &draw) - nominal) / STEP
+        });
+        Self { station, nominal: nominal - place.target, growth }
+    }
+
+    /// From where it should be to the tip with a drawn plant [m].
+    fn off(&self, draw: &Draw) -> Vector3<f64> {
+        let factors = draw.compliance.iter().chain(&draw.force);
+        self.growth
+            .iter()
+            .zip(factors)
+            .fold(self.nominal, |off, (growth, factor)| off + growth * (factor - 1.0))
+    }
+}
+
+/// The stations from the largest contour error to the smallest.
+fn by_size(bent: &[Vector3<f64>]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..bent.len()).collect();
+    // Positive floats order like their bits.
+    order.sort_unstable_by_key(|&k| (Reverse(bent[k].norm_squared().to_bits()), k));
+    order
+}
