@@ -8,7 +8,6 @@ use crate::uncertainty::draw::{Draw, deviates};
 use crate::uncertainty::place::{DrawnPlace, places};
 use crate::uncertainty::quantile;
 use nalgebra::Vector3;
-use std::cmp::Reverse;
 
 /// Stations that are looked at: those with the largest deflection, and others all along the path,
 /// where another plant may err more.
@@ -42,11 +41,10 @@ impl DrawnPlants {
     /// desired ones and `bent` [m] the contour errors with these, at the plan's stations.
     pub(super) fn p95(&self, plan: &Plan, q: &[Joints], bent: &[Vector3<f64>]) -> f64 {
         let timing = &plan.trajectory.timing;
-        let worst = by_size(bent);
-        let mut at: Vec<usize> = worst.iter().copied().take(LARGEST).collect();
-        at.extend((0..ALONG).map(|k| k * (bent.len() - 1) / (ALONG - 1)));
-        at.sort_unstable();
-        at.dedup();
+        let worst = worst(bent);
+        let last = bent.len() - 1;
+        let along = |k: &usize| (0..ALONG).any(|n| n * last / (ALONG - 1) == *k);
+        let at: Vec<usize> = (0..=last).filter(|k| worst.contains(k) || along(k)).collect();
         let taken_back = plan.sought().deflection;
         let places: Vec<DrawnPlace> = places(plan, (timing, &self.parts), (q, &at), 0.0)
             .into_iter()
@@ -112,10 +110,15 @@ impl ScreenedStation {
     }
 }
 
-/// The stations from the largest contour error to the smallest.
-fn by_size(bent: &[Vector3<f64>]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..bent.len()).collect();
-    // Positive floats order like their bits.
-    order.sort_unstable_by_key(|&k| (Reverse(bent[k].norm_squared().to_bits()), k));
-    order
+/// The stations with the largest contour errors, the largest first; by looking at all again for each,
+/// which takes less room in the core than to sort them.
+fn worst(bent: &[Vector3<f64>]) -> Vec<usize> {
+    let mut size: Vec<f64> = bent.iter().map(Vector3::norm_squared).collect();
+    let mut chosen = Vec::with_capacity(LARGEST);
+    for _ in 0..LARGEST.min(size.len()) {
+        let most = (1..size.len()).fold(0, |most, k| if size[k] > size[most] { k } else { most });
+        chosen.push(most);
+        size[most] = -1.0;
+    }
+    chosen
 }

@@ -69,6 +69,17 @@ const methods = {
   fingerprint: [result.fingerprint()],
 };
 
+const survey = new armill.Survey(armill.default_job());
+const surveyed = {
+  extent: [survey.extent()],
+  places: [survey.places(new Float64Array([0, 0, 0]))],
+  turns: [survey.turns(new Float64Array([0, 0, 0]), new Float64Array([0, 90]))],
+  part: [survey.part()],
+  base: [survey.base()],
+};
+const counts = Object.values(surveyed).map(([numbers]) => numbers.length);
+if (String(counts) !== "6,4,8,24,6") throw new Error(`a survey answers ${counts} numbers`);
+
 // Made-up loads on twelve poses, and a vibration that dies away: for the types of what is identified.
 const pose = (i) => [
   10 * i - 60,
@@ -107,6 +118,7 @@ const lines = ['import * as armill from "armill";'];
 const write = (type, values) => values.forEach((value) => lines.push(`((_: ${type}) => {})(${literal(value)});`));
 for (const [name, values] of Object.entries(answers)) write(`ReturnType<typeof armill.${name}>`, values);
 for (const [name, values] of Object.entries(methods)) write(`ReturnType<armill.Run["${name}"]>`, values);
+for (const [name, values] of Object.entries(surveyed)) write(`ReturnType<armill.Survey["${name}"]>`, values);
 write(
   'ReturnType<armill.Identified["summary"]>',
   identified.map((each) => each.summary()),
