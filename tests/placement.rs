@@ -121,7 +121,7 @@ fn the_present_place_is_on_the_map_and_the_extent_holds_all_that_can_be_reached(
 /// Bodies at random against their points: one is in the cylinder if a point of it is, and only if one is
 /// in a slightly wider cylinder.
 #[test]
-fn a_part_is_in_the_base_or_the_floor_where_its_points_are() {
+fn a_part_is_in_the_base_where_its_points_are() {
     let mut random = fastrand::Rng::with_seed(11);
     let mut number = |size: f64| (random.f64() * 2.0 - 1.0) * size;
     let mut seen = [0; 3];
@@ -149,9 +149,6 @@ fn a_part_is_in_the_base_or_the_floor_where_its_points_are() {
         if found && !held(0.04) {
             seen[2] += 1;
         }
-        let lowest = corners.iter().map(|corner| corner.z).fold(f64::INFINITY, f64::min);
-        let on_floor = |floor: f64| RobotBase { floor: Some(floor), ..base }.is_in(&corners);
-        assert!(on_floor(lowest + 0.01) && on_floor(lowest - 0.01) == found);
     }
     assert!(seen[0] > 50 && seen[1] > 50 && seen[2] * 10 < seen[1], "{seen:?}");
 }

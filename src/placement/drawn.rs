@@ -19,6 +19,9 @@ const SCREENED: usize = 4;
 /// Share of the draws, those with the largest error to first order there, that are evaluated. The 5 %
 /// above the quantile are nearly all among them; one that is not makes the quantile a little low.
 const EVALUATED: f64 = 0.15;
+/// Of those draws, the stations where the error is at least this share of its largest to first order
+/// are looked at.
+const NEAR: f64 = 0.85;
 /// Step of a factor for that first order, about a standard deviation.
 const STEP: f64 = 0.1;
 
@@ -55,19 +58,23 @@ impl DrawnPlants {
             let along = timing.heading[station].dot(&off);
             (off.norm_squared() - along * along).max(0.0)
         };
-        let screen: Vec<ScreenedStation> = (at.iter().zip(&places).enumerate())
-            .filter(|(n, (station, _))| {
-                n % EVERY == 0 || worst[..SCREENED.min(worst.len())].contains(station)
-            })
-            .map(|(_, (&station, place))| ScreenedStation::of(plan, place, station))
+        let all: Vec<ScreenedStation> =
+            at.iter().zip(&places).map(|(&k, place)| ScreenedStation::of(plan, place, k)).collect();
+        let few: Vec<ScreenedStation> = (all.iter().enumerate())
+            .filter(|(n, each)| n % EVERY == 0 || worst[..SCREENED.min(worst.len())].contains(&each.station))
+            .map(|(_, each)| *each)
             .collect();
-        let first_order =
-            |draw| screen.iter().map(|each| across(each.off(draw), each.station)).fold(0.0, f64::max);
-        let scores: Vec<f64> = self.draws.iter().map(first_order).collect();
+        let first = |each: &ScreenedStation, draw: &Draw| across(each.off(draw), each.station);
+        let most = |screen: &[ScreenedStation], draw: &Draw| {
+            screen.iter().map(|each| first(each, draw)).fold(0.0, f64::max)
+        };
+        let scores: Vec<f64> = self.draws.iter().map(|draw| most(&few, draw)).collect();
         let least = quantile::of_unsorted(&mut scores.clone(), 1.0 - EVALUATED);
         let largest = |draw: &Draw| {
-            let each = at.iter().zip(&places);
-            each.map(|(&k, place)| across(place.tip(plan, draw) - place.target, k)).fold(0.0, f64::max)
+            let enough = NEAR * NEAR * most(&all, draw);
+            let near = all.iter().zip(&places).filter(|(each, _)| first(each, draw) >= enough);
+            let sizes = near.map(|(each, place)| across(place.tip(plan, draw) - place.target, each.station));
+            sizes.fold(0.0, f64::max)
         };
         // The others are below the quantile, however far.
         let evaluated =
@@ -78,6 +85,7 @@ impl DrawnPlants {
 }
 
 /// The tip at a station, to first order in the factors of a draw.
+#[derive(Clone, Copy)]
 struct ScreenedStation {
     station: usize,
     /// From where it should be to the nominal tip [m].

@@ -53,7 +53,7 @@ pub enum PlacementStatus {
     Limit,
     /// The arm cannot reach the whole path on the branch that it starts on.
     Unreachable,
-    /// The part's box would be in the robot's base or in the floor, see [`RobotBase`].
+    /// The part's box would be in the robot's base, see [`RobotBase`].
     InBase,
 }
 

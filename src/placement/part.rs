@@ -12,8 +12,6 @@ const LEAST_RADIUS: f64 = 100.0 * MM;
 const DIRECTIONS: usize = 32;
 /// A base turned no further than this stands on a floor: cosine of its tilt.
 const UPRIGHT: f64 = 0.999;
-/// A part that stands on the floor is not in it [m].
-const TOUCHING: f64 = 1e-6;
 
 /// A box along the axes of the workpiece frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,11 +71,8 @@ impl RobotBase {
         }
     }
 
-    /// Whether a convex body with these corners in the cell [m] is in the base, or in the floor.
+    /// Whether a convex body with these corners in the cell [m] is in the base.
     pub fn is_in(&self, corners: &[Vector3<f64>; 8]) -> bool {
-        if self.floor.is_some_and(|floor| corners.iter().any(|corner| corner.z < floor - TOUCHING)) {
-            return true;
-        }
         let to_base = self.frame.inverse();
         let corners = corners.map(|corner| to_base.point(&corner));
         let beyond = |k: usize| {

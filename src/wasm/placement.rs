@@ -33,8 +33,7 @@ impl Survey {
     /// For each place x, y, z of the workpiece frame in the cell [mm], four numbers: largest and
     /// mean contour error by the cutting force before compensation [mm]; 0 if suitable, 1 near a
     /// singularity, 2 where a joint leaves its range, 3 out of reach, 4 where the part would be in the
-    /// robot's base or the floor; and the 95 % quantile of the largest contour error after compensation
-    /// [mm].
+    /// robot's base; and the 95 % quantile of the largest contour error after compensation [mm].
     pub fn places(&self, xyz_mm: &[f64]) -> Float64Array {
         let places = xyz_mm.chunks_exact(3).flat_map(|at| numbers(&self.map.at(in_metres(at))));
         Float64Array::from(places.collect::<Vec<f64>>().as_slice())

@@ -223,7 +223,7 @@ fn a_doctoral_student_takes_a_figure_of_the_thesis() -> Result {
 fn a_process_engineer_finds_a_place_for_the_part() -> Result {
     visit("/", DESKTOP, async |page| {
         current(page).await?;
-        let before = number(page, "before-max").await?;
+        let before = number(page, "expected-p95").await?;
         let place = page.value("#workpiece_frame-xyz_mm-x").await?;
         let mut person = Person::at(page);
         person.click("#tab-placement").await?;
@@ -235,7 +235,7 @@ fn a_process_engineer_finds_a_place_for_the_part() -> Result {
         )
         .await?;
         current(page).await?;
-        let after = number(page, "before-max").await?;
+        let after = number(page, "expected-p95").await?;
         assert!(after < before, "{before} to {after} mm");
         assert_eq!(person.done, 2);
         // From there the page offers no other place, which would be worse.

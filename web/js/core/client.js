@@ -253,6 +253,12 @@ export const zip = (folder, files) =>
  */
 export const extent = (json) => (spare ??= spawn()).ask("extent", json);
 
+/**
+ * The part's box and the robot's base, see `Survey.part` and `Survey.base` of the core.
+ * @type {(json: string) => Promise<{ part: Float64Array, base: Float64Array }>}
+ */
+export const around = (json) => (spare ??= spawn()).ask("around", json);
+
 /** The job of the shown result, as JSON text. */
 export const shownJob = () => good;
 

@@ -1,8 +1,9 @@
 // The grid of places of a map: where they are, what was found there, and which is best.
 
-/** @import { Drawn, Place } from "./map.js" */
+/** @import { Measure, Place } from "./map.js" */
 
 export const AXES = ["x", "y", "z"];
+const NUMBERS = 4; // of a place
 
 /**
  * Positions [mm]: `columns` along one axis, `rows` along another, and `bands`, for each row the x, y and z of its
@@ -10,6 +11,10 @@ export const AXES = ["x", "y", "z"];
  *
  * @typedef {{ columns: number[], rows: number[], bands: Float64Array[] }} Grid
  */
+
+/** @typedef {{ fixed: number, found: (Float64Array | null)[] }} Layer a plane's position [mm], and the numbers of its rows */
+
+/** @typedef {Place & { i: number, k: number, layer: number }} Ranked a place of a map, by column, row and layer */
 
 /**
  * The grid in a plane: `axes` are those of columns and rows, and the one across the plane; `values` [mm] are the ends of
@@ -39,7 +44,7 @@ export function gridOf([i, k, rest], values, count) {
 }
 
 /**
- * What was found at a place: `found` has three numbers for each place of a row, or null for a row to come.
+ * What was found at a place: `found` has the numbers of a row's places, or null for a row to come.
  * @param {(Float64Array | null)[]} found
  * @param {number} column
  * @param {number} row
@@ -57,28 +62,55 @@ export function placeAt(found, column, row) {
  * @returns {Place}
  */
 export function placeIn(numbers, index) {
-  const [max, mean, mark] = numbers.subarray(3 * index, 3 * index + 3);
-  return { max, mean, mark };
+  const [max, mean, mark, p95] = numbers.subarray(NUMBERS * index, NUMBERS * (index + 1));
+  return { max, mean, mark, p95 };
 }
 
 /**
- * What a map comes to: the `best` of the places that violate no limit, and the end of the scale, `limit` [mm]; both
- * undefined if there is none. A few places near singularities would take the whole scale.
- * @param {Drawn} map
+ * What a map comes to: the `best` of the places that violate no limit and are `allowed`, and the end of the scale,
+ * `limit` [mm]; both undefined if there is none. A few places near singularities would take the whole scale.
+ * @param {{ columns: number[], rows: number[], layers: Layer[] }} map
+ * @param {Measure} measure that decides
+ * @param {(place: Ranked) => boolean} [allowed]
  */
-export function ranked({ rows, columns, at }) {
-  const places = rows.flatMap((_, k) =>
-    columns.flatMap((_, i) => {
-      const place = at(i, k);
-      return place ? [{ i, k, ...place }] : [];
-    }),
+export function ranked({ rows, columns, layers }, measure, allowed = () => true) {
+  const places = layers.flatMap(({ found }, layer) =>
+    rows.flatMap((_, k) =>
+      columns.flatMap((_, i) => {
+        const place = placeAt(found, i, k);
+        return place ? [{ i, k, layer, ...place }] : [];
+      }),
+    ),
   );
   const errors = places
     .filter(({ mark }) => mark < 3)
-    .map(({ max }) => max)
+    .map((place) => place[measure])
     .sort((a, b) => a - b);
   /** @type {number | undefined} */
   const limit = errors[Math.floor(0.95 * (errors.length - 1))];
-  const best = places.filter(({ mark }) => mark === 0).sort((a, b) => a.max - b.max)[0];
-  return { best: /** @type {typeof best | undefined} */ (best), limit };
+  return { best: least(places.filter(allowed), measure), limit };
+}
+
+/**
+ * The best of the places that violate no limit; of equal ones the first.
+ * @template {Place} T
+ * @param {T[]} places
+ * @param {Measure} measure
+ */
+export function least(places, measure) {
+  /** @type {T | undefined} */
+  let best;
+  for (const each of places) if (each.mark === 0 && !(best && best[measure] <= each[measure])) best = each;
+  return best;
+}
+
+/**
+ * Marks places as those in the floor, whose mark is 4; what is out of reach stays so.
+ * @param {Float64Array} numbers
+ * @param {(index: number) => boolean} isIn whether a place is
+ */
+export function markFloor(numbers, isIn) {
+  for (let n = 0; n < numbers.length / NUMBERS; n++) {
+    if (numbers[NUMBERS * n + 2] !== 3 && isIn(n)) numbers[NUMBERS * n + 2] = 4;
+  }
 }

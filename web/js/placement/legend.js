@@ -25,5 +25,6 @@ export function legendItems() {
     [mark(1), MARKS[1]],
     [mark(2), MARKS[2]],
     [mark(3), MARKS[3]],
+    [mark(4), MARKS[4]],
   ].map(([picture, text]) => make("li", {}, picture, text));
 }

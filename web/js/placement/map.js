@@ -5,8 +5,18 @@ import { convert } from "../form/quantity.js";
 import { makeSvg } from "../page/dom.js";
 import { inLength, lengthUnit } from "../page/units.js";
 import { colour, gradient } from "../scene/ramp.js";
+import { ground, outline } from "./around.js";
 
-/** @typedef {{ max: number, mean: number, mark: number }} Place its errors [mm], and what is wrong with it, see `MARKS` */
+/** @import { Around } from "./around.js" */
+
+/**
+ * Its largest and mean error before compensation and the 95 % quantile of the largest after it [mm], and what is wrong
+ * with it, see `MARKS`.
+ *
+ * @typedef {{ max: number, mean: number, mark: number, p95: number }} Place
+ */
+
+/** @typedef {"max" | "p95"} Measure which error of a place counts */
 
 /** @typedef {[column: number, row: number]} Cell */
 
@@ -18,6 +28,8 @@ import { colour, gradient } from "../scene/ramp.js";
  *   rows: number[],
  *   at(column: number, row: number): Place | null,
  *   names: string[],
+ *   axes: number[],
+ *   around?: Around,
  *   current: [number, number],
  *   best?: [number, number],
  *   cursor: Cell | null,
@@ -26,7 +38,7 @@ import { colour, gradient } from "../scene/ramp.js";
 
 const SIZE = 600; // of the plot's longer side, in units of the drawing
 const EDGE = { left: 62, right: 12, top: 10, bottom: 44 };
-export const MARKS = ["", "near a singularity", "a joint leaves its range", "out of reach"];
+export const MARKS = ["", "near a singularity", "a joint leaves its range", "out of reach", "in the base or the floor"];
 
 /**
  * What `node` is painted with: the colour of an error, `limit` being the end of the scale.
@@ -41,10 +53,11 @@ export const scaleGradient = () => gradient();
  * Draws a map into `svg`; returns a function that finds the cell under a point of the drawing.
  * @param {SVGElement} svg
  * @param {Drawn} map
+ * @param {Measure} measure what is coloured
  * @param {number} limit the end of the scale [mm]
  * @returns {(x: number, y: number) => Cell | undefined}
  */
-export function draw(svg, map, limit) {
+export function draw(svg, map, measure, limit) {
   const [nx, ny] = [map.columns.length, map.rows.length];
   const [wide, tall] = [span(map.columns), span(map.rows)];
   const scale = SIZE / Math.max(wide, tall);
@@ -61,7 +74,7 @@ export function draw(svg, map, limit) {
       const place = map.at(i, k);
       if (!place) continue;
       const box = { x: x(map.columns[i]) - w / 2, y: y(map.rows[k]) - h / 2, width: w + 0.3, height: h + 0.3 };
-      if (place.mark !== 3) cells.push(makeSvg("rect", { ...box, fill: paint(place.max, limit) }));
+      if (place.mark < 3) cells.push(makeSvg("rect", { ...box, fill: paint(place[measure], limit) }));
       if (place.mark)
         cells.push(makeSvg("rect", { ...box, class: "mark", fill: `url(#placement-mark-${place.mark})` }));
     }
@@ -89,6 +102,15 @@ export function draw(svg, map, limit) {
     a <= map.columns[nx - 1] + step(map.columns) / 2 &&
     b >= map.rows[0] - step(map.rows) / 2 &&
     b <= map.rows[ny - 1] + step(map.rows) / 2;
+  const plot = { x, y, box: { x: EDGE.left, y: EDGE.top, width, height } };
+  const around = makeSvg("g", { "clip-path": "url(#placement-clip)" });
+  if (map.around) {
+    const { around: stands, axes, cursor } = map;
+    around.append(...ground(stands, axes, plot));
+    if (map.best) around.append(...outline(stands, axes, map.best, plot, "best"));
+    if (cursor) around.append(...outline(stands, axes, [map.columns[cursor[0]], map.rows[cursor[1]]], plot, "cursor"));
+    if (Number.isFinite(map.current[0])) around.append(...outline(stands, axes, map.current, plot, "now"));
+  }
   const signs = [];
   if (map.best) signs.push(diamond(x(map.best[0]), y(map.best[1])));
   if (inside(map.current)) signs.push(...cross(x(map.current[0]), y(map.current[1])));
@@ -102,7 +124,7 @@ export function draw(svg, map, limit) {
         height: h,
       }),
     );
-  svg.replaceChildren(patterns(), ...cells, frame, ...ticks, ...names, ...signs);
+  svg.replaceChildren(patterns(plot.box), ...cells, frame, ...ticks, ...names, around, ...signs);
   return (px, py) => {
     const [i, k] = [Math.floor((px - EDGE.left) / w), Math.floor((EDGE.top + height - py) / h)];
     return i >= 0 && i < nx && k >= 0 && k < ny ? [i, k] : undefined;
@@ -154,7 +176,8 @@ const cross = (x, y) =>
     makeSvg("path", { class: `current ${layer}`, d: `M${x - 13} ${y}h26M${x} ${y - 13}v26` }),
   );
 
-function patterns() {
+/** @param {Record<string, number>} box of the plot */
+function patterns(box) {
   /**
    * @param {number} id
    * @param {number} size
@@ -182,5 +205,12 @@ function patterns() {
       makeSvg("rect", { width: 10, height: 10, class: "ground" }),
       makeSvg("path", { d: "M3 5h4", class: "empty" }),
     ),
+    pattern(
+      4,
+      10,
+      makeSvg("rect", { width: 10, height: 10, class: "ground" }),
+      makeSvg("path", { d: "M2.5 2.5l5 5M7.5 2.5l-5 5", class: "empty" }),
+    ),
+    makeSvg("clipPath", { id: "placement-clip" }, makeSvg("rect", box)),
   );
 }

@@ -3,18 +3,21 @@
 import { numberCell } from "../form/number-cell.js";
 import { shownUnit } from "../form/shown.js";
 import { debounced, make } from "../page/dom.js";
+import { select } from "./choices.js";
 import { AXES } from "./grid.js";
+import { coordinate } from "./words.js";
 
 /** @type {Record<string, [number, number, number]>} */
 const PLANES = { xy: [0, 1, 2], xz: [0, 2, 1], yz: [1, 2, 0] };
 const STEPS = [11, 21, 31, 41];
 const CALM_MS = 400;
+const APART_MM = 100; // of several layers
 
 /**
- * What is asked for: `axes` of columns and rows and the one across the plane, `values` [mm] of the five fields, and
- * `count` of the places along a side.
+ * What is asked for: `axes` of columns and rows and the one across the plane, `values` [mm] of the five fields,
+ * `count` of the places along a side, and the positions `across` [mm] of the layers.
  *
- * @typedef {{ plane: string, axes: [number, number, number], values: number[], count: number }} Asked
+ * @typedef {{ plane: string, axes: [number, number, number], values: number[], count: number, across: number[] }} Asked
  */
 
 /**
@@ -30,6 +33,8 @@ export function makeRanges(place, changed) {
   const plane = select("placement-plane", { xy: "x and y", xz: "x and z", yz: "y and z" });
   const steps = select("placement-steps", Object.fromEntries(STEPS.map((n) => [n, `${n} × ${n}`])));
   steps.value = "21";
+  const layers = select("placement-layers", { 1: "1", 3: "" });
+  const layersLabel = make("label", { for: layers.id });
   const cells = ["a-from", "a-to", "b-from", "b-to", "at"].map((id) => numberCell(`placement-${id}`, "mm"));
   const numbers = cells.map(({ input }) => input);
   const labels = numbers.map((input) => make("label", { for: input.id }));
@@ -42,6 +47,7 @@ export function makeRanges(place, changed) {
       ["Steps", steps],
     ]).map(([text, input]) => make("div", {}, make("label", { for: input.id }, text), input)),
     ...numbers.map((input, i) => make("div", {}, labels[i], input, understood[i])),
+    make("div", {}, layersLabel, layers),
   );
 
   /** The labels of the plane, and its ranges where none are typed. */
@@ -51,6 +57,8 @@ export function makeRanges(place, changed) {
     [`${a} from`, `${a} to`, `${b} from`, `${b} to`, `At ${fixed}`].forEach((text, n) =>
       labels[n].replaceChildren(text, " ", make("span", { className: "unit" }, shownUnit("mm"))),
     );
+    layersLabel.textContent = rest === 2 ? "Heights" : "Layers";
+    layers.options[1].textContent = `3, ±${coordinate(APART_MM)} ${shownUnit("mm")}`;
     if (typed || !reach) return;
     [...reach[i], ...reach[k], place()[rest]].forEach((value, n) => cells[n].write(value));
   }
@@ -86,7 +94,8 @@ export function makeRanges(place, changed) {
     const wrong = mistakes.findIndex(Boolean);
     if (wrong >= 0) return `${labels[wrong].textContent}: ${mistakes[wrong]}`;
     if (turned >= 0) return `${labels[turned].textContent}: enter more than the start.`;
-    return { plane: plane.value, axes: PLANES[plane.value], values, count: Number(steps.value) };
+    const across = (layers.value === "1" ? [0] : [-APART_MM, 0, APART_MM]).map((shift) => values[4] + shift);
+    return { plane: plane.value, axes: PLANES[plane.value], values, count: Number(steps.value), across };
   }
 
   /** Fills in all that is within reach, whatever was typed. */
@@ -98,7 +107,7 @@ export function makeRanges(place, changed) {
 
   const edited = debounced(changed, CALM_MS);
   plane.addEventListener("change", whole);
-  steps.addEventListener("change", changed);
+  for (const input of [steps, layers]) input.addEventListener("change", changed);
   for (const input of numbers) input.addEventListener("input", () => ((typed = true), edited()));
 
   return {
@@ -119,12 +128,4 @@ export function makeRanges(place, changed) {
       fill();
     },
   };
-}
-
-/**
- * @param {string} id
- * @param {Record<string, string>} words
- */
-function select(id, words) {
-  return make("select", { id }, ...Object.entries(words).map(([value, text]) => make("option", { value }, text)));
 }
