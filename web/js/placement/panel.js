@@ -29,6 +29,8 @@ import { layerName, prospect, reaches, sized, spot } from "./words.js";
  * @typedef {Drawn & { key: string | null, layers: Layer[], now?: Place }} Surveyed
  */
 
+const SAME = 1 + 1e-6; // a place rounded to the job's digits differs from itself by that
+
 /**
  * Builds the view into `node`; `job()` is the present one, `use(job)` shows another (and can be
  * undone).
@@ -269,7 +271,7 @@ export function makePlacement(node, { job, use }) {
     low.textContent = "0";
     high.textContent = `${lengthText(end)} ${lengthUnit()} and more`;
     const { now } = map;
-    const better = top && !(now?.mark === 0 && now[measure] <= top[measure]);
+    const better = top && !(now?.mark === 0 && now[measure] <= top[measure] * SAME);
     verdict.textContent = top
       ? better
         ? `Best on this map${choices.sideWords()}: ${sized(spot(map, top.i, top.k, top.layer), top, measure)}.`
