@@ -80,6 +80,7 @@ fn a_place_is_taken_by_click_or_key_and_given_back_by_undo() -> Result {
             format!("document.querySelector('#placement-verdict').textContent.startsWith('{text}')")
         };
         page.wait_for(&verdict("Best on this map: x "), 5.0).await?;
+        page.wait_for("!document.querySelector('#placement-best').disabled", 30.0).await?;
         page.js("document.querySelector('#placement-best').click()").await?;
         page.wait_for(&format!("{place}.some(value => value !== 0)"), 5.0).await?;
         current(page).await?;

@@ -138,7 +138,11 @@ fn a_link_asks_again_and_other_questions_are_the_script_s() -> Result {
         assert_eq!(shown, native.iter().map(|row| row.outcome.p95_mm).collect::<Vec<_>>());
         narrow(page, "an answer").await?;
         page.click("[data-question=tornado]").await?;
-        answered(page, "Com").await.or(answered(page, "Cut").await)?;
+        page.wait_for(
+            "/^Compliance|^Cutting/.test(document.querySelector('#study-answer').textContent)",
+            60.0,
+        )
+        .await?;
         let bars = tornado(&armill::run(&job, &mut Progress::none())?).bars;
         let shown: Vec<Option<f64>> = column(page, 3).await?.into_iter().map(|(_, value)| value).collect();
         assert_eq!(shown, bars.iter().map(|bar| Some(bar.after_mm[1])).collect::<Vec<_>>());

@@ -281,7 +281,7 @@ export function makePlacement(node, { job, use }) {
         : running
           ? ""
           : "No place on this map is within reach.";
-    best.disabled = !better;
+    best.disabled = !better || running !== null; // until all are there, a better one may come
     best.onclick = () => top && put(top);
     tell();
     if (details.open) fillTable();
