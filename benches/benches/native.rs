@@ -10,6 +10,7 @@ use armill::robot::library;
 use armill_bench::adaptive;
 use armill_bench::poses::{self, Poses};
 use armill_bench::program;
+use armill_bench::questions::{QUESTIONS, Questions};
 use armill_bench::stages::{STAGES, Stages, whole};
 use criterion::{Criterion, SamplingMode};
 use k::{InverseKinematicsSolver, Isometry3, JacobianIkSolver, JointType, NodeBuilder, SerialChain, Vector3};
@@ -23,6 +24,7 @@ fn main() {
     let mut criterion = Criterion::default().configure_from_args().without_plots();
     kinematics(&mut criterion);
     reading(&mut criterion);
+    questions(&mut criterion);
     for samples in sizes() {
         jobs(&mut criterion, samples);
         pocket(&mut criterion, samples);
@@ -48,6 +50,18 @@ fn jobs(criterion: &mut Criterion, samples: usize) {
     let text = stages.text().to_owned();
     drop(stages);
     group.bench_function("whole job", |bencher| bencher.iter(|| whole(&text)));
+    group.finish();
+}
+
+/// On all cores, as the script computes them.
+fn questions(criterion: &mut Criterion) {
+    let questions = Questions::new().expect("the default job can be asked about");
+    let mut group = criterion.benchmark_group("questions");
+    group.sampling_mode(SamplingMode::Flat).sample_size(10);
+    group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(1));
+    for (name, work) in QUESTIONS {
+        group.bench_function(name, |bencher| bencher.iter(|| work(&questions)));
+    }
     group.finish();
 }
 

@@ -1,9 +1,10 @@
 //! The work that `cargo xtask bench` times: the default job stage by stage, kinematics pose by
-//! pose, a long program, and a pocket in a stock. It is a library so that the browser runs the same code as the native benchmarks.
+//! pose, a long program, a pocket in a stock, and questions about a job. It is a library so that the browser runs the same code as the native benchmarks.
 
 pub mod adaptive;
 pub mod poses;
 pub mod program;
+pub mod questions;
 pub mod stages;
 #[cfg(target_arch = "wasm32")]
 mod wasm;

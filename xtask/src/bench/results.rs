@@ -77,6 +77,15 @@ impl Native {
     }
 }
 
+/// Names of the questions, as `armill_bench::questions` has them.
+const QUESTIONS: [&str; 5] = [
+    "sweep of 20 values",
+    "the same on one core",
+    "largest depth",
+    "every robot, place kept",
+    "map of 441 places with p95",
+];
+
 /// Everything that was measured.
 pub(crate) struct Results {
     pub(crate) conditions: Vec<String>,
@@ -222,6 +231,22 @@ impl Results {
         )
     }
 
+    /// Questions about the default job, natively on all cores.
+    fn questions(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        writeln!(f, "| Question, natively | ms |\n|---|---|")?;
+        for name in QUESTIONS {
+            if let Some(time) = self.native.of("questions", name) {
+                writeln!(f, "| {name} | {:.0} |", time.median / 1e6)?;
+            }
+        }
+        let of = |name: &str| self.native.of("questions", name);
+        writeln!(
+            f,
+            "\nA sweep on one core takes {} times as long.\n",
+            ratio(of(QUESTIONS[1]), of(QUESTIONS[0]))
+        )
+    }
+
     fn memory(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(f, "| memory at the peak, MB | native | Chromium |")?;
         writeln!(f, "| --- | ---: | ---: |")?;
@@ -267,6 +292,7 @@ impl Display for Results {
                 time.median / 1e6
             )?;
         }
+        self.questions(f)?;
         self.memory(f)?;
         let drag = |key: &str| self.chromium["drag"][key].as_f64().unwrap_or(f64::NAN);
         writeln!(
