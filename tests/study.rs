@@ -234,6 +234,7 @@ fn the_tornado_agrees_with_the_shares_of_the_band() {
         assert!(tornado.bars.windows(2).all(|pair| swing(&pair[0]) >= swing(&pair[1])));
         // What is left without a change is next to nothing, so an input's error is its own alone; half the sum
         // of both ends leaves out what is not linear.
+        assert!(tornado.bars.iter().all(|bar| bar.factors[0] < 1.0 && bar.factors[1] > 1.0));
         let size = |bar: &armill::study::TornadoBar| f64::midpoint(bar.after_mm[0], bar.after_mm[1]);
         let squares: f64 = tornado.bars.iter().map(|bar| size(bar) * size(bar)).sum();
         for share in report.band.shares.iter().filter(|share| share.share > 0.0) {

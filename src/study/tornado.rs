@@ -61,7 +61,7 @@ pub struct Tornado {
 pub fn tornado(report: &Report) -> Tornado {
     let spreads = &report.setup().spreads;
     let varied: Vec<(usize, [Draw; 2])> = (0..INPUTS.len())
-        .map(|input| (input, [-COVERAGE, COVERAGE].map(|z| alone(spreads, input, z))))
+        .map(|input| (input, ends(spreads, input)))
         .filter(|(_, [low, high])| low != high)
         .collect();
     let mut draws = vec![Draw::NOMINAL];
@@ -71,15 +71,21 @@ pub fn tornado(report: &Report) -> Tornado {
         all.into_iter().map(|error| error / MM).collect::<Vec<f64>>()
     };
     let (after, before) = (errors(&report.compensation.q), errors(&report.q));
-    let ends = |errors: &[f64], bar: usize| [errors[1 + 2 * bar], errors[2 + 2 * bar]];
+    let both = |errors: &[f64], bar: usize| [errors[1 + 2 * bar], errors[2 + 2 * bar]];
     let bar = |(bar, (input, draws)): (usize, &(usize, [Draw; 2]))| TornadoBar {
         input: INPUTS[*input],
         factors: draws.each_ref().map(|draw| factor(draw, *input)),
-        after_mm: ends(&after, bar),
-        before_mm: ends(&before, bar),
+        after_mm: both(&after, bar),
+        before_mm: both(&before, bar),
     };
     let bars = math::rising(varied.iter().enumerate().map(bar), |bar| -bar.swing(after[0]));
     Tornado { after_mm: after[0], before_mm: before[0], bars }
+}
+
+/// The plants with one input at both ends of its 95 % range, the smaller factor first.
+fn ends(spreads: &Spreads, input: usize) -> [Draw; 2] {
+    let [low, high] = [-COVERAGE, COVERAGE].map(|z| alone(spreads, input, z));
+    if factor(&low, input) > factor(&high, input) { [high, low] } else { [low, high] }
 }
 
 /// The plant with one input at the deviate `z`. Compliances from one fit vary together; here each goes to
