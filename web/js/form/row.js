@@ -111,7 +111,7 @@ export function makeRow(field, editor, other, acts) {
  */
 function limitButton({ path, label: name }) {
   const title = `Largest ${name.toLowerCase()} for the tolerance`;
-  const button = make("button", { type: "button", className: "limit", title, "aria-label": title }, "max?");
+  const button = make("button", { type: "button", className: "limit", title, "aria-label": `${title}: max?` }, "max?");
   button.addEventListener("click", () =>
     button.dispatchEvent(new CustomEvent("limit", { bubbles: true, detail: path })),
   );

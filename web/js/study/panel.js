@@ -170,7 +170,7 @@ export function makeStudy(node, { job, use, fields: all }) {
   function useButton(row) {
     if (row.error || row.choice === "as-is") return undefined;
     const made = make("button", { type: "button", className: "quiet" }, "Use it");
-    made.setAttribute("aria-label", `Use ${row.name ?? row.label}`);
+    made.setAttribute("aria-label", `Use it: ${row.name ?? row.label}`);
     made.addEventListener("click", () => {
       const patch = row.patch ?? { robot: { preset: row.id }, workpiece_frame: { xyz_mm: row.workpiece_mm } };
       use(patched(job().data, patch, Boolean(row.id)));
