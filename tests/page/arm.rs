@@ -7,6 +7,7 @@ use crate::{current, shows, text, unfold};
 use serde_json::json;
 
 #[test]
+#[ignore = "one of the slower ones: cargo xtask test --heavy"]
 fn weight_and_worn_joints_are_entered_as_rows() -> Result {
     visit(THESIS, DESKTOP, async |page| {
         current(page).await?;

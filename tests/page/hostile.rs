@@ -100,6 +100,7 @@ fn a_million_points_are_answered_and_survive_a_reload() -> Result {
 }
 
 #[test]
+#[ignore = "one of the slower ones: cargo xtask test --heavy"]
 fn a_polyline_too_long_for_a_field_is_the_same_path_as_rows() -> Result {
     let points: Vec<[f64; 3]> = (0..6000).map(|k| [600.0, f64::from(k) / 100.0 - 30.0, 100.0]).collect();
     let job = json!({ "motion": { "feed_mm_s": 50 }, "path": { "kind": "polyline", "points_mm": points } });
