@@ -5,6 +5,7 @@ use crate::chart::plot::line_chart;
 use crate::chart::unit::Units;
 use crate::column::Column;
 use crate::error::Error;
+use crate::report::decapitalised;
 use crate::study::SweepRow;
 use crate::units::MM;
 
@@ -76,7 +77,7 @@ impl SweepCurves {
             });
         }
         let description = self.description(options.units, &curves[1]);
-        let title = format!("Largest contour error by {}", lower(&self.label));
+        let title = format!("Largest contour error by {}", decapitalised(&self.label));
         let caption = Caption { name: "sweep", title: &title, description: &description };
         let ends = (x[0].min(x[x.len() - 1]), x[0].max(x[x.len() - 1]));
         let plot = LinePlot {
@@ -133,12 +134,4 @@ impl SweepCurves {
         };
         format!("In 95 of 100 cases at most {}, and {}.", at(least), at(most))
     }
-}
-
-/// A label within a sentence: its first letter small.
-fn lower(label: &str) -> String {
-    let mut letters = label.chars();
-    letters
-        .next()
-        .map_or_else(String::new, |first| first.to_lowercase().collect::<String>() + letters.as_str())
 }

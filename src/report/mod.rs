@@ -37,6 +37,7 @@ pub use stops::Stops;
 pub use summary::{Statistics, Summary, WorstPlace};
 pub use surface::{PartKind, SurfaceFigures, SurfaceSpot};
 pub use verdict::VerdictState;
+pub(crate) use verdict::decapitalised;
 pub use warning::Warning;
 
 use crate::compensation::{Compensation, Question, compensate};

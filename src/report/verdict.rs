@@ -152,7 +152,8 @@ fn impossible_text(warning: &Warning) -> String {
     format!("The arm cannot run this: {}{place}.{}", warning.brief(), remedy.unwrap_or_default())
 }
 
-fn decapitalised(text: &str) -> String {
+/// A text within a sentence: its first letter small.
+pub(crate) fn decapitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map(|first| first.to_lowercase().chain(letters).collect()).unwrap_or_default()
 }

@@ -264,6 +264,13 @@ impl Robot {
         self.limits.as_ref()
     }
 
+    /// Least distance of a joint from the ends of its range [rad]: negative beyond them, infinite if the ranges are
+    /// unknown.
+    pub fn limit_room(&self, q: &Joints) -> f64 {
+        let ranges = self.limits.iter().flatten().zip(q.iter());
+        ranges.map(|((low, high), q)| (q - low).min(high - q)).fold(f64::INFINITY, f64::min)
+    }
+
     /// The diagonal of C_theta [rad/(N m)] (eq. 3.43).
     pub fn compliance(&self) -> &Joints {
         &self.compliance

@@ -12,7 +12,6 @@ use crate::progress::Progress;
 use crate::report::limit::LIMIT_MARGIN;
 use crate::report::singularity::{JUMP, is_near};
 use crate::report::{Remedy, Report, UNTOUCHED};
-use crate::robot::Joints;
 use crate::setup;
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
@@ -81,14 +80,9 @@ fn closely(plan: &Plan, path: Path) -> Plan {
 /// The clearance of a plan's motion; `None` if the arm cannot follow it.
 fn clearance(plan: &Plan) -> Option<Clearance> {
     let joints = plan.joints(&mut Progress::none()).ok()?;
-    let limits: Vec<_> = plan.robot.limits().into_iter().flatten().collect();
-    let room = |q: &Joints| {
-        let rooms = limits.iter().zip(q.iter()).map(|((low, high), q)| (q - low).min(high - q));
-        rooms.fold(f64::INFINITY, f64::min)
-    };
     let jumps = joints.q.windows(2).map(|pair| (pair[1] - pair[0]).amax());
     Some(Clearance {
-        room: joints.q.iter().map(room).fold(f64::INFINITY, f64::min),
+        room: joints.q.iter().map(|q| plan.robot.limit_room(q)).fold(f64::INFINITY, f64::min),
         singular: joints.margin.iter().any(is_near),
         jump: jumps.fold(0.0, f64::max),
     })

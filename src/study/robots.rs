@@ -6,7 +6,6 @@ use crate::math;
 use crate::placement;
 use crate::progress::Progress;
 use crate::report::Report;
-use crate::robot::Joints;
 use crate::robot::library::{self, Preset};
 use crate::study::{Outcome, VariedJob, at_once};
 use crate::units::DEG;
@@ -148,12 +147,9 @@ fn row(varied: &VariedJob, job: &Job, arm: &Preset, place: PartPlace) -> RobotRo
 
 /// Least distance of a joint from its limits [rad].
 fn limit_room(report: &Report) -> Option<f64> {
-    let limits: Vec<_> = report.plan.robot.limits()?.into();
-    let room = |q: &Joints| {
-        let rooms = limits.iter().zip(q.iter()).map(|((low, high), q)| (q - low).min(high - q));
-        rooms.fold(f64::INFINITY, f64::min)
-    };
-    Some(report.q.iter().map(room).fold(f64::INFINITY, f64::min))
+    let robot = &report.plan.robot;
+    robot.limits()?;
+    Some(report.q.iter().map(|q| robot.limit_room(q)).fold(f64::INFINITY, f64::min))
 }
 
 /// Least angle of elbow and wrist from where they are singular [rad].

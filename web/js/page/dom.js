@@ -55,6 +55,14 @@ export function make(tag, props = {}, ...children) {
   return element;
 }
 
+/**
+ * A choice among words, by their values.
+ * @param {string} id
+ * @param {Record<string, string>} words
+ */
+export const select = (id, words) =>
+  make("select", { id }, ...Object.entries(words).map(([value, text]) => make("option", { value }, text)));
+
 const SVG = "http://www.w3.org/2000/svg";
 
 /**

@@ -1,6 +1,6 @@
 // How a map is read: which error is coloured, the side of the base that counts, and the layer that is shown.
 
-import { make } from "../page/dom.js";
+import { make, select } from "../page/dom.js";
 
 /** @import { Measure } from "./map.js" */
 
@@ -63,12 +63,4 @@ export function makeChoices(changed) {
       shown.hidden = names.length < 2;
     },
   };
-}
-
-/**
- * @param {string} id
- * @param {Record<string, string>} words
- */
-export function select(id, words) {
-  return make("select", { id }, ...Object.entries(words).map(([value, text]) => make("option", { value }, text)));
 }

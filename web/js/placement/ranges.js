@@ -2,8 +2,7 @@
 
 import { numberCell } from "../form/number-cell.js";
 import { shownUnit } from "../form/shown.js";
-import { debounced, make } from "../page/dom.js";
-import { select } from "./choices.js";
+import { debounced, make, select } from "../page/dom.js";
 import { AXES } from "./grid.js";
 import { coordinate } from "./words.js";
 

@@ -1,6 +1,6 @@
 // The inputs of a question: which one, about which numbers, over which range.
 
-import { make } from "../page/dom.js";
+import { make, select } from "../page/dom.js";
 import { MEASURES } from "./question.js";
 import { askable, makeRangeFields } from "./range-fields.js";
 
@@ -139,13 +139,6 @@ export function makeFields({ ask, changed }) {
     },
   };
 }
-
-/**
- * @param {string} id
- * @param {Record<string, string>} words
- */
-const select = (id, words) =>
-  make("select", { id }, ...Object.entries(words).map(([value, text]) => make("option", { value }, text)));
 
 /**
  * @param {string} text
