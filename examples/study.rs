@@ -1,23 +1,24 @@
 //! Answers questions about a job (the default job without a file): how its errors follow one number
-//! or two, how large a number may be, which robot and which choice does it best, which input moves it
+//! or choice, or two, how large a number may be, which robot and which choice does it best, which input moves it
 //! most, what to measure first. Prints one JSON object, or the rows as CSV.
 //!
 //! ```sh
 //! cargo run --release --example study -- [job.json] --vary cutting.axial_depth_mm=0.5:5:20 [--vary ..]
+//! cargo run --release --example study -- [job.json] --vary material.preset=all
 //! cargo run --release --example study -- [job.json] --largest cutting.axial_depth_mm=0.1:10 --quantity p95
-//! cargo run --release --example study -- [job.json] --robots [--place kept|front]
+//! cargo run --release --example study -- [job.json] --robots [--place kept|front|sought]
 //! cargo run --release --example study -- [job.json] --choices
 //! cargo run --release --example study -- [job.json] --tornado
 //! cargo run --release --example study -- [job.json] --measure-first
 //! ```
 
-use armill::study::{ErrorMeasure, LargestQuestion, PartPlace, ValueRange, choices, robots, sweep, tornado};
+use armill::study::{ErrorMeasure, LargestQuestion, PartPlace, Variation, choices, robots, sweep, tornado};
 use armill::{Error, Job, Progress};
 use serde_json::{Value, json};
 use std::process::ExitCode;
 
-const USAGE: &str = "study [job.json] (--vary path=from:to:count[:log] [--vary ..] | --largest path=from:to \
-                     [--quantity nominal|p95|uncompensated] | --robots [--place kept|front] | --choices | \
+const USAGE: &str = "study [job.json] (--vary path=from:to:count[:log]|path=word,word|path=all [--vary ..] | --largest path=from:to \
+                     [--quantity nominal|p95|uncompensated] | --robots [--place kept|front|sought] | --choices | \
                      --tornado | --measure-first) [--csv]";
 
 /// What is asked on the command line.
@@ -90,8 +91,8 @@ impl Asked {
             let report = armill::run(job, &mut Progress::none())?;
             return Ok(json!({ "measures": report.how_sure().measures }));
         }
-        let ranges: Vec<ValueRange> =
-            self.vary.iter().map(|text| ValueRange::read(text)).collect::<Result<_, _>>()?;
+        let ranges: Vec<Variation> =
+            self.vary.iter().map(|text| Variation::read(text)).collect::<Result<_, _>>()?;
         Ok(json!({ "vary": ranges, "rows": sweep(job, &ranges)? }))
     }
 }
@@ -164,12 +165,13 @@ fn csv(answer: &Value) -> String {
 }
 
 /// Keys of an arm.
-const ARM: [&str; 9] = [
+const ARM: [&str; 10] = [
     "id",
     "name",
     "payload_kg",
     "reach_mm",
     "stiffness",
+    "spin_deg",
     "duration_s",
     "force_n",
     "limit_room_deg",

@@ -69,6 +69,12 @@ pub fn nearest_turn(angle: f64, near: f64) -> f64 {
     angle - TAU * (turns + 0.5_f64.copysign(turns)).trunc()
 }
 
+/// An angle [deg] from -180, which is left out, to 180, without the noise of a sum.
+pub fn within_half_turn(angle_deg: f64) -> f64 {
+    let angle = angle_deg - 360.0 * ((angle_deg - 180.0) / 360.0).ceil();
+    (angle * 1e9).round() / 1e9
+}
+
 /// An angle as its sine and cosine: what a closed form yields and a rotation needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turn {
@@ -191,6 +197,20 @@ mod tests {
     fn nearest_turn_stays_within_half_a_turn() {
         for (angle, near, expected) in [(0.1, 6.2, 0.1 + TAU), (-3.0, 3.0, -3.0 + TAU), (1.0, 0.5, 1.0)] {
             assert!((nearest_turn(angle, near) - expected).abs() < 1e-15, "{angle} near {near}");
+        }
+    }
+
+    #[test]
+    fn degrees_stay_within_half_a_turn() {
+        for (angle, expected) in [
+            (180.0, 180.0),
+            (-180.0, 180.0),
+            (190.0, -170.0),
+            (0.0, 0.0),
+            (-540.0, 180.0),
+            (360.1 + 0.2, 0.3),
+        ] {
+            assert_eq!(within_half_turn(angle), expected, "{angle}");
         }
     }
 

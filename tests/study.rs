@@ -1,10 +1,12 @@
 //! Questions about a job: their answers against plain runs, one by one.
 
 use crate::common::job_text;
+use armill::placement::{PlacementMap, PlacementStatus, sought};
 use armill::study::{
-    ErrorMeasure, EveryRobot, Holds, LargestQuestion, Outcome, PartPlace, Sweep, ValueRange, VariedJob,
-    at_once, choices, robots, sweep, tornado,
+    ErrorMeasure, EveryRobot, Holds, LargestQuestion, Outcome, PartPlace, Sweep, Taken, ValueRange,
+    Variation, VariedJob, at_once, choices, robots, sweep, tornado,
 };
+use armill::units::{DEG, MM};
 use armill::{Error, Job, Progress};
 use serde_json::{Value, json};
 use std::process::Command;
@@ -16,8 +18,8 @@ fn quick(changes: &[(&'static str, Value)]) -> Job {
     Job::from_json(&job_text(&all)).unwrap()
 }
 
-fn range(text: &str) -> ValueRange {
-    ValueRange::read(text).unwrap()
+fn range(text: &str) -> Variation {
+    Variation::read(text).unwrap()
 }
 
 #[test]
@@ -28,10 +30,10 @@ fn a_sweep_is_single_runs_in_their_order() {
     assert_eq!(rows.len(), 15);
     for (k, row) in rows.iter().enumerate() {
         let (depth, feed) = ([1.0, 3.0, 5.0, 7.0, 9.0][k / 3], [40.0, 80.0, 160.0][k % 3]);
-        assert_eq!(row.value, depth);
-        assert!((row.second.unwrap() / feed - 1.0).abs() < 1e-12, "{:?}", row.second);
-        let changes =
-            [("cutting.axial_depth_mm", json!(depth)), ("motion.feed_mm_s", json!(row.second.unwrap()))];
+        assert_eq!(row.value, Taken::Number(depth));
+        let Some(Taken::Number(second)) = row.second else { panic!("{:?}", row.second) };
+        assert!((second / feed - 1.0).abs() < 1e-12, "{second}");
+        let changes = [("cutting.axial_depth_mm", json!(depth)), ("motion.feed_mm_s", json!(second))];
         let run = armill::run(&quick(&changes), &mut Progress::none()).unwrap();
         assert_eq!(row.outcome.before_max_mm.unwrap().to_bits(), run.summary().before_mm.both.max.to_bits());
         assert_eq!(row.outcome.after_max_mm.unwrap().to_bits(), run.summary().after_mm.max.to_bits());
@@ -57,6 +59,50 @@ fn a_value_that_cannot_be_run_is_a_row() {
     let rows = sweep(&quick(&[]), &[range("workpiece_frame.xyz_mm.2=0:20:2")]).unwrap();
     assert_ne!(rows[0].outcome.before_max_mm, rows[1].outcome.before_max_mm);
 }
+
+#[test]
+fn a_sweep_over_words_is_single_runs_of_the_jobs_that_say_them() {
+    let job = quick(&[]);
+    let materials = format!("material.preset={}", MATERIALS.join(","));
+    let rows = sweep(&job, &[range(&materials), range("shaper.kind=none,zv")]).unwrap();
+    let shapers = [json!("none"), json!({ "kind": "zv", "frequency_rad_s": 18, "damping": 0.1 })];
+    let expected = MATERIALS.iter().flat_map(|id| shapers.iter().map(move |shaper| (id, shaper)));
+    for (row, (id, shaper)) in rows.iter().zip(expected) {
+        let mut stated: serde_json::Value = serde_json::from_str(&job.to_json()).unwrap();
+        stated["material"] = json!({ "preset": id });
+        stated["shaper"] = shaper.clone();
+        let run = armill::run(&Job::from_json(&stated.to_string()).unwrap(), &mut Progress::none()).unwrap();
+        assert_eq!(row.value, Taken::Word((*id).to_owned()));
+        assert_eq!(row.outcome.p95_mm.unwrap().to_bits(), run.summary().expected_mm.p95.to_bits(), "{id}");
+    }
+    assert_eq!(rows.len(), 4);
+    let all = sweep(&job, &[range("start_branch.elbow=all")]).unwrap();
+    assert_eq!(all.len(), 2);
+    assert_ne!(all[0].outcome.before_max_mm, all[1].outcome.before_max_mm);
+}
+
+#[test]
+fn a_section_that_says_nothing_yet_takes_the_form_s_values() {
+    let unshaped = VariedJob::new(&quick(&[("shaper", json!("none"))])).unwrap();
+    let shaped = unshaped.with([("shaper.kind", Taken::Word("ei".into()))]).unwrap();
+    let stated: serde_json::Value = serde_json::from_str(&shaped.to_json()).unwrap();
+    assert_eq!(stated["shaper"], json!({ "kind": "ei", "frequency_rad_s": 18.0, "damping": 0.1 }));
+    // A frequency in Hz stays what it is.
+    let hertz = quick(&[("shaper", json!({ "kind": "zv", "frequency_hz": 7.0, "damping": 0.03 }))]);
+    let other = VariedJob::new(&hertz).unwrap().with([("shaper.kind", Taken::Word("zvd".into()))]).unwrap();
+    let stated: serde_json::Value = serde_json::from_str(&other.to_json()).unwrap();
+    assert_eq!(stated["shaper"], json!({ "kind": "zvd", "frequency_hz": 7.0, "damping": 0.03 }));
+}
+
+#[test]
+fn a_word_that_a_choice_does_not_have_is_refused_with_those_that_it_has() {
+    let error = Variation::read("shaper.kind=zv,zvv").unwrap_err().to_string();
+    assert!(error.contains("zvv") && error.contains("none, zv, zvd, zvdd, ei"), "{error}");
+    assert!(Variation::read("path.text=a,b").is_err() && Variation::read("no.such=all").is_err());
+}
+
+/// Two materials of the library.
+const MATERIALS: [&str; 2] = ["al-6082-t6", "al-7075-t6"];
 
 #[test]
 fn what_is_no_number_of_a_job_is_refused_with_its_name() {
@@ -198,6 +244,47 @@ fn rows_of_robots_are_single_runs() {
     assert!(runs(&front) > runs(&kept), "each arm has its own place");
 }
 
+/// By trying every candidate, and by whole runs.
+#[test]
+fn a_sought_place_is_the_best_of_those_in_front() {
+    let mut opening = Job::opening().unwrap();
+    opening.motion.sample_time_s = 0.2;
+    opening.uncertainty.draws = 100;
+    let front = EveryRobot::new(&opening, PartPlace::InFront).unwrap();
+    let every = EveryRobot::new(&opening, PartPlace::Sought).unwrap();
+    let (mut compared, mut better) = (0, 0);
+    for index in (0..every.count()).step_by(16) {
+        let (row, first) = (every.row(index), front.row(index));
+        if row.outcome.error.is_some() {
+            continue;
+        }
+        let mut text: Value = serde_json::from_str(&opening.to_json()).unwrap();
+        text["robot"] = json!({ "preset": row.id });
+        let job = Job::from_json(&text.to_string()).unwrap();
+        let found = sought(&job).unwrap();
+        assert_eq!((found.xyz_mm, found.spin_deg), (row.workpiece_mm, row.spin_deg));
+        let map = PlacementMap::new(&job).unwrap();
+        let at = |xyz_mm: [f64; 3], spin_deg: f64| {
+            let place = map.turned(spin_deg * DEG).at(nalgebra::Vector3::from(xyz_mm) * MM);
+            (place.status == PlacementStatus::Good).then_some(place.p95)
+        };
+        assert_eq!(at(found.xyz_mm, found.spin_deg), Some(found.p95));
+        let turns = (0..12).map(|k| f64::from(30 * k - 150));
+        let others = turns.filter_map(|turn| at(first.workpiece_mm, turn));
+        assert!(others.fold(f64::INFINITY, f64::min) >= found.p95, "{}", row.id);
+        text["workpiece_frame"]["xyz_mm"] = json!(row.workpiece_mm);
+        text["spin"]["angle_deg"] = json!(row.spin_deg);
+        assert_eq!(row.outcome, Outcome::of(&Job::from_json(&text.to_string()).unwrap()), "{}", row.id);
+        if let Some((p95, before)) = row.outcome.p95_mm.zip(first.outcome.p95_mm) {
+            compared += 1;
+            better += usize::from(p95 < before);
+            // The map is within 12 % of a run on this path.
+            assert!(p95 < 1.25 * before, "{}: {p95} instead of {before}", row.id);
+        }
+    }
+    assert!(compared > 2 && 2 * better > compared, "{better} of {compared}");
+}
+
 /// Rows that Workers compute one by one, in any order, are those of the whole answer.
 #[test]
 fn rows_do_not_depend_on_who_computes_them() {
@@ -208,7 +295,7 @@ fn rows_do_not_depend_on_who_computes_them() {
         assert_eq!(Sweep::new(&job, &ranges).unwrap().row(index), whole[index]);
     }
     let question = LargestQuestion::read("cutting.axial_depth_mm=0.1:10", ErrorMeasure::P95).unwrap();
-    let scan = sweep(&job, &[question.scan()]).unwrap();
+    let scan = sweep(&job, &[question.scan().into()]).unwrap();
     let errors: Vec<_> = scan.iter().map(|row| row.outcome.p95_mm).collect();
     assert_eq!(question.answer_from(&job, &errors).unwrap(), question.answer(&job).unwrap());
     assert!(question.answer_from(&job, &errors[1..]).is_err());

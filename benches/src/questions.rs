@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use armill::placement::PlacementMap;
-use armill::study::{ErrorMeasure, EveryRobot, LargestQuestion, PartPlace, Sweep, ValueRange, at_once};
+use armill::study::{ErrorMeasure, EveryRobot, LargestQuestion, PartPlace, Sweep, Variation, at_once};
 use armill::{Error, Job};
 
 use crate::Work;
@@ -28,7 +28,7 @@ impl Questions {
     pub fn new() -> Result<Self, Error> {
         let job = Job::default();
         Ok(Self {
-            sweep: Sweep::new(&job, &[ValueRange::read("cutting.axial_depth_mm=0.5:5:20")?])?,
+            sweep: Sweep::new(&job, &[Variation::read("cutting.axial_depth_mm=0.5:5:20")?])?,
             robots: EveryRobot::new(&job, PartPlace::Kept)?,
             map: PlacementMap::new(&job)?,
             job,

@@ -119,13 +119,13 @@ impl PlotFrame {
     }
 
     /// Position of a pair of values on the canvas; NaN where a scale has no place for it.
-    fn place(&self, x: f64, y: f64) -> SheetPoint {
+    pub(super) fn place(&self, x: f64, y: f64) -> SheetPoint {
         let PlotArea { left, top, width, height } = self.area;
         (left + width * self.x.position(x), top + height * (1.0 - self.y.position(y)))
     }
 
     /// Draws plotters' mesh: either the grid alone, or the axes with ticks and the name of x.
-    fn mesh(&self, canvas: &Canvas, x: &Axis, grid: bool) -> Result<(), String> {
+    pub(super) fn mesh(&self, canvas: &Canvas, x: &Axis, grid: bool) -> Result<(), String> {
         let PlotArea { left, top, width, height } = self.area;
         let pixels = |units: f64| (units * TENTHS).round() as u32;
         let mut chart = ChartBuilder::on(&canvas.area)

@@ -10,8 +10,11 @@
 
 #[allow(clippy::module_inception, reason = "the chart itself can be saved as a file")]
 pub mod chart;
+pub mod cases;
 pub mod catalog;
+pub mod error_grid;
 pub mod identified;
+pub mod intervals;
 pub mod over;
 pub mod plot;
 pub mod space;

@@ -40,6 +40,10 @@ pub(super) enum Layer<'a> {
     Shadow,
     /// The data: `class` says how it looks, `key` names it to the page.
     Series { class: &'a str, key: &'a str },
+    /// Cells of a grid, from light to dark on either side of the tolerance.
+    Cell { shade: usize },
+    /// Text on the data.
+    Label,
     /// Axes, ticks and their text.
     Axis,
 }
@@ -62,6 +66,11 @@ impl Layer<'_> {
                 let pen = r#"stroke-width="1.6" stroke-linejoin="round""#;
                 format!(r#"<g class="series {class}" data-key="{key}" {INK} {pen}>"#)
             }
+            Self::Cell { shade } => {
+                let opacity = ["0.25", "0.12", "0.08", "0.18", "0.28", "0.38"][shade.min(5)];
+                format!(r#"<g class="cell shade-{shade}" fill="currentColor" fill-opacity="{opacity}">"#)
+            }
+            Self::Label => r#"<g class="label">"#.into(),
             Self::Axis => format!(r#"<g class="axis" {INK}>"#),
         }
     }

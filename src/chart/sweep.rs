@@ -6,17 +6,17 @@ use crate::chart::unit::Units;
 use crate::column::Column;
 use crate::error::Error;
 use crate::report::decapitalised;
-use crate::study::SweepRow;
+use crate::study::Outcome;
 use crate::units::MM;
 
-/// What a series is of a row [mm].
-type OfRow = fn(&SweepRow) -> Option<f64>;
-/// Series: key, label, class, whether it bounds a band, and what it is of a row.
-const SERIES: [(&str, &str, &str, bool, OfRow); 4] = [
-    ("before", "Before compensation", "before", false, |row| row.outcome.before_max_mm),
-    ("p95", "After it, 95 of 100", "p95", true, |row| row.outcome.p95_mm),
-    ("p50", "After it, half of the cases", "after", false, |row| row.outcome.p50_mm),
-    ("nominal", "After it, if every number is exact", "shaping", false, |row| row.outcome.after_max_mm),
+/// What a series is of a run [mm].
+type OfRun = fn(&Outcome) -> Option<f64>;
+/// Series: key, label, class, whether it bounds a band, and what it is of a run.
+const SERIES: [(&str, &str, &str, bool, OfRun); 4] = [
+    ("before", "Before compensation", "before", false, |run| run.before_max_mm),
+    ("p95", "After it, 95 of 100", "p95", true, |run| run.p95_mm),
+    ("p50", "After it, half of the cases", "after", false, |run| run.p50_mm),
+    ("nominal", "After it, if every number is exact", "shaping", false, |run| run.after_max_mm),
 ];
 
 /// Errors over one number.
@@ -30,8 +30,10 @@ pub struct SweepCurves {
     pub now: Option<f64>,
     /// The job's tolerance [mm].
     pub tolerance_mm: f64,
-    /// The runs, their values rising.
-    pub rows: Vec<SweepRow>,
+    /// The values, rising.
+    pub values: Vec<f64>,
+    /// What the run at each of them says.
+    pub outcomes: Vec<Outcome>,
 }
 
 impl SweepCurves {
@@ -40,7 +42,7 @@ impl SweepCurves {
     /// # Errors
     /// [`Error::Invalid`] for options that cannot be drawn, and for fewer than two runs.
     pub fn chart(&self, options: &ChartOptions) -> Result<Chart, Error> {
-        let x: Vec<f64> = self.rows.iter().map(|row| row.value).collect();
+        let x = &self.values;
         if x.len() < 2 {
             return Err(Error::invalid("rows", x.len(), "at least two values"));
         }
@@ -58,7 +60,7 @@ impl SweepCurves {
                 key,
                 label,
                 class,
-                x: &x,
+                x,
                 y,
                 markers: !bound && x.len() < 60,
                 bound,
@@ -103,7 +105,7 @@ impl SweepCurves {
 
     /// The values drawn.
     pub fn data(&self, units: Units) -> Vec<Column> {
-        let values = self.rows.iter().map(|row| row.value).collect();
+        let values = self.values.clone();
         // What the number is in is its field's own.
         let first = Column::new("value", self.label.clone(), "", values);
         let unit = units.length.name();
@@ -118,18 +120,18 @@ impl SweepCurves {
     fn curves(&self, units: Units) -> [Vec<f64>; 4] {
         let size = units.length.in_m() / MM;
         SERIES.map(|(_, _, _, _, of)| {
-            self.rows.iter().map(|row| of(row).map_or(f64::NAN, |v| v / size)).collect()
+            self.outcomes.iter().map(|run| of(run).map_or(f64::NAN, |v| v / size)).collect()
         })
     }
 
     fn description(&self, units: Units, p95: &[f64]) -> String {
-        let known = || self.rows.iter().zip(p95).filter(|(_, error)| error.is_finite());
+        let known = || self.values.iter().zip(p95).filter(|(_, error)| error.is_finite());
         let least = known().min_by(|a, b| a.1.total_cmp(b.1));
         let most = known().max_by(|a, b| a.1.total_cmp(b.1));
         let (Some(least), Some(most)) = (least, most) else { return String::from("No value has a result.") };
         let (length, unit) = (units.length.name(), self.unit.as_str());
-        let at = |(row, error): (&SweepRow, &f64)| {
-            let value = (row.value * 1e4).round() / 1e4;
+        let at = |(value, error): (&f64, &f64)| {
+            let value = (value * 1e4).round() / 1e4;
             format!("{error:.3} {length} at {}", format!("{value} {unit}").trim_end())
         };
         format!("In 95 of 100 cases at most {}, and {}.", at(least), at(most))

@@ -34,41 +34,62 @@ pub fn in_front(job: &Job) -> Result<[f64; 3], Error> {
 /// # Errors
 /// [`Error::Invalid`] if the path fits none of the places.
 pub fn in_front_of(setup: &Setup, from: [f64; 3]) -> Result<[f64; 3], Error> {
-    let (path, robot) = (&setup.path, &setup.robot);
-    let along = |k: usize| path.length() * k as f64 / (POSES - 1) as f64;
-    let pose = |s: f64| (path.point(s), path.orientation(s, &path.axis(s), path.roll(s)));
-    let poses: Vec<(Vector3<f64>, Matrix3<f64>)> = (0..POSES).map(|k| pose(along(k))).collect();
-    let (mut low, mut high) = (poses[0].0, poses[0].0);
-    for (point, _) in &poses {
-        (low, high) = (low.inf(point), high.sup(point));
-    }
-    let shoulder = forward::frames(robot, &Joints::zeros())[0].position.z;
-    let (first, reach) = (robot.links()[1].a.abs(), robot.reach().1);
+    let poses = poses(setup);
     let mut best: Option<(f64, Vector3<f64>)> = None;
-    for (above, ahead) in ABOVE.into_iter().flat_map(|above| AHEAD.map(|ahead| (above, ahead))) {
-        let place = Vector3::new(first + ahead * reach, 0.0, shoulder + above * reach);
-        let shift = place - (low + high) * 0.5;
-        if let Some(room) = room(robot, &poses, &shift, setup.start)
+    for shift in shifts(setup) {
+        if let Some(room) = room(&setup.robot, &poses, &shift, setup.start)
             && best.is_none_or(|(most, _)| room > most)
         {
             best = Some((room, shift));
         }
     }
-    let Some((_, shift)) = best else {
-        let size = (high - low) / MM;
-        return Err(Error::invalid(
-            "workpiece_frame.xyz_mm",
-            "without a place in front of this robot",
-            format!(
-                "no place within reach and joint limits fits a path of {:.0} \
-                 x {:.0} x {:.0} mm with this tool; choose a larger robot or another start branch, or turn the workpiece",
-                size.x, size.y, size.z
-            ),
-        ));
-    };
+    let (_, shift) = best.ok_or_else(|| no_place(setup))?;
     let moved = setup.base.direction(&shift) / MM;
     let [x, y, z] = from;
     Ok([(x + moved.x).round(), (y + moved.y).round(), (z + moved.z).round()])
+}
+
+/// Poses along the path.
+fn poses(setup: &Setup) -> Vec<(Vector3<f64>, Matrix3<f64>)> {
+    let path = &setup.path;
+    let along = |k: usize| path.length() * k as f64 / (POSES - 1) as f64;
+    let pose = |s: f64| (path.point(s), path.orientation(s, &path.axis(s), path.roll(s)));
+    (0..POSES).map(|k| pose(along(k))).collect()
+}
+
+/// Corners of the path's box [m], by its poses.
+fn extent(setup: &Setup) -> (Vector3<f64>, Vector3<f64>) {
+    let path = &setup.path;
+    let first = path.point(0.0);
+    let along = (0..POSES).map(|k| path.point(path.length() * k as f64 / (POSES - 1) as f64));
+    along.fold((first, first), |(low, high), point| (low.inf(&point), high.sup(&point)))
+}
+
+/// The shifts in the base frame [m] that bring the middle of the path to each of the places tried.
+pub(super) fn shifts(setup: &Setup) -> impl Iterator<Item = Vector3<f64>> {
+    let robot = &setup.robot;
+    let (low, high) = extent(setup);
+    let shoulder = forward::frames(robot, &Joints::zeros())[0].position.z;
+    let (first, reach) = (robot.links()[1].a.abs(), robot.reach().1);
+    ABOVE.into_iter().flat_map(|above| AHEAD.map(|ahead| (above, ahead))).map(move |(above, ahead)| {
+        let place = Vector3::new(first + ahead * reach, 0.0, shoulder + above * reach);
+        place - (low + high) * 0.5
+    })
+}
+
+/// What is said where none of the places fits.
+pub(super) fn no_place(setup: &Setup) -> Error {
+    let (low, high) = extent(setup);
+    let size = (high - low) / MM;
+    Error::invalid(
+        "workpiece_frame.xyz_mm",
+        "without a place in front of this robot",
+        format!(
+            "no place within reach and joint limits fits a path of {:.0} \
+             x {:.0} x {:.0} mm with this tool; choose a larger robot or another start branch, or turn the workpiece",
+            size.x, size.y, size.z
+        ),
+    )
 }
 
 /// The least room along the path to singularities, and to joint limits where they are known; `None`

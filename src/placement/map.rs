@@ -145,6 +145,11 @@ impl PlacementMap {
         Self { plan: Plan { path, ..self.plan.clone() }, ..self.clone() }
     }
 
+    /// The job's setup, without its shaper.
+    pub fn setup(&self) -> &Setup {
+        &self.plan.setup
+    }
+
     /// Corners of the part's box from the workpiece frame's origin, along the cell's axes [m], see
     /// [`PartBox`].
     pub fn part(&self) -> &[Vector3<f64>; 8] {

@@ -26,6 +26,16 @@ use std::sync::Arc;
 /// # Errors
 /// An [`Error`] with the invalid field of the job, or the place where its path is out of reach.
 pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
+    let mut report = without_remedies(job, progress)?;
+    remedy::offer(job, &mut report);
+    Ok(report)
+}
+
+/// The same, but its warnings have no remedies: to look for them may take longer than a third of a run.
+///
+/// # Errors
+/// See [`run`].
+pub(crate) fn without_remedies(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     let steps = Steps::of(job);
     let setup = Setup::of(job, &mut steps.reading(progress))?;
     // Reported before the motion is sampled, which takes a while on a long run.
@@ -80,7 +90,6 @@ pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     };
     report.warnings = warning::warnings(&report);
     report.warn(given::earlier_model(job));
-    remedy::offer(job, &mut report);
     Ok(report)
 }
 

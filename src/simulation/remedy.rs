@@ -3,7 +3,7 @@
 //! model alone.
 
 use crate::job::{Job, SpinMode, Stock};
-use crate::math::Pose;
+use crate::math::{Pose, within_half_turn};
 use crate::motion::{Trajectory, roll};
 use crate::path::{Path, Roll};
 use crate::placement;
@@ -111,7 +111,7 @@ fn turned(job: &Job, plan: &Plan) -> Option<TurnedTool> {
     let steps = (1..=STEPS).flat_map(|i| [i as f64, -(i as f64)]).take(2 * STEPS - 1);
     let (mut tight, mut checked) = (Vec::new(), 0);
     for turn_deg in steps.map(|step| step * STEP_DEG) {
-        let angle_deg = wrapped(job.spin.angle_deg + turn_deg);
+        let angle_deg = within_half_turn(job.spin.angle_deg + turn_deg);
         match held(&stations, angle_deg) {
             Some(clearance) if clearance.room >= roomy && checked < MOST_CHECKED => {
                 checked += 1;
@@ -126,12 +126,6 @@ fn turned(job: &Job, plan: &Plan) -> Option<TurnedTool> {
     let mut tight = tight.into_iter().take(MOST_CHECKED);
     let (turn_deg, angle_deg) = tight.find(|(_, angle_deg)| is_clear(*angle_deg, CORRECTION))?;
     Some(TurnedTool { remedy: turn(job, turn_deg, angle_deg), roomy: false })
-}
-
-/// An angle within -180 to 180 deg, without the noise of the sum.
-fn wrapped(angle_deg: f64) -> f64 {
-    let angle = angle_deg - 360.0 * (angle_deg / 360.0).round();
-    (angle * 1e9).round() / 1e9
 }
 
 fn turn(job: &Job, turn_deg: f64, angle_deg: f64) -> Remedy {

@@ -2,6 +2,7 @@
 //! the start point of a closed path, the turn of the tool about its axis. Which errs least?
 
 use crate::job::{Engaged, Job, Path, PathKind, SpinMode};
+use crate::math::within_half_turn;
 use crate::report::Remedy;
 use crate::study::{Outcome, at_once};
 use serde::Serialize;
@@ -183,10 +184,4 @@ fn normal(path: &Path) -> [f64; 3] {
 
 fn within_turn(angle_deg: f64) -> f64 {
     angle_deg % 360.0
-}
-
-/// The same direction between -180, which is left out, and 180.
-fn within_half_turn(angle_deg: f64) -> f64 {
-    let angle = angle_deg.rem_euclid(360.0);
-    if angle > 180.0 { angle - 360.0 } else { angle }
 }

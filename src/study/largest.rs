@@ -1,12 +1,12 @@
 //! The largest value of a number for which the error meets the tolerance.
 //!
-//! The range is scanned, and each change between meeting and missing is narrowed by false position
-//! in the Illinois variant (Dowell and Jarratt, BIT 11, 1971), with bisection where that stalls or a
-//! side has no result. Changes that begin and end between two values of the scan are not seen.
+//! The range is scanned, and each [`Crossing`] between meeting and missing is narrowed. Those that begin and
+//! end between two values of the scan are not seen.
 
 use crate::error::Error;
 use crate::job::Job;
 use crate::progress::Progress;
+use crate::study::crossing::{Crossing, Tried};
 use crate::study::range::finite;
 use crate::study::{Outcome, Sweep, ValueRange, VariedJob, at_once};
 use serde::Serialize;
@@ -15,10 +15,6 @@ use serde::Serialize;
 const SCAN: usize = 17;
 /// Ratio of the ends from which on the scan is in equal ratios.
 const DECADE: f64 = 10.0;
-/// Width of a bracket, as a share of the larger end, at which it is narrow enough.
-const NARROW: f64 = 2e-4;
-/// Most runs to narrow one change: bisection alone takes about 13.
-const MOST: usize = 40;
 
 /// The error that the tolerance applies to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -103,19 +99,6 @@ pub struct LargestAnswer {
     pub runs: usize,
 }
 
-/// One run: its value, and how far the error is above the tolerance; infinite without a result.
-#[derive(Debug, Clone, Copy)]
-struct Tried {
-    value: f64,
-    excess: f64,
-}
-
-impl Tried {
-    fn meets(self) -> bool {
-        self.excess <= 0.0
-    }
-}
-
 impl LargestQuestion {
     /// Reads `path=from:to`.
     ///
@@ -145,7 +128,7 @@ impl LargestQuestion {
     /// If the path is that of no number of the job, or no value of the scan has a result: the error of
     /// the first. Other values without a result miss the tolerance.
     pub fn answer(&self, job: &Job) -> Result<LargestAnswer, Error> {
-        let scan = Sweep::new(job, &[self.scan()])?;
+        let scan = Sweep::new(job, &[self.scan().into()])?;
         self.answer_from(job, &at_once(SCAN, |index| self.quantity.of(&scan.row(index).outcome)))
     }
 
@@ -173,14 +156,13 @@ impl LargestQuestion {
             let job = varied.with(varied_to(self.from))?;
             crate::simulation::run(&job, &mut Progress::none())?;
         }
-        let changes: Vec<[Tried; 2]> = scan
-            .windows(2)
-            .filter(|pair| pair[0].meets() != pair[1].meets())
-            .map(|pair| [pair[0], pair[1]])
-            .collect();
-        let tried = |value: f64| judged(value, self.quantity.of(&outcome(value)));
-        let narrowed = at_once(changes.len(), |index| narrowed(changes[index], &tried));
-        let crossings: Vec<f64> = narrowed.iter().map(|(value, _)| *value).collect();
+        let changes: Vec<usize> =
+            (1..SCAN).filter(|&index| scan[index - 1].meets() != scan[index].meets()).collect();
+        let run = |value: f64| {
+            let outcome = outcome(value);
+            (judged(value, self.quantity.of(&outcome)), outcome)
+        };
+        let found = at_once(changes.len(), |index| Crossing::narrowed(&scan, changes[index], &run));
         let meeting = scan.iter().filter(|tried| tried.meets()).count();
         let holds = match meeting {
             0 => Holds::Nowhere,
@@ -188,53 +170,19 @@ impl LargestQuestion {
             _ => Holds::Partly,
         };
         let at_end = scan.last().is_some_and(|last| last.meets());
-        let largest = if at_end { Some(self.to) } else { crossings.last().copied() };
+        let last = found.last().filter(|_| !at_end);
+        let largest = if at_end { Some(self.to) } else { last.map(|crossing| crossing.value) };
+        let known = last.and_then(|crossing| crossing.outcome.clone());
+        let more = usize::from(largest.is_some() && known.is_none());
         Ok(LargestAnswer {
             path: self.path.clone(),
             largest,
             quantity: self.quantity,
             tolerance_mm: tolerance,
             holds,
-            crossings,
-            at_largest: largest.map(outcome),
-            runs: SCAN
-                + narrowed.iter().map(|(_, runs)| runs).sum::<usize>()
-                + usize::from(largest.is_some()),
+            crossings: found.iter().map(|crossing| crossing.value).collect(),
+            at_largest: largest.map(|value| known.unwrap_or_else(|| outcome(value))),
+            runs: SCAN + found.iter().map(|crossing| crossing.runs).sum::<usize>() + more,
         })
     }
-}
-
-/// The meeting end of a change, once its bracket is narrow, and the number of runs.
-fn narrowed([mut low, mut high]: [Tried; 2], tried: &impl Fn(f64) -> Tried) -> (f64, usize) {
-    let mut runs = 0;
-    // Which end was kept by the last step: false position halves the excess of one that is kept twice.
-    let mut kept = 0_i8;
-    let mut width = f64::INFINITY;
-    while high.value - low.value > NARROW * high.value.abs().max(low.value.abs()) && runs < MOST {
-        let now = high.value - low.value;
-        let shrinks = now < 0.6 * width;
-        width = now;
-        let middle = 0.5 * (low.value + high.value);
-        let chord = low.value - low.excess * now / (high.excess - low.excess);
-        // Near an end the next bracket is wide: keep a tenth of the goal away from it.
-        let room = 0.1 * NARROW * high.value.abs().max(low.value.abs());
-        let inside = chord.is_finite() && chord > low.value && chord < high.value;
-        let next = if inside && (runs < 2 || shrinks) {
-            chord.clamp(low.value + room, high.value - room)
-        } else {
-            middle
-        };
-        let found = tried(next);
-        runs += 1;
-        if found.meets() == low.meets() {
-            low = found;
-            high.excess = if kept == 1 { high.excess / 2.0 } else { high.excess };
-            kept = 1;
-        } else {
-            high = found;
-            low.excess = if kept == -1 { low.excess / 2.0 } else { low.excess };
-            kept = -1;
-        }
-    }
-    (if low.meets() { low.value } else { high.value }, runs)
 }

@@ -6,12 +6,14 @@
 
 mod at_once;
 mod choices;
+mod crossing;
 mod largest;
 mod outcome;
 mod range;
 mod robots;
 mod sweep;
 mod tornado;
+mod variation;
 mod varied;
 
 pub use at_once::at_once;
@@ -22,4 +24,5 @@ pub use range::ValueRange;
 pub use robots::{EveryRobot, PartPlace, RobotRow, robots};
 pub use sweep::{Sweep, SweepRow, sweep};
 pub use tornado::{Tornado, TornadoBar, tornado};
+pub use variation::{ChoiceWords, Taken, Variation};
 pub use varied::VariedJob;

@@ -19,18 +19,21 @@ pub enum PartPlace {
     Kept,
     /// In front of each arm, as [`placement::in_front`] finds it.
     InFront,
+    /// Where [`placement::sought`] finds the least error, with the tool turned as it finds best.
+    Sought,
 }
 
 impl PartPlace {
     /// The place of this name.
     ///
     /// # Errors
-    /// [`Error::Invalid`] with both names.
+    /// [`Error::Invalid`] with all names.
     pub fn named(name: &str) -> Result<Self, Error> {
         match name {
             "kept" => Ok(Self::Kept),
             "front" => Ok(Self::InFront),
-            _ => Err(Error::unknown_name("place", name, "one of", ["kept", "front"])),
+            "sought" => Ok(Self::Sought),
+            _ => Err(Error::unknown_name("place", name, "one of", ["kept", "front", "sought"])),
         }
     }
 }
@@ -50,6 +53,8 @@ pub struct RobotRow {
     pub stiffness: &'static str,
     /// Origin of the workpiece frame [mm].
     pub workpiece_mm: [f64; 3],
+    /// Turn of the tool about its axis [deg].
+    pub spin_deg: f64,
     /// Time of the run [s].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub duration_s: Option<f64>,
@@ -117,6 +122,7 @@ fn row(varied: &VariedJob, job: &Job, arm: &Preset, place: PartPlace) -> RobotRo
             (false, true) => "guessed",
         },
         workpiece_mm: job.workpiece_frame.xyz_mm,
+        spin_deg: job.spin.angle_deg,
         duration_s: None,
         force_n: None,
         limit_room_deg: None,
@@ -125,15 +131,21 @@ fn row(varied: &VariedJob, job: &Job, arm: &Preset, place: PartPlace) -> RobotRo
     };
     let on_arm = || -> Result<_, Error> {
         let mut job = varied.with_section("robot", json!({ "preset": arm.id }))?;
-        if place == PartPlace::InFront {
-            job.workpiece_frame.xyz_mm = placement::in_front(&job)?;
+        match place {
+            PartPlace::Kept => {}
+            PartPlace::InFront => job.workpiece_frame.xyz_mm = placement::in_front(&job)?,
+            PartPlace::Sought => {
+                let sought = placement::sought(&job)?;
+                (job.workpiece_frame.xyz_mm, job.spin.angle_deg) = (sought.xyz_mm, sought.spin_deg);
+            }
         }
-        let report = crate::simulation::run(&job, &mut Progress::none())?;
-        Ok((job.workpiece_frame.xyz_mm, report))
+        let report = crate::simulation::without_remedies(&job, &mut Progress::none())?;
+        Ok((job, report))
     };
     match on_arm() {
-        Ok((xyz_mm, report)) => {
-            row.workpiece_mm = xyz_mm;
+        Ok((job, report)) => {
+            row.workpiece_mm = job.workpiece_frame.xyz_mm;
+            row.spin_deg = job.spin.angle_deg;
             row.duration_s = Some(report.duration());
             row.force_n = Some(report.mean_force().norm());
             row.limit_room_deg = limit_room(&report).map(|room| room / DEG);

@@ -1,11 +1,13 @@
-//! A job with some of its numbers replaced.
+//! A job with some of its numbers and choices replaced.
 
 use crate::error::Error;
 use crate::job::Job;
-use serde_json::{Map, Value};
+use crate::job::fields::fields;
+use crate::study::Taken;
+use serde_json::{Map, Value, json};
 
-/// A job whose numbers are replaced by their dotted path, such as `cutting.axial_depth_mm` or
-/// `workpiece_frame.xyz_mm.0`.
+/// A job whose numbers and choices are replaced by their dotted path, such as `cutting.axial_depth_mm`,
+/// `workpiece_frame.xyz_mm.0` or `material.preset`.
 #[derive(Debug, Clone)]
 pub struct VariedJob(Value);
 
@@ -23,15 +25,22 @@ impl VariedJob {
         })
     }
 
-    /// The job with these numbers at their paths. Keys that the job does not state are added.
+    /// The job with these values at their paths. Keys that the job does not state are added. A preset
+    /// replaces all that its section says, and keys that a chosen word does not have go.
     ///
     /// # Errors
     /// If a path leads into something that is neither an object nor a list, or beyond the end of a
     /// list; otherwise see [`Job::from_json`], which names keys that do not exist.
-    pub fn with<'a>(&self, numbers: impl IntoIterator<Item = (&'a str, f64)>) -> Result<Job, Error> {
+    pub fn with<'a, V: Into<Taken>>(
+        &self,
+        values: impl IntoIterator<Item = (&'a str, V)>,
+    ) -> Result<Job, Error> {
         let mut varied = self.0.clone();
-        for (path, number) in numbers {
-            *place(&mut varied, path)? = written(number);
+        for (path, value) in values {
+            match value.into() {
+                Taken::Number(number) => *place(&mut varied, path)? = written(number),
+                Taken::Word(word) => choose(&mut varied, path, word)?,
+            }
         }
         Job::from_json(&varied.to_string())
     }
@@ -40,8 +49,11 @@ impl VariedJob {
     ///
     /// # Errors
     /// That one. What a job refuses of this value alone is none.
-    pub fn check<'a>(&self, numbers: impl IntoIterator<Item = (&'a str, f64)>) -> Result<(), Error> {
-        match self.with(numbers) {
+    pub fn check<'a, V: Into<Taken>>(
+        &self,
+        values: impl IntoIterator<Item = (&'a str, V)>,
+    ) -> Result<(), Error> {
+        match self.with(values) {
             Err(error @ (Error::UnknownKey { .. } | Error::Json { .. })) => Err(error),
             _ => Ok(()),
         }
@@ -62,6 +74,33 @@ impl VariedJob {
 fn written(number: f64) -> Value {
     let whole = number as i64;
     if whole as f64 == number { Value::from(whole) } else { Value::from(number) }
+}
+
+/// Writes a word of a choice. A section that has no keys yet, such as a shaper that is none, gets those
+/// that the word needs with the values of a new field, as the page's form does it.
+fn choose(job: &mut Value, path: &str, word: String) -> Result<(), Error> {
+    let (section, key) = path.rsplit_once('.').unwrap_or((path, ""));
+    let at = place(job, section)?;
+    if path == "shaper.kind" && word == "none" {
+        *at = Value::from(word);
+        return Ok(());
+    }
+    let is_new = !at.is_object();
+    if is_new || key == "preset" {
+        *at = json!({});
+    }
+    for field in fields() {
+        let Some(when) = field.when.as_ref().filter(|when| when.path == path) else { continue };
+        let own = field.path.rsplit_once('.').map_or("", |(_, own)| own);
+        let has = when.is.contains(&word.as_str());
+        if is_new && has {
+            at[own] = json!(field.default);
+        } else if let (false, Some(keys)) = (has, at.as_object_mut()) {
+            keys.remove(own);
+        }
+    }
+    at[key] = Value::from(word);
+    Ok(())
 }
 
 /// The place of a path.

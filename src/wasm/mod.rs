@@ -16,8 +16,10 @@ mod placement;
 mod part;
 mod scene;
 mod study;
+mod answer;
 mod thesis;
 
+pub use answer::{StudyCurves, StudyGrid, StudyIntervals};
 pub use export::zip;
 pub use identify::{Identified, identify_response, identify_stiffness};
 pub use job::{
@@ -26,7 +28,7 @@ pub use job::{
 };
 pub use placement::Survey;
 pub use run::{Run, run};
-pub use study::{Study, StudyCurves, largest, tornado};
+pub use study::{Study, largest, tornado};
 pub use thesis::thesis_recomputed;
 
 use serde::Serialize;

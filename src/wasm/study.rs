@@ -1,12 +1,10 @@
 //! Questions about a job. Ranges and questions are texts, the same as on the script's command line.
 
-use crate::chart::sweep::SweepCurves;
 use crate::study::{
-    self, ErrorMeasure, EveryChoice, EveryRobot, LargestQuestion, Outcome, PartPlace, Sweep, SweepRow,
-    ValueRange,
+    self, ErrorMeasure, EveryChoice, EveryRobot, LargestQuestion, PartPlace, Sweep, Variation,
 };
 use crate::wasm::error::thrown;
-use crate::wasm::{chart, object, options};
+use crate::wasm::object;
 use crate::{Error, Job, Progress};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -18,10 +16,11 @@ export interface StudyOutcome {
   before_max_mm?: number; after_max_mm?: number; p50_mm?: number; p95_mm?: number;
   verdict_state?: "cannot-run" | "met" | "met-if-nominal" | "not-met"; cannot_run?: string; error?: string;
 }
-export interface SweepRow extends StudyOutcome { value: number; second?: number; }
+/** What was varied takes a number, or the word of a choice. */
+export interface SweepRow extends StudyOutcome { value: number | string; second?: number | string; }
 export interface RobotRow extends StudyOutcome {
   id: string; name: string; payload_kg: number; reach_mm: number; stiffness: "measured" | "published" | "guessed";
-  workpiece_mm: [number, number, number]; duration_s?: number; force_n?: number;
+  workpiece_mm: [number, number, number]; spin_deg: number; duration_s?: number; force_n?: number;
   limit_room_deg?: number; singularity_deg?: number;
 }
 /** `patch` is a JSON merge patch of the job. */
@@ -55,7 +54,8 @@ enum Runs {
 
 #[wasm_bindgen]
 impl Study {
-    /// A job over one range or two, each `path=from:to:count`, with `:log` at the end for equal ratios.
+    /// A job over one number or choice, or two: each `path=from:to:count`, with `:log` at the end for equal
+    /// ratios, or `path=word,word`, or `path=all`.
     /// Throws an error if the job cannot be read, or a range names no number of it.
     pub fn sweep(json: &str, ranges: Vec<String>) -> Result<Study, JsValue> {
         let of = || Ok(Runs::Sweep(Sweep::new(&Job::from_json(json)?, &read_ranges(&ranges)?)?));
@@ -66,13 +66,13 @@ impl Study {
     pub fn scan(json: &str, question: &str) -> Result<Study, JsValue> {
         let of = || {
             let range = LargestQuestion::read(question, ErrorMeasure::P95)?.scan();
-            Ok(Runs::Sweep(Sweep::new(&Job::from_json(json)?, &[range])?))
+            Ok(Runs::Sweep(Sweep::new(&Job::from_json(json)?, &[range.into()])?))
         };
         of().map(Study::of).map_err(|error: Error| thrown(&error))
     }
 
-    /// A job on every robot of the library, with its part where the job has it (`kept`) or in front of each
-    /// (`front`).
+    /// A job on every robot of the library, with its part where the job has it (`kept`), in front of each
+    /// (`front`), or where the error is least there, with the tool turned as is best (`sought`).
     pub fn robots(json: &str, place: &str) -> Result<Study, JsValue> {
         let of = || Ok(Runs::Robots(EveryRobot::new(&Job::from_json(json)?, PartPlace::named(place)?)?));
         of().map(Study::of).map_err(|error: Error| thrown(&error))
@@ -142,64 +142,6 @@ pub fn tornado(json: &str) -> Result<JsValue, JsValue> {
     object(&study::tornado(&report.map_err(|error| thrown(&error))?))
 }
 
-/// The rows of a sweep over one number, to be drawn.
-#[wasm_bindgen]
-#[derive(Debug)]
-pub struct StudyCurves {
-    curves: SweepCurves,
-}
-
-#[wasm_bindgen]
-impl StudyCurves {
-    /// Of a number called `label`, in `unit`, which is `now` in the job. `errors_mm` has four values for each of
-    /// `values`: before compensation, after it if every number is exact, at 50 % and at 95 %; NaN without a result.
-    #[wasm_bindgen(constructor)]
-    pub fn new(
-        label: &str,
-        unit: &str,
-        tolerance_mm: f64,
-        now: Option<f64>,
-        values: &[f64],
-        errors_mm: &[f64],
-    ) -> StudyCurves {
-        let known = |error: f64| (!error.is_nan()).then_some(error);
-        let row = |(&value, errors): (&f64, &[f64])| SweepRow {
-            value,
-            second: None,
-            outcome: Outcome {
-                before_max_mm: known(errors[0]),
-                after_max_mm: known(errors[1]),
-                p50_mm: known(errors[2]),
-                p95_mm: known(errors[3]),
-                ..Outcome::default()
-            },
-        };
-        let rows = values.iter().zip(errors_mm.chunks_exact(4)).map(row).collect();
-        StudyCurves {
-            curves: SweepCurves { label: label.to_owned(), unit: unit.to_owned(), now, tolerance_mm, rows },
-        }
-    }
-
-    /// The curves, drawn at the requested size.
-    #[wasm_bindgen(unchecked_return_type = "Chart")]
-    pub fn chart(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "ChartOptions")] options: JsValue,
-    ) -> Result<JsValue, JsValue> {
-        let options = options::chart(options)?;
-        object(&self.curves.chart(&options).map_err(|error| thrown(&error))?)
-    }
-
-    /// The values that the chart shows.
-    #[wasm_bindgen(unchecked_return_type = "ChartColumn[]")]
-    pub fn chart_data(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "ChartUnits")] units: JsValue,
-    ) -> Result<JsValue, JsValue> {
-        chart::columns(self.curves.data(options::units(units)?))
-    }
-}
-
-fn read_ranges(texts: &[String]) -> Result<Vec<ValueRange>, Error> {
-    texts.iter().map(|text| ValueRange::read(text)).collect()
+fn read_ranges(texts: &[String]) -> Result<Vec<Variation>, Error> {
+    texts.iter().map(|text| Variation::read(text)).collect()
 }

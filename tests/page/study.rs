@@ -4,7 +4,7 @@ use crate::browser::{DESKTOP, PHONE, Page, Result, THESIS, visit};
 use crate::common::job_text;
 use crate::{current, narrow, number, text};
 use armill::study::{
-    ErrorMeasure, EveryRobot, LargestQuestion, PartPlace, ValueRange, choices, sweep, tornado,
+    ErrorMeasure, EveryRobot, LargestQuestion, PartPlace, Variation, choices, sweep, tornado,
 };
 use armill::{Job, Progress};
 use serde_json::{Value, json};
@@ -133,7 +133,7 @@ fn a_link_asks_again_and_other_questions_are_the_script_s() -> Result {
         page.goto(&format!("/index.html#view=compare&ask=sweep~{range}")).await?;
         let said = answered(page, "The arm cannot run this").await?;
         assert!(said.contains("The least error to expect is at axial depth 1 mm: at most "), "{said}");
-        let native = sweep(&job, &[ValueRange::read(range)?])?;
+        let native = sweep(&job, &[Variation::read(range)?])?;
         let shown: Vec<Option<f64>> = column(page, 3).await?.into_iter().map(|(_, value)| value).collect();
         assert_eq!(shown, native.iter().map(|row| row.outcome.p95_mm).collect::<Vec<_>>());
         narrow(page, "an answer").await?;

@@ -1,0 +1,103 @@
+//! What a sweep varies: a number over a range, or a choice over its words.
+
+use crate::error::Error;
+use crate::job::fields::fields;
+use crate::study::ValueRange;
+use serde::Serialize;
+
+/// What of a job takes several values.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Variation {
+    /// A number.
+    Range(ValueRange),
+    /// A choice.
+    Words(ChoiceWords),
+}
+
+/// Words of a choice, in the order in which they are tried.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ChoiceWords {
+    /// Dotted path in the job.
+    pub path: String,
+    /// The words.
+    pub words: Vec<String>,
+}
+
+/// A value that something of a job takes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Taken {
+    /// A number, in the field's unit.
+    Number(f64),
+    /// A word of a choice.
+    Word(String),
+}
+
+impl From<f64> for Taken {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<ValueRange> for Variation {
+    fn from(range: ValueRange) -> Self {
+        Self::Range(range)
+    }
+}
+
+/// What stands for every word of a choice.
+const ALL: &str = "all";
+
+impl Variation {
+    /// Reads a range (see [`ValueRange::read`]), or `path=word,word` and `path=all` for a choice.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] with the text and what is wrong with it, or a word that the choice does not have.
+    pub fn read(text: &str) -> Result<Self, Error> {
+        let choice = text.split_once('=').filter(|(_, values)| !values.contains(':'));
+        let words = |(path, values): (&str, &str)| {
+            let field = fields().into_iter().find(|field| field.path == path && !field.choices.is_empty())?;
+            Some((field, values.to_owned()))
+        };
+        match choice.and_then(words) {
+            None => ValueRange::read(text).map(Self::Range),
+            Some((field, values)) => {
+                let known: Vec<&str> = field.choices.iter().map(|choice| choice.value).collect();
+                let given: Vec<&str> =
+                    if values == ALL { known.clone() } else { values.split(',').collect() };
+                match given.iter().find(|word| !known.contains(word)) {
+                    Some(unknown) => Err(Error::unknown_name(field.path, unknown, "one of", known)),
+                    None => Ok(Self::Words(ChoiceWords {
+                        path: field.path.to_owned(),
+                        words: given.into_iter().map(str::to_owned).collect(),
+                    })),
+                }
+            }
+        }
+    }
+
+    /// Dotted path in the job.
+    pub fn path(&self) -> &str {
+        match self {
+            Self::Range(range) => &range.path,
+            Self::Words(choice) => &choice.path,
+        }
+    }
+
+    /// Number of values.
+    pub fn count(&self) -> usize {
+        match self {
+            Self::Range(range) => range.count,
+            Self::Words(choice) => choice.words.len(),
+        }
+    }
+
+    /// One of its values.
+    pub fn at(&self, index: usize) -> Taken {
+        match self {
+            Self::Range(range) => Taken::Number(range.at(index)),
+            Self::Words(choice) => Taken::Word(choice.words[index].clone()),
+        }
+    }
+}
