@@ -102,14 +102,14 @@ impl Intervals {
         let most = known().max_by(|a, b| end(a).total_cmp(&end(b)));
         let text = |case: &Case| {
             format!(
-                "{} {}: {}",
+                "{} {} ({})",
                 length_text(end(case) * MM, units.length.in_m(), 3),
                 units.length.name(),
                 case.name
             )
         };
         match least.zip(most) {
-            Some((least, most)) => format!("From {} to {}.", text(least), text(most)),
+            Some((least, most)) => format!("Upper ends from {} to {}.", text(least), text(most)),
             None => "No case has a result.".into(),
         }
     }
@@ -157,7 +157,7 @@ mod tests {
         ];
         let drawing = intervals(cases).draw(&ChartOptions::sized(600.0, 300.0)).unwrap();
         assert!(!drawing.svg.contains("NaN"));
-        assert_eq!(drawing.description, "From 0.2 mm: a to 0.4 mm: b.");
+        assert_eq!(drawing.description, "Upper ends from 0.2 mm (a) to 0.4 mm (b).");
         let known = group(&drawing.svg, "series known");
         let points = known.split("<polygon points=\"").nth(1).unwrap().split('"').next().unwrap();
         let x: Vec<f64> = points.split(' ').map(|p| p.split(',').next().unwrap().parse().unwrap()).collect();

@@ -2,15 +2,19 @@
 
 use crate::error::Error;
 use crate::job::{Job, SpinMode};
-use crate::math::within_half_turn;
+use crate::math::{self, within_half_turn};
 use crate::placement::in_front::{no_place, shifts};
 use crate::placement::{PlacementMap, PlacementStatus};
 use crate::units::{DEG, MM};
 use nalgebra::Vector3;
 
-/// Turns tried at every place [deg], and how far around the best of them others are [deg].
-const TURNS: [f64; 12] = [0.0, 30.0, -30.0, 60.0, -60.0, 90.0, -90.0, 120.0, -120.0, 150.0, -150.0, 180.0];
+/// Turns from the job's own tried at every place [deg], then at the best of them, and how far around the best place
+/// and turn others are.
+const QUARTERS: [f64; 4] = [0.0, 90.0, -90.0, 180.0];
+const BETWEEN: [f64; 8] = [30.0, -30.0, 60.0, -60.0, 120.0, -120.0, 150.0, -150.0];
 const AROUND: [f64; 4] = [-20.0, -10.0, 10.0, 20.0];
+/// How many are kept by their error before compensation: places, then places with a turn, whose quantile is computed.
+const KEPT: [usize; 2] = [8, 20];
 
 /// Where a part may stand, and how the tool is turned there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,36 +27,61 @@ pub struct SoughtPlace {
     pub p95: f64,
 }
 
-/// The best of 30 places in front of the robot, each with [`TURNS`] of the tool and then a few more at the best
-/// of them, by the [`PlacementMap`]'s 95 % quantile; only suitable ones count. A tool whose spin is free keeps it.
+/// A place and turn that may be the best, with its largest error before compensation [m].
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    xyz: Vector3<f64>,
+    spin_deg: f64,
+    before: f64,
+}
+
+/// The best of 30 places in front of the robot and of 16 turns of the tool there, by the [`PlacementMap`]: first by
+/// the error before compensation, which what is left after it is nearly in proportion to, then by the quantile: within
+/// 20 % of trying them all (tests/study.rs). Only suitable places count. A tool whose spin is free keeps it.
 ///
 /// # Errors
 /// Any error of the job's setup; [`Error::Invalid`] if no place is suitable.
 pub fn sought(job: &Job) -> Result<SoughtPlace, Error> {
     let map = PlacementMap::new(job)?;
     let setup = map.setup();
-    let own = job.spin.angle_deg;
-    let turns: &[f64] = if job.spin.mode == SpinMode::Fixed { &TURNS } else { &TURNS[..1] };
+    let is_fixed = job.spin.mode == SpinMode::Fixed;
+    let turns = |turns: &'static [f64], least: usize| if is_fixed { turns } else { &turns[..least] };
     let from = Vector3::from(job.workpiece_frame.xyz_mm);
     let places: Vec<Vector3<f64>> =
         shifts(setup).map(|shift| (from + setup.base.direction(&shift) / MM).map(f64::round)).collect();
-    let at = |map: &PlacementMap, xyz: &Vector3<f64>, spin_deg: f64| {
-        let place = map.at(xyz * MM);
-        let sought = SoughtPlace { xyz_mm: (*xyz).into(), spin_deg, p95: place.p95 };
+    let tried = |places: &[Vector3<f64>], turns: &[f64]| -> Vec<Candidate> {
+        let at = |turn: &f64| {
+            let spin_deg = within_half_turn(job.spin.angle_deg + turn);
+            let map = map.turned(spin_deg * DEG);
+            let at = |xyz: &Vector3<f64>| {
+                let before = map.largest_before(xyz * MM)?;
+                Some(Candidate { xyz: *xyz, spin_deg, before })
+            };
+            places.iter().filter_map(at).collect::<Vec<_>>()
+        };
+        turns.iter().flat_map(at).collect()
+    };
+    let least = |candidates: Vec<Candidate>| math::rising(candidates, |candidate| candidate.before);
+    let mut coarse = least(tried(&places, turns(&QUARTERS, 1)));
+    let mut kept: Vec<Vector3<f64>> = Vec::new();
+    for candidate in &coarse {
+        if kept.len() < KEPT[0] && !kept.contains(&candidate.xyz) {
+            kept.push(candidate.xyz);
+        }
+    }
+    coarse.extend(tried(&kept, turns(&BETWEEN, 0)));
+    let judged = |xyz: Vector3<f64>, spin_deg: f64| {
+        let place = map.turned(spin_deg * DEG).at(xyz * MM);
+        let sought = SoughtPlace { xyz_mm: xyz.into(), spin_deg, p95: place.p95 };
         (place.status == PlacementStatus::Good && place.p95.is_finite()).then_some(sought)
     };
-    let turned = |turn: f64| {
-        let spin_deg = within_half_turn(own + turn);
-        let map = map.turned(spin_deg * DEG);
-        places.iter().filter_map(|xyz| at(&map, xyz, spin_deg)).collect::<Vec<_>>()
-    };
-    let coarse = turns.iter().flat_map(|turn| turned(*turn));
     let better = |best: SoughtPlace, other: SoughtPlace| if other.p95 < best.p95 { other } else { best };
-    let best = coarse.reduce(better).ok_or_else(|| no_place(setup))?;
-    let around = AROUND.iter().take(if turns.len() > 1 { AROUND.len() } else { 0 });
-    let finer = around.filter_map(|turn| {
-        let spin_deg = within_half_turn(best.spin_deg + turn);
-        at(&map.turned(spin_deg * DEG), &best.xyz_mm.into(), spin_deg)
-    });
+    let finalists = least(coarse).into_iter().take(KEPT[1]);
+    let best = finalists
+        .filter_map(|candidate| judged(candidate.xyz, candidate.spin_deg))
+        .reduce(better)
+        .ok_or_else(|| no_place(setup))?;
+    let around = turns(&AROUND, 0).iter();
+    let finer = around.filter_map(|turn| judged(best.xyz_mm.into(), within_half_turn(best.spin_deg + turn)));
     Ok(finer.fold(best, better))
 }

@@ -26,16 +26,19 @@ use std::sync::Arc;
 /// # Errors
 /// An [`Error`] with the invalid field of the job, or the place where its path is out of reach.
 pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
-    let mut report = without_remedies(job, progress)?;
+    let mut report = judged(job, progress)?;
+    let runs = (&*report.before, &*report.after);
+    report.surface = surface(&report.plan, runs, (&report.q, &report.compensation.q));
     remedy::offer(job, &mut report);
     Ok(report)
 }
 
-/// The same, but its warnings have no remedies: to look for them may take longer than a third of a run.
+/// The same as far as the verdict needs it: without the surface that is left, which takes as long as everything
+/// else, and without remedies, which take up to a third of it to look for.
 ///
 /// # Errors
 /// See [`run`].
-pub(crate) fn without_remedies(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
+pub(crate) fn judged(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
     let steps = Steps::of(job);
     let setup = Setup::of(job, &mut steps.reading(progress))?;
     // Reported before the motion is sampled, which takes a while on a long run.
@@ -65,7 +68,6 @@ pub(crate) fn without_remedies(job: &Job, progress: &mut Progress) -> Result<Rep
     };
     let missed = errors.missed;
     let band = band(&plan, (&q, &compensation.q), &errors);
-    let surface = surface(&plan, (&before, &after), (&q, &compensation.q));
     let mut report = Report {
         plan,
         q,
@@ -82,7 +84,7 @@ pub(crate) fn without_remedies(job: &Job, progress: &mut Progress) -> Result<Rep
         compensation,
         after,
         band,
-        surface,
+        surface: None,
         warnings: singular,
         alone: Default::default(),
         fingerprint: Default::default(),

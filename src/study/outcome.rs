@@ -36,12 +36,12 @@ pub struct Outcome {
 impl Outcome {
     /// The outcome of a job.
     pub fn of(job: &Job) -> Self {
-        Self::of_result(crate::simulation::without_remedies(job, &mut Progress::none()))
+        Self::of_result(crate::simulation::judged(job, &mut Progress::none()))
     }
 
     /// The outcome of a job that may have been refused.
     pub(super) fn of_varied(job: Result<Job, Error>) -> Self {
-        Self::of_result(job.and_then(|job| crate::simulation::without_remedies(&job, &mut Progress::none())))
+        Self::of_result(job.and_then(|job| crate::simulation::judged(&job, &mut Progress::none())))
     }
 
     fn of_result(result: Result<Report, Error>) -> Self {

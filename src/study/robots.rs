@@ -139,7 +139,7 @@ fn row(varied: &VariedJob, job: &Job, arm: &Preset, place: PartPlace) -> RobotRo
                 (job.workpiece_frame.xyz_mm, job.spin.angle_deg) = (sought.xyz_mm, sought.spin_deg);
             }
         }
-        let report = crate::simulation::without_remedies(&job, &mut Progress::none())?;
+        let report = crate::simulation::judged(&job, &mut Progress::none())?;
         Ok((job, report))
     };
     match on_arm() {

@@ -14,15 +14,25 @@ const LETTER_PX = 14; // height of a letter with some room
 const SPILL = 4; // what a line at the edge needs beside the plot [px]
 
 /**
- * The drawing as elements.
+ * The core's text of a drawing as elements.
+ * @param {string} text
+ * @returns {SVGSVGElement}
+ */
+export function svgOf(text) {
+  const parsed = new DOMParser().parseFromString(text, "image/svg+xml");
+  const svg = /** @type {any} */ (document.importNode(parsed.documentElement, true));
+  svg.setAttribute("aria-hidden", "true"); // heading and caption say it; a <title> would pop up under the pointer
+  svg.querySelectorAll(":scope > :is(title, desc)").forEach((/** @type {Element} */ element) => element.remove());
+  return svg;
+}
+
+/**
+ * The drawing of a chart, whose data can be moved.
  * @param {Chart} chart
  * @returns {SVGSVGElement}
  */
 export function drawingOf(chart) {
-  const parsed = new DOMParser().parseFromString(chart.svg, "image/svg+xml");
-  const svg = /** @type {any} */ (document.importNode(parsed.documentElement, true));
-  svg.setAttribute("aria-hidden", "true"); // heading and caption say it; a <title> would pop up under the pointer
-  svg.querySelectorAll(":scope > :is(title, desc)").forEach((/** @type {Element} */ element) => element.remove());
+  const svg = svgOf(chart.svg);
   const { left, top, width, height } = chart.plot;
   const id = `clip-${chart.name}`;
   const room = makeSvg("rect", {

@@ -6,6 +6,7 @@ import { make } from "../page/dom.js";
 import { download } from "../page/download.js";
 import { choose, setting } from "../page/settings.js";
 import { stretch } from "../page/stretch.js";
+import { units } from "../page/units.js";
 import { chooseOver, overIn } from "./along.js";
 import { Cursor } from "./cursor.js";
 import { drawingOf, layBelow, moveDrawing } from "./drawing.js";
@@ -337,6 +338,3 @@ const shownOf = (values) => /** @type {typeof core} */ (values);
 
 /** @param {HTMLElement} element */
 const roomIn = ({ clientWidth, clientHeight }) => ({ width: clientWidth, height: clientHeight });
-
-/** @returns {ChartUnits} */
-const units = () => /** @type {any} */ ({ length: setting("length"), force: setting("force") });

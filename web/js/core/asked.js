@@ -5,11 +5,12 @@ import { compileCore, startWorker } from "./assets.js";
 /** @import { Failure, Progress } from "./client.js" */
 
 /**
- * `large` says whether it holds a long run.
+ * `large` says whether it holds a long run, `ended` whether it answers no more.
  *
  * @typedef {{
  *   stop(reason: Failure): void,
  *   large: boolean,
+ *   ended: boolean,
  *   ask(kind: string, ...args: unknown[]): Promise<any>,
  * }} Asked
  */
@@ -65,6 +66,9 @@ export function startAsked({ onprogress, onfail }) {
   const own = {
     stop,
     large: false, // whether it holds a long run
+    get ended() {
+      return Boolean(ended);
+    },
     ask: (kind, ...args) =>
       new Promise((resolve, reject) => {
         if (ended) return reject(ended);

@@ -11,6 +11,13 @@ const MOST = 8; // Workers
 /** @type {Asked[]} */
 const idle = []; // Workers that wait for the next question: to start one takes as long as a run
 
+/** A Worker that waits, or a new one: those that have ended meanwhile are forgotten. */
+function waiting() {
+  let worker = idle.pop();
+  while (worker?.ended) worker = idle.pop();
+  return worker ?? helper();
+}
+
 /**
  * Asks for the parts 0 to `count` - 1 with `ask(worker, index)`, and calls `onpart(part, index)` as they come. Resolves
  * when all are there; rejects when `signal` aborts, or with the first part's error.
@@ -22,7 +29,7 @@ const idle = []; // Workers that wait for the next question: to start one takes 
  */
 export async function shareOut(count, ask, onpart, signal) {
   const size = Math.min(count, MOST, Math.max(1, navigator.hardwareConcurrency ?? 2));
-  const workers = Array.from({ length: size }, () => idle.pop() ?? helper());
+  const workers = Array.from({ length: size }, waiting);
   let failed = false;
   /** @param {Failure} reason */
   const stop = (reason) => {

@@ -1,6 +1,6 @@
 // The Worker's part in questions about a job: runs of a question one by one, and what a single Worker answers.
 
-/** @import { ChartOptions, ChartUnits, Study, StudyCurves } from "../../pkg/armill.js" */
+/** @import { ChartOptions, ChartUnits, Study, StudyCurves, StudyGrid, StudyIntervals } from "../../pkg/armill.js" */
 
 /**
  * A question of many runs: its texts are those of the script's command line.
@@ -14,6 +14,24 @@
  * @typedef {{
  *   label: string, unit: string, tolerance: number, now?: number, values: Float64Array, errors: Float64Array,
  * }} Curves
+ */
+
+/**
+ * Ranges of the error to draw: `ranges` has two numbers for each of `names`, `guesses` one.
+ *
+ * @typedef {{
+ *   title: string, quantity: string, tolerance: number, now?: number, names: string[], ranges: Float64Array,
+ *   guesses: Uint8Array,
+ * }} Intervals
+ */
+
+/**
+ * A grid to draw: `errors` has one for each of `values` and `seconds`, the second varying faster.
+ *
+ * @typedef {{
+ *   title: string, names: string[], values: string[], seconds: string[], now: Float64Array, tolerance: number,
+ *   errors: Float64Array,
+ * }} Grid
  */
 
 /**
@@ -36,15 +54,32 @@ export function studies(core) {
     return held.study;
   }
 
-  /**
-   * What `use` makes of curves, which are let go of afterwards.
-   * @template T
-   * @param {Curves} curves
-   * @param {(curves: StudyCurves) => T} use
-   */
-  function drawn({ label, unit, tolerance, now, values, errors }, use) {
+  /** @param {Curves} curves */
+  function curvesOf({ label, unit, tolerance, now, values, errors }) {
     const { StudyCurves } = core();
-    const made = new StudyCurves(label, unit, tolerance, now, values, errors);
+    return /** @type {StudyCurves} */ (new StudyCurves(label, unit, tolerance, now, values, errors));
+  }
+
+  /** @param {Intervals} intervals */
+  function intervalsOf({ title, quantity, tolerance, now, names, ranges, guesses }) {
+    const { StudyIntervals } = core();
+    return /** @type {StudyIntervals} */ (new StudyIntervals(title, quantity, tolerance, now, names, ranges, guesses));
+  }
+
+  /** @param {Grid} grid */
+  function gridOf({ title, names, values, seconds, now, tolerance, errors }) {
+    const { StudyGrid } = core();
+    return /** @type {StudyGrid} */ (new StudyGrid(title, names, values, seconds, now, tolerance, errors));
+  }
+
+  /**
+   * What `use` makes of something of the core, which is let go of afterwards.
+   * @template {{ free(): void }} M
+   * @template T
+   * @param {M} made
+   * @param {(made: M) => T} use
+   */
+  function drawn(made, use) {
     try {
       return use(made);
     } finally {
@@ -63,8 +98,12 @@ export function studies(core) {
     ) => core().largest(json, text, quantity, scanned),
     tornado: (/** @type {string} */ json) => core().tornado(json),
     study_chart: (/** @type {Curves} */ curves, /** @type {ChartOptions} */ options) =>
-      drawn(curves, (made) => made.chart(options)),
+      drawn(curvesOf(curves), (made) => made.chart(options)),
     study_data: (/** @type {Curves} */ curves, /** @type {ChartUnits} */ units) =>
-      drawn(curves, (made) => made.chart_data(units)),
+      drawn(curvesOf(curves), (made) => made.chart_data(units)),
+    study_intervals: (/** @type {Intervals} */ intervals, /** @type {ChartOptions} */ options) =>
+      drawn(intervalsOf(intervals), (made) => made.draw(options)),
+    study_grid: (/** @type {Grid} */ grid, /** @type {ChartOptions} */ options) =>
+      drawn(gridOf(grid), (made) => made.draw(options)),
   };
 }

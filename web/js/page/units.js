@@ -12,6 +12,12 @@ const length = () => LENGTHS[/** @type {"mm" | "inch"} */ (setting("length"))];
 /** @returns {{ name: string, size: number }} */
 const force = () => FORCES[/** @type {"N" | "lbf"} */ (setting("force"))];
 
+/**
+ * The units that the core draws in.
+ * @returns {import("../../pkg/armill.js").ChartUnits}
+ */
+export const units = () => /** @type {any} */ ({ length: setting("length"), force: setting("force") });
+
 export const lengthUnit = () => length().name;
 export const forceUnit = () => force().name;
 

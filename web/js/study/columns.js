@@ -3,6 +3,7 @@
 import { shownUnit, shownValue } from "../form/shown.js";
 import { formatNumber } from "../page/number.js";
 import { forceText, forceUnit, inLength, lengthText, lengthUnit } from "../page/units.js";
+import { taken } from "./pictures.js";
 import { INPUTS } from "./words.js";
 
 /**
@@ -65,7 +66,7 @@ const errors = () => [
 const verdict = () => ({ key: "state", label: "Verdict", of: state });
 
 /**
- * A number of the job.
+ * A number or choice of the job.
  * @param {Field} field
  * @param {string} key
  * @param {"value" | "second"} part
@@ -75,9 +76,9 @@ const numberColumn = (field, key, part) => ({
   key,
   label: field.label,
   unit: shownUnit(field.unit),
-  of: (row) => shownValue(row[part], field.unit),
-  text: (row) => formatNumber(shownValue(row[part], field.unit), 4),
-  digits: true,
+  of: (row) => (typeof row[part] === "number" ? shownValue(row[part], field.unit) : taken(field, row[part])),
+  text: (row) => taken(field, row[part]),
+  digits: field.kind !== "choice",
 });
 
 /** @returns {Column[]} */
@@ -97,6 +98,7 @@ const armColumns = () => [
       ),
     digits: true,
   },
+  angleColumn("turn", "Turn of the tool", (row) => row.spin_deg),
   angleColumn("limits", "Room to joint limits", (row) => row.limit_room_deg),
   angleColumn("singularity", "From a singularity", (row) => row.singularity_deg),
   {

@@ -39,7 +39,7 @@ export function makeCurve() {
         unit: shownUnit(field.unit),
         tolerance: job.tolerance,
         now: typeof job.now === "number" ? shownValue(job.now, field.unit) : undefined,
-        values: Float64Array.from(rows.map(({ value }) => shownValue(value, field.unit))),
+        values: Float64Array.from(rows.map(({ value }) => shownValue(Number(value), field.unit))),
         errors: Float64Array.from(
           rows.flatMap((row) => [row.before_max_mm, row.after_max_mm, row.p50_mm, row.p95_mm].map(number)),
         ),

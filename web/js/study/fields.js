@@ -1,13 +1,13 @@
 // The inputs of a question: which one, about which numbers, over which range.
 
 import { make, select } from "../page/dom.js";
-import { MEASURES } from "./question.js";
-import { askable, makeRangeFields } from "./range-fields.js";
+import { MEASURES, PLACES } from "./question.js";
+import { askable, choosable, makeRangeFields } from "./range-fields.js";
 
 /**
  * @import { Field } from "../../pkg/armill.js"
  * @import { Job } from "../job/job.js"
- * @import { Measure, Question } from "./question.js"
+ * @import { Measure, Place, Question, Range } from "./question.js"
  */
 
 const COUNT = 20; // values of a sweep over one number
@@ -20,8 +20,11 @@ const KINDS = {
     button: "How much is too much?",
     help: "The largest value of a number for which the error meets the job’s tolerance.",
   },
-  sweep: { button: "Error over a number", help: "How the error follows one number of the job, or two." },
-  robots: { button: "Which robot?", help: "This job on every robot of the library." },
+  sweep: { button: "Error over a number", help: "How the error follows one number or choice of the job, or two." },
+  robots: {
+    button: "Which robot?",
+    help: "This job on every robot of the library; hollow bars and “guessed” mean that its stiffness is a guess.",
+  },
   choices: {
     button: "Which way round?",
     help: "Climb or conventional, direction, start point and turn of the tool: what a programmer may choose.",
@@ -40,7 +43,7 @@ export function makeFields({ ask, changed }) {
   const first = makeRangeFields("study-first", "Number", changed);
   const second = makeRangeFields("study-second", "and", changed, true);
   const measure = select("study-measure", MEASURES);
-  const place = select("study-place", { kept: "where the job has it", front: "in front of each robot" });
+  const place = select("study-place", PLACES);
   const measureField = labelled("Error", measure);
   const placeField = labelled("Part", place);
   const help = make("p", { className: "note" });
@@ -66,6 +69,7 @@ export function makeFields({ ask, changed }) {
     kind = asked;
     for (const button of buttons) button.setAttribute("aria-pressed", String(button.dataset.question === asked));
     help.textContent = KINDS[asked].help;
+    first.withChoices(asked === "sweep");
     first.node.hidden = asked !== "largest" && asked !== "sweep";
     second.node.hidden = asked !== "sweep";
     measureField.hidden = asked !== "largest";
@@ -74,10 +78,15 @@ export function makeFields({ ask, changed }) {
   for (const part of [first.node, second.node, measureField, placeField]) part.hidden = true;
 
   /**
-   * @param {{ path: string, from: number, to: number }} range
+   * @param {import("./range-fields.js").Entered} range
    * @param {number} count
+   * @returns {Range}
    */
-  const walked = (range, count) => ({ ...range, count, log: range.from > 0 && range.to / range.from >= WIDE });
+  function walked(range, count) {
+    if ("words" in range) return range;
+    if (range.from >= range.to) throw new Error("“To” is to be more than “From”.");
+    return { ...range, count, log: range.from > 0 && range.to / range.from >= WIDE };
+  }
 
   return {
     node,
@@ -88,10 +97,10 @@ export function makeFields({ ask, changed }) {
      * @param {Field[]} fields
      */
     offer(job, fields) {
-      const numbers = askable(job, fields);
       const of = (/** @type {string} */ path) => job.valueAt(path);
-      first.offer(numbers, of);
-      second.offer(numbers, of);
+      const offered = [...askable(job, fields), ...choosable(job, fields)];
+      first.offer(offered, of);
+      second.offer(offered, of);
     },
     /**
      * Shows a question as it was asked.
@@ -104,8 +113,8 @@ export function makeFields({ ask, changed }) {
         measure.value = question.measure;
       } else if (question.kind === "sweep") {
         const [a, b] = question.ranges;
-        first.begin(a.path, [a.from, a.to]);
-        second.begin(b?.path ?? "", b && [b.from, b.to]);
+        first.begin(a.path, endsOf(a));
+        second.begin(b?.path ?? "", b && endsOf(b));
       } else if (question.kind === "robots") place.value = question.place;
     },
     /**
@@ -121,16 +130,19 @@ export function makeFields({ ask, changed }) {
      * @returns {Question | undefined}
      */
     read() {
-      if (kind === "robots") return { kind, place: /** @type {"kept" | "front"} */ (place.value) };
+      if (kind === "robots") return { kind, place: /** @type {Place} */ (place.value) };
       if (kind !== "largest" && kind !== "sweep") return kind && { kind };
       const range = first.read();
       if (!range) return undefined;
-      if (range.from >= range.to) throw new Error("“To” is to be more than “From”.");
-      if (kind === "largest") return { kind, ...range, measure: /** @type {Measure} */ (measure.value) };
+      if (kind === "largest") {
+        if ("words" in range) return undefined;
+        const { path, from, to } = range;
+        walked(range, COUNT);
+        return { kind, path, from, to, measure: /** @type {Measure} */ (measure.value) };
+      }
       const other = second.read();
       if (!other) return { kind, ranges: [walked(range, COUNT)] };
-      if (other.from >= other.to) throw new Error("“To” is to be more than “From”.");
-      if (other.path === range.path) throw new Error("Choose two different numbers.");
+      if (other.path === range.path) throw new Error("Choose two different ones.");
       return { kind, ranges: [walked(range, COUNT_EACH), walked(other, COUNT_EACH)] };
     },
     relabel() {
@@ -139,6 +151,13 @@ export function makeFields({ ask, changed }) {
     },
   };
 }
+
+/**
+ * Both ends of a range; a choice has none.
+ * @param {Range} range
+ * @returns {[number, number] | undefined}
+ */
+const endsOf = (range) => ("words" in range ? undefined : [range.from, range.to]);
 
 /**
  * @param {string} text

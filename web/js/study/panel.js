@@ -9,6 +9,8 @@ import { onSetting } from "../page/settings.js";
 import { answer } from "./ask.js";
 import { listed, tableCsv, tableMarkdown } from "./columns.js";
 import { makeCurve } from "./curve.js";
+import { makePicture } from "./picture.js";
+import { pictureOf } from "./pictures.js";
 import { makeFields } from "./fields.js";
 import { askedIn, written } from "./question.js";
 import { answerTable, cannot } from "./table.js";
@@ -50,6 +52,7 @@ export function makeStudy(node, { job, use, fields: all }) {
   const said = make("p", { id: "study-answer", className: "found" });
   const act = make("div", { className: "study-act" });
   const curve = makeCurve();
+  const picture = makePicture();
   const table = make("div");
   const tools = make(
     "div",
@@ -65,6 +68,7 @@ export function makeStudy(node, { job, use, fields: all }) {
     said,
     act,
     curve.node,
+    picture.node,
     table,
     tools,
   );
@@ -131,12 +135,10 @@ export function makeStudy(node, { job, use, fields: all }) {
     const asked = job().of(JSON.parse(text));
     said.textContent = sentenceOf(question, found, about);
     said.dataset.value = String(found.largest?.largest ?? "");
-    const one = about.length === 1 ? about[0] : undefined;
-    curve.show(
-      one ? (found.rows ?? []) : [],
-      one,
-      one && { now: asked.get(one), tolerance: asked.data.compensation.tolerance_mm },
-    );
+    const one = about.length === 1 && about[0].kind !== "choice" ? about[0] : undefined;
+    const tolerance = asked.data.compensation.tolerance_mm;
+    curve.show(one ? (found.rows ?? []) : [], one, one && { now: asked.get(one), tolerance });
+    picture.show(pictureOf(question, found, about, { tolerance, valueAt: (field) => asked.get(field) }));
     act.replaceChildren(...actions());
     const given = listed(question, found, about);
     const best = ranked(/** @type {any[]} */ (found.robots ?? found.choices ?? []))[0];
@@ -172,7 +174,11 @@ export function makeStudy(node, { job, use, fields: all }) {
     const made = make("button", { type: "button", className: "quiet" }, "Use it");
     made.setAttribute("aria-label", `Use it: ${row.name ?? row.label}`);
     made.addEventListener("click", () => {
-      const patch = row.patch ?? { robot: { preset: row.id }, workpiece_frame: { xyz_mm: row.workpiece_mm } };
+      const patch = row.patch ?? {
+        robot: { preset: row.id },
+        workpiece_frame: { xyz_mm: row.workpiece_mm },
+        spin: { angle_deg: row.spin_deg },
+      };
       use(patched(job().data, patch, Boolean(row.id)));
       status.textContent = "The job has it now; undo brings the former one back.";
     });

@@ -5,18 +5,28 @@
 /** @typedef {"p95" | "nominal" | "uncompensated"} Measure the error that is asked about */
 
 /**
- * A number of the job over a range, in the field's own unit.
+ * A number of the job over a range, in the field's own unit, or a choice over all its words.
  *
- * @typedef {{ path: string, from: number, to: number, count: number, log: boolean }} Range
+ * @typedef {{ path: string, from: number, to: number, count: number, log: boolean }} NumberRange
+ * @typedef {NumberRange | { path: string, words: "all" }} Range
  */
 
 /**
  * @typedef {{ kind: "largest", path: string, from: number, to: number, measure: Measure }} Largest
  * @typedef {{ kind: "sweep", ranges: Range[] }} Sweep
- * @typedef {{ kind: "robots", place: "kept" | "front" }} Robots
+ * @typedef {{ kind: "robots", place: Place }} Robots
  * @typedef {{ kind: "choices" } | { kind: "tornado" } | { kind: "measures" }} Plain
  * @typedef {Largest | Sweep | Robots | Plain} Question
  */
+
+/** @typedef {"kept" | "front" | "sought"} Place where the part is for each robot */
+
+/** @type {Record<Place, string>} */
+export const PLACES = {
+  kept: "where the job has it",
+  front: "in front of each robot",
+  sought: "at the best place and turn for each",
+};
 
 /** @type {Record<Measure, string>} */
 export const MEASURES = {
@@ -43,7 +53,11 @@ const RANGE = /^([\w.]+)=([^:]+):([^:]+)(?::(\d+)(:log)?)?$/;
  * A range as the core and the script read it.
  * @param {Range} range
  */
-export const rangeText = ({ path, from, to, count, log }) => `${path}=${from}:${to}:${count}${log ? ":log" : ""}`;
+export function rangeText(range) {
+  if ("words" in range) return `${range.path}=${range.words}`;
+  const { path, from, to, count, log } = range;
+  return `${path}=${from}:${to}:${count}${log ? ":log" : ""}`;
+}
 
 /**
  * Which question of a largest value, as the core and the script read it.
@@ -70,19 +84,24 @@ export function written(question) {
 export function read(text) {
   const [kind, ...rest] = text.split("~");
   if (PLAIN.includes(kind) && !rest.length) return /** @type {Plain} */ ({ kind });
-  if (kind === "robots" && (rest[0] === "kept" || rest[0] === "front")) return { kind, place: rest[0] };
+  if (kind === "robots" && Object.hasOwn(PLACES, rest[0] ?? "")) return { kind, place: /** @type {Place} */ (rest[0]) };
   const ranges = rest.filter((each) => each.includes("=")).map(readRange);
   if (!ranges.length || ranges.some((range) => !range)) return undefined;
   const [first] = /** @type {Range[]} */ (ranges);
-  if (kind === "sweep" && ranges.length <= 2 && ranges.every((range) => range && range.count > 1))
+  if (kind === "sweep" && ranges.length <= 2 && ranges.every((range) => range && ("words" in range || range.count > 1)))
     return { kind, ranges: /** @type {Range[]} */ (ranges) };
   const measure = /** @type {Measure} */ (rest[1]);
-  if (kind !== "largest" || !(measure in MEASURES)) return undefined;
+  if (kind !== "largest" || "words" in first || !Object.hasOwn(MEASURES, measure ?? "")) return undefined;
   return { kind, path: first.path, from: first.from, to: first.to, measure };
 }
 
-/** @param {string} text */
+/**
+ * @param {string} text
+ * @returns {Range | undefined}
+ */
 function readRange(text) {
+  const [, choice] = /^([\w.]+)=all$/.exec(text) ?? [];
+  if (choice) return { path: choice, words: "all" };
   const [, path, low, high, count, log] = RANGE.exec(text) ?? [];
   const [from, to] = [Number(low), Number(high)];
   return path && Number.isFinite(from) && Number.isFinite(to)

@@ -1,4 +1,4 @@
-// The inputs of one number and its range.
+// The inputs of one number and its range, or of a choice, whose words are all tried.
 
 import { numberCell } from "../form/number-cell.js";
 import { shownUnit } from "../form/shown.js";
@@ -29,7 +29,25 @@ export function askable(job, fields) {
 }
 
 /**
- * One number of the job, from and to; `changed()` is called after an edit. With `isOptional` there may be none.
+ * The choices of a job that can be asked about.
+ * @param {Job} job
+ * @param {Field[]} fields
+ */
+export const choosable = (job, fields) =>
+  fields.filter(
+    (field) =>
+      field.kind === "choice" &&
+      field.choices &&
+      !FIXED.some((start) => field.path.startsWith(start)) &&
+      (job.shows(field) || field.path === "shaper.kind"),
+  );
+
+const FIXED = ["program.", "path.", "stock.", "robot."]; // what says what the job is, not how it is done
+
+/** @typedef {{ path: string, from: number, to: number } | { path: string, words: "all" }} Entered */
+
+/**
+ * One number or choice of the job, from and to; `changed()` is called after an edit. With `isOptional` there may be none.
  * @param {string} id
  * @param {string} label
  * @param {() => void} changed
@@ -39,6 +57,7 @@ export function makeRangeFields(id, label, changed, isOptional = false) {
   let offered = [];
   /** @type {Cell[]} */
   let cells = [];
+  let isOfBoth = true; // whether choices are offered as well
   const select = make("select", { id: `${id}-number` });
   const places = ["from", "to"].map((end) => make("div", { className: "number", "data-end": end }));
   const node = make(
@@ -65,8 +84,8 @@ export function makeRangeFields(id, label, changed, isOptional = false) {
   function begin(path, given) {
     select.value = path;
     const field = chosen();
-    for (const place of places) place.hidden = !field;
-    if (!field) return;
+    for (const place of places) place.hidden = !field || isChoice(field);
+    if (!field || isChoice(field)) return;
     const now = valueAt(path);
     const ends = given ?? rangeOf(field, typeof now === "number" ? now : (field.usual?.[0] ?? 1));
     cells = places.map((place, k) => {
@@ -77,6 +96,18 @@ export function makeRangeFields(id, label, changed, isOptional = false) {
       cell.input.addEventListener("input", changed);
       return cell;
     });
+  }
+
+  /** Lists what can be chosen; what is stays where it can. */
+  function list() {
+    const before = select.value;
+    const listed = offered.filter((field) => isOfBoth || !isChoice(field));
+    const options = listed.map((field) =>
+      make("option", { value: field.path }, `${field.label} (${isChoice(field) ? "every choice" : field.group})`),
+    );
+    select.replaceChildren(...(isOptional ? [make("option", { value: "" }, "none")] : []), ...options);
+    if (listed.some(({ path }) => path === before)) select.value = before;
+    else begin(isOptional ? "" : (listed[0]?.path ?? ""));
   }
 
   return {
@@ -92,28 +123,38 @@ export function makeRangeFields(id, label, changed, isOptional = false) {
       valueAt = of;
       const key = numbers.map(({ path }) => path).join();
       if (key === offered.map(({ path }) => path).join()) return;
-      const before = select.value;
       offered = numbers;
-      const options = numbers.map(({ path, label: text, group }) =>
-        make("option", { value: path }, `${text} (${group})`),
-      );
-      select.replaceChildren(...(isOptional ? [make("option", { value: "" }, "none")] : []), ...options);
-      if (numbers.some(({ path }) => path === before)) select.value = before;
-      else begin(isOptional ? "" : (numbers[0]?.path ?? ""));
+      list();
     },
-    /** The number and its range; throws a Mistake. */
+    /**
+     * Whether choices are offered beside numbers.
+     * @param {boolean} both
+     */
+    withChoices(both) {
+      if (both === isOfBoth) return;
+      isOfBoth = both;
+      list();
+    },
+    /**
+     * The number and its range, or the choice; throws a Mistake.
+     * @returns {Entered | undefined}
+     */
     read() {
       const field = chosen();
       if (!field) return undefined;
+      if (isChoice(field)) return { path: field.path, words: "all" };
       const [from, to] = cells.map((cell) => cell.read());
       return { path: field.path, from, to };
     },
     /** Writes the range in the units of the settings. */
     relabel() {
       const field = chosen();
-      if (!field) return;
+      if (!field || isChoice(field)) return;
       const [from, to] = cells.map((cell) => cell.read());
       begin(field.path, [from, to]);
     },
   };
 }
+
+/** @param {Field} field */
+const isChoice = ({ kind }) => kind === "choice";

@@ -1,4 +1,4 @@
-// The table of an answer: sorted by any column.
+// The table of an answer: sorted by any column, and if it is long, filtered by words.
 
 import { make } from "../page/dom.js";
 import { cellText } from "./columns.js";
@@ -11,6 +11,8 @@ import { cellText } from "./columns.js";
  * }} TableOptions `marks(row)` is a class of the row, `act(row)` a button at its end
  */
 
+const LONG = 12; // rows from which on there is a filter
+
 /**
  * A table that sorts itself when the head of a column is pressed.
  * @param {string} caption
@@ -19,7 +21,10 @@ import { cellText } from "./columns.js";
  */
 export function answerTable(caption, { rows, columns }, { sort, marks = () => "", act } = {}) {
   let sorted = sort;
+  let words = "";
+  let isAbleOnly = false;
   const body = make("tbody");
+  const count = make("output", { className: "note" });
   const heads = columns.map((column) => {
     const button = make(
       "button",
@@ -41,7 +46,39 @@ export function answerTable(caption, { rows, columns }, { sort, marks = () => ""
       if (columns[k] === by) head.setAttribute("aria-sort", sorted?.falling ? "descending" : "ascending");
       else head.removeAttribute("aria-sort");
     });
-    body.replaceChildren(...order.map(rowOf));
+    const shown = order.filter((row) => !(isAbleOnly && cannot(row)) && holds(row));
+    body.replaceChildren(...shown.map(rowOf));
+    count.textContent = shown.length < rows.length ? `${shown.length} of ${rows.length}` : "";
+  }
+
+  /**
+   * Whether the row has all words of the filter.
+   * @param {any} row
+   */
+  function holds(row) {
+    const text = columns
+      .map((column) => cellText(column, row))
+      .join(" ")
+      .toLowerCase();
+    return words
+      .toLowerCase()
+      .split(/\s+/)
+      .every((word) => text.includes(word));
+  }
+
+  function filter() {
+    const input = make("input", { type: "search", id: "study-filter", placeholder: "kuka measured" });
+    const able = make("input", { type: "checkbox", id: "study-able" });
+    input.addEventListener("input", () => ((words = input.value), fill()));
+    able.addEventListener("change", () => ((isAbleOnly = able.checked), fill()));
+    return make(
+      "div",
+      { className: "answer-filter" },
+      make("label", { for: input.id }, "Only rows with"),
+      input,
+      ...(rows.some(cannot) ? [able, make("label", { for: able.id }, "that can be run")] : []),
+      count,
+    );
   }
 
   /** @param {any} row */
@@ -58,7 +95,7 @@ export function answerTable(caption, { rows, columns }, { sort, marks = () => ""
   }
 
   fill();
-  return make(
+  const table = make(
     "div",
     { className: "answer-table", role: "region", "aria-label": caption, tabIndex: 0 },
     make(
@@ -69,6 +106,7 @@ export function answerTable(caption, { rows, columns }, { sort, marks = () => ""
       body,
     ),
   );
+  return make("div", {}, ...(rows.length > LONG ? [filter()] : []), table);
 }
 
 /**

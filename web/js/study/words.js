@@ -157,10 +157,20 @@ function ofSweep(rows, fields) {
   if (!best) return `No value has a result: ${rows[0]?.error ?? "there are none"}.`;
   const at = [best.value, best.second]
     .slice(0, fields.length)
-    .map((value, k) => `${fields[k].label.toLowerCase()} ${quantity(rounded(value ?? NaN), fields[k].unit)}`)
+    .map((value, k) => `${fields[k].label.toLowerCase()} ${takenText(fields[k], value)}`)
     .join(" and ");
   return `The least error to expect is at ${at}: at most ${length(best.p95_mm ?? NaN)} in 95 of 100 cases.`;
 }
+
+/**
+ * What something takes, within a sentence.
+ * @param {Field} field
+ * @param {number | string | undefined} value
+ */
+const takenText = (field, value) =>
+  typeof value === "string"
+    ? `“${field.choices?.find((choice) => choice.value === value)?.label ?? value}”`
+    : quantity(rounded(value ?? NaN), field.unit);
 
 /**
  * The rows that can be run, the least error to expect first.
