@@ -12,8 +12,8 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 /// Ratios to the tolerance at which the shade of a cell changes.
 const SHADES: [f64; 5] = [0.5, 1.0, 2.0, 4.0, 8.0];
-/// Radius of the dot where the job is [SVG units].
-const DOT: f64 = 5.0;
+/// Half the width, and the height, of the marks on the axes where the job is [SVG units].
+const MARK: (f64, f64) = (5.0, 8.0);
 
 /// The error over two things that vary, as a grid.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,7 +93,10 @@ impl ErrorGrid {
         canvas.layer(Layer::Series { class: "limit", key: "tolerance" }, || self.limit(&canvas, &at))?;
         if let [Some(x), Some(y)] = self.now {
             canvas.layer(Layer::Series { class: "now", key: "now" }, || {
-                canvas.dot(at(x + 0.5, y + 0.5), DOT)
+                let ((x, bottom), (left, y)) = (at(x + 0.5, 0.0), at(0.0, y + 0.5));
+                let (half, high) = MARK;
+                canvas.polygon(&[(x - half, bottom), (x + half, bottom), (x, bottom - high)])?;
+                canvas.polygon(&[(left, y - half), (left, y + half), (left + high, y)])
             })?;
         }
         canvas.layer(Layer::Axis, || {
@@ -183,7 +186,7 @@ mod tests {
                 .starts_with("3 of 6 pairs meet the tolerance. The least error is 0.04 mm, at 1 and 10.")
         );
         assert!(!drawing.svg.contains("NaN") && !drawing.svg.contains("style="));
-        assert_eq!(group(&drawing.svg, "series now").matches("<circle").count(), 1);
+        assert_eq!(group(&drawing.svg, "series now").matches("<polygon").count(), 2);
     }
 
     #[test]

@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { askedIn, rangeOf, read, written } from "../../web/js/study/question.js";
 import { tableCsv, tableMarkdown } from "../../web/js/study/columns.js";
+import { pictureOf, placeAmong } from "../../web/js/study/pictures.js";
 import { isAlike, ranked } from "../../web/js/study/words.js";
 
 const path = "cutting.axial_depth_mm";
@@ -14,7 +15,9 @@ test("every question comes back from its text", () => {
     { kind: "largest", path, from: 0.1, to: 10, measure: "p95" },
     { kind: "sweep", ranges: [range] },
     { kind: "sweep", ranges: [range, { path: "workpiece_frame.xyz_mm.0", from: -5, to: 5e-7, count: 3, log: false }] },
+    { kind: "sweep", ranges: [{ path: "material.preset", words: "all" }, range] },
     { kind: "robots", place: "front" },
+    { kind: "robots", place: "sought" },
     { kind: "choices" },
     { kind: "tornado" },
     { kind: "measures" },
@@ -34,6 +37,9 @@ test("what is no question is none", () => {
     `largest~${path}=a:2~p95`,
     `sweep~${path}=1:2`,
     "robots~there",
+    "robots~toString",
+    `largest~${path}=1:2~toString`,
+    "largest~material.preset=all~p95",
     "tornado~x",
     `sweep~${path}=1:2:3~${path}=1:2:3~${path}=1:2:3`,
   ])
@@ -46,6 +52,54 @@ test("a range has the present value inside and stays within the limits", () => {
   assert.deepEqual(rangeOf({ min: 0, max: 50, usual: [1, 20] }, 30), [1, 30]);
   assert.deepEqual(rangeOf({ min: 0.5, max: 6 }, 2), [0.5, 6]);
   assert.deepEqual(rangeOf({}, 0), [-1, 1]);
+});
+
+test("a value has its place among others", () => {
+  assert.equal(placeAmong([1, 2, 4], 2), 1);
+  assert.equal(placeAmong([1, 2, 4], 3), 1.5);
+  assert.equal(placeAmong([1, 2, 4], 0.5), undefined);
+  assert.equal(placeAmong([1, 2, 4], 5), undefined);
+  assert.equal(placeAmong(["zv", "ei"], "ei"), 1);
+  assert.equal(placeAmong(["zv", "ei"], undefined), undefined);
+});
+
+test("a picture shows what can be run, the best first, and pairs as a grid", () => {
+  const job = { tolerance: 0.1, valueAt: ({ path: at }) => (at === path ? 1.5 : "ei") };
+  const robots = [
+    { name: "soft", stiffness: "guessed", p50_mm: 0.3, p95_mm: 0.6 },
+    { name: "short", error: "out of reach" },
+    { name: "jammed", stiffness: "measured", p50_mm: 0.01, p95_mm: 0.02, cannot_run: "joint 1 leaves its range" },
+    { name: "stiff", stiffness: "measured", p50_mm: 0.1, p95_mm: 0.2 },
+  ];
+  const { kind, data, rows } = pictureOf({ kind: "robots", place: "kept" }, { robots }, [], job);
+  assert.deepEqual([kind, rows, data.names], ["study_intervals", 2, ["stiff", "soft"]]);
+  assert.deepEqual([...data.ranges], [0.1, 0.2, 0.3, 0.6]);
+  assert.deepEqual([...data.guesses], [0, 1]);
+
+  const depth = { path, kind: "number", label: "Axial depth", unit: "mm" };
+  const shaper = {
+    path: "shaper.kind",
+    kind: "choice",
+    label: "Shaper",
+    unit: "",
+    choices: [{ value: "zv", label: "ZV" }],
+  };
+  const pairs = [1, 2].flatMap((value) => ["zv", "ei"].map((second) => ({ value, second, p95_mm: value / 10 })));
+  const grid = pictureOf({ kind: "sweep", ranges: [{}, {}] }, { rows: pairs }, [depth, shaper], job);
+  assert.deepEqual([grid.kind, grid.rows], ["study_grid", 2]);
+  assert.deepEqual(
+    [grid.data.values, grid.data.seconds],
+    [
+      ["1", "2"],
+      ["ZV", "ei"],
+    ],
+  );
+  assert.deepEqual([...grid.data.errors], [0.1, 0.1, 0.2, 0.2]);
+  assert.deepEqual([...grid.data.now], [0.5, 1]);
+  assert.equal(
+    pictureOf({ kind: "sweep", ranges: [{}] }, { rows: [{ value: 1 }, { value: 2 }] }, [depth], job),
+    undefined,
+  );
 });
 
 test("tables keep what they hold, in Markdown and in CSV", () => {

@@ -1,6 +1,18 @@
 // What a user of the package writes, checked by `tsc --strict`.
 
-import init, { type ArmillError, check, default_job, type Field, fields, formats, model, presets, run, type Summary, version } from "armill";
+import init, {
+  type ArmillError,
+  check,
+  default_job,
+  type Field,
+  fields,
+  formats,
+  model,
+  presets,
+  run,
+  type Summary,
+  version,
+} from "armill";
 
 await init();
 const labels: string[] = fields().map((field: Field) => `${field.label} ${field.unit}`);

@@ -19,6 +19,8 @@ const studies = [
   armill.Study.scan(coarse, "cutting.axial_depth_mm=1:3"),
   armill.Study.robots(coarse, "kept"),
   armill.Study.robots(coarse, "front"),
+  armill.Study.robots(coarse, "sought"),
+  armill.Study.sweep(coarse, ["shaper.kind=zv,ei", "start_branch.elbow=all"]),
   armill.Study.choices(coarse),
 ];
 const curves = new armill.StudyCurves(
@@ -28,6 +30,24 @@ const curves = new armill.StudyCurves(
   2,
   new Float64Array([1, 2]),
   new Float64Array([1, 0.1, 0.2, 0.3, 2, 0.2, 0.4, 0.6]),
+);
+const intervals = new armill.StudyIntervals(
+  "Robots",
+  "Error",
+  0.1,
+  undefined,
+  ["a", "b"],
+  new Float64Array([0.1, 0.2, NaN, NaN]),
+  new Uint8Array([0, 1]),
+);
+const grid = new armill.StudyGrid(
+  "Depth and feed",
+  ["Depth, mm", "Feed, mm/s"],
+  ["1", "2"],
+  ["10"],
+  new Float64Array([0.5, 0]),
+  0.1,
+  new Float64Array([0.05, 0.2]),
 );
 const charts = result.charts().map(({ name }) => result.chart(name, { width: 640, height: 300 }));
 const answers = {
@@ -133,6 +153,8 @@ write(
 );
 write('ReturnType<armill.StudyCurves["chart"]>', [curves.chart({ width: 640, height: 300 })]);
 write('ReturnType<armill.StudyCurves["chart_data"]>', [curves.chart_data({ length: "inch" })]);
+for (const [name, drawn] of Object.entries({ StudyIntervals: intervals, StudyGrid: grid }))
+  write(`ReturnType<armill.${name}["draw"]>`, [drawn.draw({ width: 640, height: 300, length: "inch" })]);
 writeFileSync("values.ts", `${lines.join("\n")}\n`);
 
 // Whatever a run offers was asked for: what is new has to be added above.

@@ -183,3 +183,44 @@ fn an_answer_is_cancelled_and_a_wrong_range_is_said() -> Result {
         Ok(())
     })
 }
+
+/// Over the words of a choice, and over two things at once: drawn, filtered, saved.
+#[test]
+fn choices_and_pairs_are_drawn_and_filtered() -> Result {
+    visit(THESIS, DESKTOP, async |page| {
+        let job = coarse(page).await?;
+        page.click("#tab-compare").await?;
+        page.click("[data-question=sweep]").await?;
+        page.choose("#study-first-number", "shaper.kind").await?;
+        page.wait_for("document.querySelectorAll('.answer-picture .series.known').length === 5", 60.0)
+            .await?;
+        let native = sweep(&job, &[Variation::read("shaper.kind=all")?])?;
+        let shown: Vec<Option<f64>> = column(page, 3).await?.into_iter().map(|(_, value)| value).collect();
+        assert_eq!(shown, native.iter().map(|row| row.outcome.p95_mm).collect::<Vec<_>>());
+        let heads = page
+            .js("return [...document.querySelectorAll('.answer-table tbody th')].map(th => th.textContent)");
+        assert_eq!(heads.await?, json!(["none", "ZV", "ZVD", "ZVDD", "EI"]));
+        page.choose("#study-second-number", "cutting.axial_depth_mm").await?;
+        page.type_into("#study-second-from", "1").await?;
+        page.type_into("#study-second-to", "4").await?;
+        page.wait_for("document.querySelectorAll('.answer-picture .label text').length === 35", 120.0)
+            .await?;
+        page.wait_for("document.querySelector('#study-cancel').hidden", 60.0).await?;
+        let pairs = [Variation::read("shaper.kind=all")?, Variation::read("cutting.axial_depth_mm=1:4:7")?];
+        let native = sweep(&job, &pairs)?;
+        let shown: Vec<Option<f64>> = column(page, 4).await?.into_iter().map(|(_, value)| value).collect();
+        assert_eq!(shown, native.iter().map(|row| row.outcome.p95_mm).collect::<Vec<_>>());
+        page.type_into("#study-filter", "ei").await?;
+        page.wait_for("document.querySelectorAll('.answer-table tbody tr').length === 7", 5.0).await?;
+        assert_eq!(page.text(".answer-filter output").await?, "7 of 35");
+        page.click("#study-svg").await?;
+        let saved = page.downloaded("armill-answer.svg").await?;
+        assert!(saved.contains("ZVDD") && !saved.contains("class=") && !saved.contains("NaN"), "{saved}");
+        // The number that is asked about for the tolerance is none of the choices.
+        page.click("[data-question=largest]").await?;
+        let offered =
+            page.js("return [...document.querySelector('#study-first-number').options].map(o => o.value)");
+        assert!(!offered.await?.as_array().is_some_and(|paths| paths.contains(&json!("shaper.kind"))));
+        Ok(())
+    })
+}

@@ -9,7 +9,7 @@ import { INPUTS } from "./words.js";
 /**
  * @import { Field, StudyOutcome } from "../../pkg/armill.js"
  * @import { Answer } from "./ask.js"
- * @import { Question } from "./question.js"
+ * @import { Place, Question } from "./question.js"
  */
 
 /**
@@ -81,8 +81,11 @@ const numberColumn = (field, key, part) => ({
   digits: field.kind !== "choice",
 });
 
-/** @returns {Column[]} */
-const armColumns = () => [
+/**
+ * @param {Place} place
+ * @returns {Column[]}
+ */
+const armColumns = (place) => [
   { key: "robot", label: "Robot", of: ({ name }) => name },
   { key: "stiffness", label: "Stiffness", of: ({ stiffness }) => stiffness },
   ...errors(),
@@ -98,7 +101,7 @@ const armColumns = () => [
       ),
     digits: true,
   },
-  angleColumn("turn", "Turn of the tool", (row) => row.spin_deg),
+  ...(place === "sought" ? [angleColumn("turn", "Turn of the tool", (row) => row.spin_deg)] : []),
   angleColumn("limits", "Room to joint limits", (row) => row.limit_room_deg),
   angleColumn("singularity", "From a singularity", (row) => row.singularity_deg),
   {
@@ -144,7 +147,7 @@ const angleColumn = (key, label, of) => ({
  * @returns {Listed}
  */
 export function listed(question, answer, fields) {
-  if (question.kind === "robots") return { rows: answer.robots ?? [], columns: armColumns() };
+  if (question.kind === "robots") return { rows: answer.robots ?? [], columns: armColumns(question.place) };
   if (question.kind === "choices")
     return {
       rows: answer.choices ?? [],
