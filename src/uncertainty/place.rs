@@ -52,8 +52,8 @@ struct FollowedTip {
     levers: [Vector3<f64>; 6],
     /// Displacement of the tip per unit turn of each joint [m].
     moves: [Vector3<f64>; 6],
-    /// Sag of the tip by each joint where the workpiece was touched off [m].
-    sag: [Vector3<f64>; 6],
+    /// Sag of the tip by each joint where the workpiece was touched off [m], if joints sag.
+    sag: Option<[Vector3<f64>; 6]>,
     /// Tool axis.
     axis: Vector3<f64>,
     /// Height of the point above the tip [m].
@@ -117,7 +117,7 @@ pub fn places(
                 shift: tcp.position - target,
                 levers,
                 moves: moves.map(|(_, v)| v),
-                sag: robot.statics().map_or([Vector3::zeros(); 6], |_| robot.sag().map(|(moved, _)| moved)),
+                sag: robot.statics().map(|_| robot.sag().map(|(moved, _)| moved)),
                 axis,
                 height,
             }),
@@ -126,11 +126,16 @@ pub fn places(
     at.iter().zip(cuts).map(place).collect()
 }
 
-/// Turn of a joint [rad] under a torque [N m], with nominal stiffness.
-fn turn(plan: &Plan, joint: usize, torque: f64) -> f64 {
+/// Turn of each joint [rad] under its torque [N m], with nominal stiffness. Which springs the arm has is asked once,
+/// not for each joint: this is done for every plant at every place.
+#[inline(always)]
+fn turns(plan: &Plan, torque: impl Fn(usize) -> f64) -> [f64; 6] {
     match plan.robot.statics() {
-        Some(statics) => statics.springs[joint].turn(torque),
-        None => plan.robot.compliance()[joint] * torque,
+        Some(statics) => std::array::from_fn(|joint| statics.springs[joint].turn(torque(joint))),
+        None => {
+            let compliance = plan.robot.compliance();
+            std::array::from_fn(|joint| compliance[joint] * torque(joint))
+        }
     }
 }
 
@@ -154,10 +159,11 @@ impl DrawnPlace {
             });
         }
         let sag = self.sag.unwrap_or_default();
-        std::array::from_fn(|joint| {
+        let turns = turns(plan, |joint| {
             let [t, r, a] = self.torque[joint];
-            self.moves[joint] * turn(plan, joint, t + r + a + self.weight[joint]) - sag[joint]
-        })
+            t + r + a + self.weight[joint]
+        });
+        std::array::from_fn(|joint| self.moves[joint] * turns[joint] - sag[joint])
     }
 
     /// The place with commands that take the nominal deflection back: shifted until the nominal tip is
@@ -181,10 +187,13 @@ impl DrawnPlace {
         }
         let mut tip = self.base;
         let [tangential, radial, axial] = draw.force;
-        for (joint, factor) in draw.compliance.into_iter().enumerate() {
+        let torque = |joint: usize| {
             let [t, r, a] = self.torque[joint];
-            let torque = t * tangential + r * radial + a * axial + self.weight[joint];
-            tip += self.moves[joint] * (turn(plan, joint, torque) * factor);
+            t * tangential + r * radial + a * axial + self.weight[joint]
+        };
+        let turns = turns(plan, torque);
+        for joint in 0..6 {
+            tip += self.moves[joint] * (turns[joint] * draw.compliance[joint]);
         }
         for (sagged, factor) in self.sag.iter().flatten().zip(draw.compliance) {
             tip -= sagged * factor;
@@ -203,15 +212,18 @@ impl DrawnPlace {
         let growth = [0, 1].map(|way| drawn(&follows.stiffness.each_ref().map(|part| part.growth[way])));
         let stiffness = CutStiffness { growth, ..follows.stiffness[0] };
         let turned = |force: &Vector3<f64>| -> [f64; 6] {
-            std::array::from_fn(|joint| {
-                turn(plan, joint, follows.levers[joint].dot(force) + self.weight[joint])
-                    * draw.compliance[joint]
-            })
+            let turns = turns(plan, |joint| follows.levers[joint].dot(force) + self.weight[joint]);
+            std::array::from_fn(|joint| turns[joint] * draw.compliance[joint])
         };
-        let sum = |moves: &[Vector3<f64>; 6], turns: [f64; 6], sag: &[Vector3<f64>; 6]| {
-            let moved =
-                moves.iter().zip(turns).fold(Vector3::zeros(), |sum, (moved, turn)| sum + moved * turn);
-            sag.iter().zip(draw.compliance).fold(moved, |sum, (sagged, factor)| sum - sagged * factor)
+        let sum = |moves: &[Vector3<f64>; 6], turns: [f64; 6], sag: &Option<[Vector3<f64>; 6]>| {
+            let mut sum = Vector3::zeros();
+            for joint in 0..6 {
+                sum += moves[joint] * turns[joint];
+            }
+            for (sagged, factor) in sag.iter().flatten().zip(draw.compliance) {
+                sum -= sagged * factor;
+            }
+            sum
         };
         let bent = |force: &Vector3<f64>| {
             plan.setup.bending.map(|bending| bending.deflection(&follows.axis, force)).unwrap_or_default()
@@ -222,7 +234,7 @@ impl DrawnPlace {
         let cut = settled(&drawn(&follows.force), &stiffness, &follows.shift, deflect);
         let (moved, leant) = bent(&cut.force);
         self.base
-            + sum(&self.moves, turned(&cut.force), &self.sag.unwrap_or_default())
+            + sum(&self.moves, turned(&cut.force), &self.sag)
             + moved
             + leant.cross(&follows.axis) * follows.height
     }

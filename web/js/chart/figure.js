@@ -167,6 +167,11 @@ export class Figure {
     }
   }
 
+  /** Whether it shows a drawing, of whichever result. */
+  get isDrawn() {
+    return Boolean(this.#chart);
+  }
+
   /** Forgets the values: those of another result, in other units, or not looked at. */
   forget() {
     this.#samples.forget();

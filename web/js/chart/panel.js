@@ -30,6 +30,19 @@ let over = "time"; // what all charts over the run are drawn over
 let range = null; // of that
 /** @type {Map<string, Figure>} */
 const figures = new Map(); // chart name -> Figure
+/** @type {Set<Figure>} */
+const pending = new Set(); // those that are not drawn yet, because they are out of sight
+
+const CALM_MS = 150; // after the last result, before what is out of sight is drawn
+/** @type {WeakMap<Element, boolean>} */
+const sight = new WeakMap();
+const watched = new IntersectionObserver((entries) => {
+  for (const { target, isIntersecting } of entries) {
+    sight.set(target, isIntersecting);
+    const figure = isIntersecting && [...pending].find(({ node }) => node === target);
+    if (figure) drawNow(figure);
+  }
+});
 
 /**
  * Takes over the charts of a new result.
@@ -161,6 +174,7 @@ function figureOf(entry) {
     figure.fills = entry.name === fixed?.name;
     if (figure.kind === "time") figure.zoom.show(range, null, true);
     figures.set(entry.name, figure);
+    watched.observe(figure.node);
   }
   figure.axes = entry.over ?? [];
   return figure;
@@ -181,13 +195,27 @@ async function draw() {
   /** @type {HTMLElement | null} */
   const place = panel.querySelector(".charts");
   if (place) put(place, shown);
-  for (const figure of [...always, ...shown]) {
-    try {
-      await figure.draw();
-      if (mine !== turn) return;
-    } catch {
-      return; // a newer result, or a recovery, draws again
-    }
+  // While results stream in, only what is in sight follows each of them.
+  const later = shown.filter((figure) => figure.isDrawn && !sight.get(figure.node));
+  pending.clear();
+  for (const figure of later) pending.add(figure);
+  for (const figure of [...always, ...shown.filter((figure) => !pending.has(figure))])
+    if (!(await drawNow(figure)) || mine !== turn) return;
+  if (later.length) await new Promise((resolve) => setTimeout(resolve, CALM_MS));
+  for (const figure of later) if (mine !== turn || (pending.has(figure) && !(await drawNow(figure)))) return;
+}
+
+/**
+ * Draws it; false if that failed: a newer result, or a recovery, draws again.
+ * @param {Figure} figure
+ */
+async function drawNow(figure) {
+  pending.delete(figure);
+  try {
+    await figure.draw();
+    return true;
+  } catch {
+    return false;
   }
 }
 

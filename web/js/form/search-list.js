@@ -45,6 +45,8 @@ export function searchList(id, choices, badges) {
   const isOpen = () => !list.hidden;
   /** @type {HTMLElement | undefined} */
   let active; // the option that Enter takes
+  /** @type {string | undefined} */
+  let shown; // what stands in the input
 
   /** @param {HTMLElement | undefined} target */
   function point(target) {
@@ -70,15 +72,25 @@ export function searchList(id, choices, badges) {
     list.hidden = none.hidden = true;
     input.setAttribute("aria-expanded", "false");
     point(undefined);
-    show();
+    showAgain();
   }
 
-  /** What is chosen, with its badges; a name that is longer than the input stands in full below. */
+  /**
+   * What is chosen, with its badges; a name that is longer than the input stands in full below. Whether it is longer
+   * makes the browser lay out the page, so it is looked at once, and again when the width changes.
+   */
   function show() {
+    if (select.value === shown) return;
+    shown = select.value;
     const { label = "" } = choices.find(({ value }) => value === select.value) ?? {};
     if (input.value !== label) input.value = label;
     const fits = input.clientWidth === 0 ? label.length <= FITS : input.scrollWidth <= input.clientWidth;
     chosen.replaceChildren(...(fits ? [] : [make("span", {}, label)]), ...badgesOf(select.value).map(badge));
+  }
+
+  function showAgain() {
+    shown = undefined;
+    show();
   }
 
   /** @param {string} value */
@@ -101,6 +113,7 @@ export function searchList(id, choices, badges) {
     return node;
   }
 
+  new ResizeObserver(() => isOpen() || showAgain()).observe(input);
   // What is typed here is a question, no edit of the job.
   for (const kind of ["input", "change"]) input.addEventListener(kind, (event) => event.stopPropagation());
   input.addEventListener("input", () => open(input.value));

@@ -1,12 +1,10 @@
 // A question and a job become an answer: the runs are shared among Workers.
 
-import { helper } from "../core/client.js";
 import { shareOut } from "../core/pool.js";
 import { largestText, rangeText } from "./question.js";
 
 /**
  * @import { ChoiceRow, LargestAnswer, RobotRow, StudyOutcome, Summary, SweepRow, Tornado } from "../../pkg/armill.js"
- * @import { Asked } from "../core/asked.js"
  * @import { Runs } from "../core/studies.js"
  * @import { Measure, Question } from "./question.js"
  */
@@ -19,9 +17,6 @@ import { largestText, rangeText } from "./question.js";
  *   measures?: Measurements,
  * }} Answer
  */
-
-/** @type {Asked | null} */
-let single = null; // Worker for what is not shared
 
 /**
  * The error of an outcome that a measure means [mm], NaN without one.
@@ -78,28 +73,32 @@ export async function answer(question, json, onprogress, signal) {
    * @param {string} kind
    * @param {unknown[]} args
    */
-  async function alone(kind, ...args) {
-    const worker = (single ??= helper());
-    const stop = () => {
-      worker.stop({ code: "cancelled", message: "Cancelled." });
-      if (worker === single) single = null;
-    };
-    if (signal.aborted) stop();
-    signal.addEventListener("abort", stop);
-    try {
-      return await worker.ask(kind, ...args);
-    } catch (error) {
-      if (error.fatal && worker === single) single = null;
-      throw error;
-    } finally {
-      signal.removeEventListener("abort", stop);
-    }
+  function alone(kind, ...args) {
+    return fromOne(kind, args, signal);
   }
 }
 
 /**
- * Asks the Worker for what is not shared: drawings of an answer.
+ * What one of the Workers answers.
+ * @param {string} kind
+ * @param {unknown[]} args
+ * @param {AbortSignal} signal
+ */
+async function fromOne(kind, args, signal) {
+  /** @type {any} */
+  let given;
+  await shareOut(
+    1,
+    (worker) => worker.ask(kind, ...args),
+    (part) => (given = part),
+    signal,
+  );
+  return given;
+}
+
+/**
+ * Asks a Worker for what is not shared: drawings of an answer.
  * @param {string} kind
  * @param {unknown[]} args
  */
-export const askSingle = (kind, ...args) => (single ??= helper()).ask(kind, ...args);
+export const askSingle = (kind, ...args) => fromOne(kind, args, new AbortController().signal);
