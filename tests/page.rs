@@ -24,6 +24,8 @@ mod cut;
 mod embed;
 #[path = "page/firefox.rs"]
 mod firefox;
+#[path = "page/webkit.rs"]
+mod webkit;
 #[path = "page/first_screen.rs"]
 mod first_screen;
 #[path = "page/gallery.rs"]

@@ -113,7 +113,7 @@ async fn dragged(client: &Client) -> Outcome<Value> {
              label.closest('.field').addEventListener('input', () => count.inputs++); \
              const watch = (node, name) => new MutationObserver(() => count[name]++).observe(node, { childList: true }); \
              watch(document.getElementById('fingerprint'), 'results'); \
-             watch(document.querySelector('#panel-overview figure .drawing'), 'charts'); \
+             watch(document.querySelector('.curve .drawing'), 'charts'); \
              let last; \
              requestAnimationFrame(function frame(now) { \
                count.frames++; count.longest = Math.max(count.longest, now - (last ?? now)); last = now; requestAnimationFrame(frame); \

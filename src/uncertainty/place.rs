@@ -191,9 +191,8 @@ impl DrawnPlace {
             let [t, r, a] = self.torque[joint];
             t * tangential + r * radial + a * axial + self.weight[joint]
         };
-        let turns = turns(plan, torque);
-        for joint in 0..6 {
-            tip += self.moves[joint] * (turns[joint] * draw.compliance[joint]);
+        for (joint, turn) in turns(plan, torque).into_iter().enumerate() {
+            tip += self.moves[joint] * (turn * draw.compliance[joint]);
         }
         for (sagged, factor) in self.sag.iter().flatten().zip(draw.compliance) {
             tip -= sagged * factor;
@@ -217,8 +216,8 @@ impl DrawnPlace {
         };
         let sum = |moves: &[Vector3<f64>; 6], turns: [f64; 6], sag: &Option<[Vector3<f64>; 6]>| {
             let mut sum = Vector3::zeros();
-            for joint in 0..6 {
-                sum += moves[joint] * turns[joint];
+            for (moved, turn) in moves.iter().zip(turns) {
+                sum += moved * turn;
             }
             for (sagged, factor) in sag.iter().flatten().zip(draw.compliance) {
                 sum -= sagged * factor;

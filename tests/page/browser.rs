@@ -174,7 +174,7 @@ impl Page {
     /// # Errors
     /// If the browser refuses.
     pub async fn resize_at(&self, (width, height): Size, scale: f64) -> Result {
-        if self.browser == Browser::Firefox {
+        if self.browser != Browser::Chromium {
             return Ok(self.client.set_window_size(width, height).await?);
         }
         let device = json!({ "width": width, "height": height, "deviceScaleFactor": scale, "mobile": false });
@@ -427,7 +427,7 @@ impl Page {
 
     /// The entries of a driver's log since it was last read.
     async fn log(&self, kind: &str) -> Result<Vec<Value>> {
-        if self.browser == Browser::Firefox {
+        if self.browser != Browser::Chromium {
             return Ok(Vec::new());
         }
         let entries =

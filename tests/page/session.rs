@@ -27,6 +27,8 @@ pub enum Browser {
     Chromium,
     /// Its driver has neither a log nor devices to emulate.
     Firefox,
+    /// Its driver has neither, too.
+    WebKit,
 }
 
 impl Browser {
@@ -34,11 +36,12 @@ impl Browser {
     /// driver's address.
     ///
     /// # Errors
-    /// If the capabilities are not JSON.
+    /// If the capabilities are not JSON, or it is not said which browser to start.
     pub fn session(self, downloads: &Path) -> Result<(Map<String, Value>, &'static str)> {
         let (text, driver) = match self {
             Browser::Chromium => (CAPABILITIES, "ARMILL_WEBDRIVER_URL"),
             Browser::Firefox => (FIREFOX, "ARMILL_FIREFOX_URL"),
+            Browser::WebKit => ("{}", "ARMILL_WEBKIT_URL"),
         };
         let mut capabilities: Map<String, Value> = serde_json::from_str(text)?;
         match self {
@@ -48,6 +51,11 @@ impl Browser {
             }
             Browser::Firefox => {
                 capabilities["moz:firefoxOptions"]["prefs"]["browser.download.dir"] = json!(downloads);
+            }
+            Browser::WebKit => {
+                let options =
+                    json!({ "binary": setting("ARMILL_WEBKIT_BROWSER")?, "args": ["--automation"] });
+                capabilities.insert("webkitgtk:browserOptions".into(), options);
             }
         }
         Ok((capabilities, driver))

@@ -13,6 +13,7 @@ use crate::javascript;
 use crate::npm;
 use crate::server::Server;
 use crate::site;
+use crate::webkit::WebKitDriver;
 use crate::workspace::{self, WASM, cargo, run};
 
 /// Runs all checks; stops at the first that fails.
@@ -49,7 +50,7 @@ pub(crate) fn all() -> Result<()> {
 /// # Errors
 /// As for [`all`].
 pub(crate) fn heavy() -> Result<()> {
-    step("heavy tests of the page", || page(&["--", "--ignored", "--skip", "firefox"]))
+    step("heavy tests of the page", || page(&["--", "--ignored", "--skip", "firefox", "--skip", "webkit"]))
 }
 
 /// Serves site and documentation, and drives the page.
@@ -87,6 +88,22 @@ pub(crate) fn firefox() -> Result<()> {
         run(cargo(&["test", "--locked", "--test", "page", "--", "--ignored", "--test-threads=1", "firefox"])?
             .env("ARMILL_SITE_URL", &server.url)
             .env("ARMILL_FIREFOX_URL", driver.url()))
+    })
+}
+
+/// Runs the tests of the page in WebKitGTK.
+///
+/// # Errors
+/// As for [`all`].
+pub(crate) fn webkit() -> Result<()> {
+    step("tests of the page in WebKitGTK", || {
+        let server = Server::start_anywhere(&site::build()?)?;
+        let driver = WebKitDriver::start()?;
+        // Its driver has one session at a time.
+        run(cargo(&["test", "--locked", "--test", "page", "--", "--ignored", "--test-threads=1", "webkit"])?
+            .env("ARMILL_SITE_URL", &server.url)
+            .env("ARMILL_WEBKIT_BROWSER", &driver.browser)
+            .env("ARMILL_WEBKIT_URL", driver.url()))
     })
 }
 

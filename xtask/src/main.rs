@@ -1,6 +1,7 @@
 //! Builds, serves and tests Armill: the only tool a contributor needs.
 #![allow(clippy::print_stdout, reason = "a command-line tool prints to standard output")]
 
+mod webkit;
 mod workspace;
 mod site;
 mod docs;
@@ -35,6 +36,7 @@ usage: cargo xtask <command>
   test --javascript  only the page's code: its layout, its types, its tests in Node
   test --heavy     the slower tests of the page, pictures and gallery among them: some minutes more
   test --firefox   the page in Firefox: figures, first screen, one program; builds Firefox's driver if there is none
+  test --webkit    the page in WebKitGTK: figures, first screen, one question
   bench [samples]  time stages and whole jobs, natively and in Chromium, and kinematics beside other crates: about ten minutes
                    for the sizes 20000,200000,1000000, a minute for one
   audit            check licences and sources of all dependencies, and known vulnerabilities
@@ -67,6 +69,7 @@ fn run(arguments: &[String]) -> Result<()> {
         ["test", "--javascript"] => checks::javascript(),
         ["test", "--heavy"] => checks::heavy(),
         ["test", "--firefox"] => checks::firefox(),
+        ["test", "--webkit"] => checks::webkit(),
         ["bench"] => bench::bench("20000,200000,1000000"),
         ["bench", sizes] => bench::bench(sizes),
         ["fuzz"] => fuzz::fuzz(None, 60),

@@ -16,7 +16,7 @@ const APART_MM = 100; // of several layers
  * What is asked for: `axes` of columns and rows and the one across the plane, `values` [mm] of the five fields,
  * `count` of the places along a side, and the positions `across` [mm] of the layers.
  *
- * @typedef {{ plane: string, axes: [number, number, number], values: number[], count: number, across: number[] }} Asked
+ * @typedef {{ plane: string, axes: [number, number, number], values: number[], count: number, across: number[] }} MapRequest
  */
 
 /**
@@ -82,7 +82,7 @@ export function makeRanges(place, changed) {
 
   /**
    * What is asked for, or a sentence about what is wrong with it.
-   * @returns {Asked | string}
+   * @returns {MapRequest | string}
    */
   function read() {
     const { values, mistakes } = readCells();

@@ -1,6 +1,6 @@
 // The best turn of the tool about its axis where the part is: all turns are tried, ten degrees apart, and the best is taken.
 
-import { helper } from "../core/client.js";
+import { shareOut } from "../core/pool.js";
 import { make } from "../page/dom.js";
 import { plainNumber } from "../page/number.js";
 import { lengthText, lengthUnit } from "../page/units.js";
@@ -31,10 +31,12 @@ export function makeTurn({ job, use }, measure) {
     const turns = Array.from({ length: 360 / STEP_DEG }, (_, n) => STEP_DEG * n - 180);
     button.disabled = true;
     said.textContent = "Trying 36 turns…";
-    const worker = helper();
     try {
-      const xyz = Float64Array.from(frame.xyz_mm);
-      const numbers = await worker.ask("turns", JSON.stringify(before), xyz, Float64Array.from([now, ...turns]));
+      const [xyz, all] = [frame.xyz_mm, [now, ...turns]].map((numbers) => Float64Array.from(numbers));
+      let numbers = new Float64Array();
+      const ask = (/** @type {import("../core/asked.js").Asked} */ worker) =>
+        worker.ask("turns", JSON.stringify(before), xyz, all);
+      await shareOut(1, ask, (part) => (numbers = part), new AbortController().signal);
       if (JSON.stringify(job()) !== JSON.stringify(before)) return void (said.textContent = "The job has changed.");
       const [present, ...tried] = [now, ...turns].map((deg, n) => ({ deg, ...placeIn(numbers, n) }));
       const by = measure();
@@ -52,7 +54,6 @@ export function makeTurn({ job, use }, measure) {
     } catch (error) {
       said.textContent = `No turn was tried: ${error.message}`;
     } finally {
-      worker.stop({ code: "cancelled", message: "Done." });
       button.disabled = false;
     }
   }
