@@ -224,3 +224,15 @@ fn choices_and_pairs_are_drawn_and_filtered() -> Result {
         Ok(())
     })
 }
+
+/// What an embedded calculator cannot answer it does not offer.
+#[test]
+fn an_embedded_form_offers_no_questions() -> Result {
+    visit("/embed.html#show=scene&inputs=motion", DESKTOP, async |page| {
+        page.wait_for("document.querySelector('#motion-feed_mm_s')?.checkVisibility()", 30.0).await?;
+        let offered = page
+            .js("return [...document.querySelectorAll('.head .limit')].some(each => each.checkVisibility())");
+        assert_eq!(offered.await?, false);
+        Ok(())
+    })
+}

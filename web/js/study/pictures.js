@@ -17,6 +17,21 @@ import { INPUTS, ranked, titleOf } from "./words.js";
 const MOST = 40; // cases of a picture; a table has them all
 const EXPECTED = "Error, 50 to 95 of 100 cases";
 
+/** @type {Record<string, string>} what is measured */
+const MEASURED = {
+  stiffness: "Joint stiffness",
+  cutting: "Cutting forces",
+  frequency: "Frequency of the filter",
+  pass: "A milled pass",
+};
+
+/**
+ * @param {number} from
+ * @param {number} to
+ * @returns {[number, number]}
+ */
+const ends = (from, to) => [from, to];
+
 /**
  * The picture of an answer; undefined if a curve or a table says it better.
  * @param {Question} question
@@ -42,6 +57,11 @@ export function pictureOf(question, answer, fields, { tolerance, valueAt }) {
     const { bars = [], after_mm = NaN } = answer.tornado ?? {};
     const cases = bars.map(({ input, after_mm: range }) => ({ name: INPUTS[input] ?? input, range }));
     return intervals(title, "Largest error after compensation", tolerance, cases, after_mm);
+  }
+  if (question.kind === "measures") {
+    const { measures = [], now = NaN } = answer;
+    const cases = measures.map(({ input, p95_mm }) => ({ name: MEASURED[input], range: ends(p95_mm, now) }));
+    return intervals(title, "Error in 95 of 100 cases, then and now", tolerance, cases);
   }
   const rows = answer.rows ?? [];
   if (question.kind !== "sweep" || !rows.length) return undefined;
@@ -77,7 +97,7 @@ function first(rows) {
  */
 const bandOf = ({ p50_mm = NaN, p95_mm = NaN }, name) => ({
   name,
-  range: /** @type {[number, number]} */ ([p50_mm, p95_mm]),
+  range: ends(p50_mm, p95_mm),
 });
 
 /**
