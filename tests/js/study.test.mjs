@@ -96,6 +96,22 @@ test("a picture shows what can be run, the best first, and pairs as a grid", () 
   );
   assert.deepEqual([...grid.data.errors], [0.1, 0.1, 0.2, 0.2]);
   assert.deepEqual([...grid.data.now], [0.5, 1]);
+  const jammed = pairs.map((row, k) => (k % 2 ? { ...row, cannot_run: "joint 1 leaves its range" } : row));
+  const able = pictureOf({ kind: "sweep", ranges: [{}, {}] }, { rows: jammed }, [depth, shaper], job);
+  assert.deepEqual([...able.data.errors], [0.1, NaN, 0.2, NaN]);
+  const none = jammed.map((row) => ({ ...row, cannot_run: "joint 1 leaves its range" }));
+  const could = pictureOf({ kind: "sweep", ranges: [{}, {}] }, { rows: none }, [depth, shaper], job);
+  assert.ok(could.data.title.includes("if the arm could run it"));
+  assert.deepEqual([...could.data.errors], [0.1, 0.1, 0.2, 0.2]);
+  const long = Array.from({ length: 20 }, (_, k) =>
+    ["zv", "ei"].map((second) => ({ value: k, second, p95_mm: k })),
+  ).flat();
+  const turned = pictureOf({ kind: "sweep", ranges: [{}, {}] }, { rows: long }, [depth, shaper], job);
+  assert.deepEqual([turned.data.values, turned.data.seconds.length, turned.rows], [["ZV", "ei"], 20, 20]);
+  assert.deepEqual([...turned.data.errors.slice(18, 22)], [18, 19, 0, 1]);
+  assert.deepEqual([...turned.data.now], [1, 1.5]);
+  const brought = pictureOf({ kind: "measures" }, { measures: [{ input: "pass", p95_mm: 0.01 }], now: 0.2 }, [], job);
+  assert.deepEqual([brought.data.names, [...brought.data.ranges]], [["A milled pass"], [0.01, 0.2]]);
   assert.equal(
     pictureOf({ kind: "sweep", ranges: [{}] }, { rows: [{ value: 1 }, { value: 2 }] }, [depth], job),
     undefined,

@@ -11,6 +11,18 @@ const MOST = 8; // Workers
 /** @type {Asked[]} */
 const idle = []; // Workers that wait for the next question: to start one takes as long as a run
 
+/** How many Workers compute at once, and how many are kept. */
+const most = () => Math.min(MOST, Math.max(1, navigator.hardwareConcurrency ?? 2));
+
+/**
+ * Keeps a Worker for the next question, if there are not enough.
+ * @param {Asked} worker
+ */
+function keep(worker) {
+  if (idle.length < most()) idle.push(worker);
+  else worker.stop({ code: "cancelled", message: "Not needed." });
+}
+
 /** A Worker that waits, or a new one: those that have ended meanwhile are forgotten. */
 function waiting() {
   let worker = idle.pop();
@@ -28,7 +40,7 @@ function waiting() {
  * @param {AbortSignal} signal
  */
 export async function shareOut(count, ask, onpart, signal) {
-  const size = Math.min(count, MOST, Math.max(1, navigator.hardwareConcurrency ?? 2));
+  const size = Math.min(count, most());
   const workers = Array.from({ length: size }, waiting);
   let failed = false;
   /** @param {Failure} reason */
@@ -54,6 +66,6 @@ export async function shareOut(count, ask, onpart, signal) {
     throw error;
   } finally {
     signal.removeEventListener("abort", cancelled);
-    if (!failed) idle.push(...workers);
+    if (!failed) for (const worker of workers) keep(worker);
   }
 }

@@ -13,6 +13,7 @@ import { askSingle } from "./ask.js";
  */
 
 const ROW_PX = { study_intervals: 22, study_grid: 34 }; // height of a case
+const CLOSE = 12; // rows of a grid from which on they are as close as intervals
 const ROUND_PX = 76; // what axes and names need besides
 const LEAST_PX = 150;
 
@@ -48,7 +49,7 @@ export function makePicture() {
     const room = Math.floor(plot.clientWidth);
     if (!mine || room < 1) return;
     width = room;
-    const height = Math.max(LEAST_PX, ROUND_PX + ROW_PX[mine.kind] * mine.rows);
+    const height = Math.max(LEAST_PX, ROUND_PX + ROW_PX[mine.rows > CLOSE ? "study_intervals" : mine.kind] * mine.rows);
     plot.style.setProperty("min-height", `${height}px`);
     const made = await askSingle(mine.kind, mine.data, { width: room, height, ...units() });
     if (mine !== picture) return;

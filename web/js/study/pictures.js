@@ -14,6 +14,7 @@ import { INPUTS, ranked, titleOf } from "./words.js";
 /** @typedef {{ kind: "study_intervals", data: Intervals, rows: number } | { kind: "study_grid", data: Grid, rows: number }} Picture */
 /** @typedef {{ tolerance: number, valueAt(field: Field): unknown }} Asked what of the job that was asked about is drawn */
 
+const WIDE = 12; // values that have room side by side
 const MOST = 40; // cases of a picture; a table has them all
 const EXPECTED = "Error, 50 to 95 of 100 cases";
 
@@ -63,13 +64,29 @@ export function pictureOf(question, answer, fields, { tolerance, valueAt }) {
     const cases = measures.map(({ input, p95_mm }) => ({ name: MEASURED[input], range: ends(p95_mm, now) }));
     return intervals(title, "Error in 95 of 100 cases, then and now", tolerance, cases);
   }
-  const rows = answer.rows ?? [];
-  if (question.kind !== "sweep" || !rows.length) return undefined;
-  if (fields.length > 1) return grid(title, rows, fields, tolerance, valueAt);
+  const all = answer.rows ?? [];
+  if (question.kind !== "sweep" || !all.length) return undefined;
+  // What cannot be run promises nothing; if nothing can, the title says it.
+  const isAble = all.some(({ cannot_run, p95_mm }) => !cannot_run && p95_mm !== undefined);
+  const rows = isAble ? all.map(promised) : all;
+  const heading = isAble ? title : `${title}, if the arm could run it`;
+  if (fields.length > 1) return grid(heading, rows, fields, tolerance, valueAt);
   if (typeof rows[0].value === "number") return undefined;
   const [field] = fields;
-  return intervals(title, EXPECTED, tolerance, rows.map((row) => bandOf(row, taken(field, row.value))).slice(0, MOST));
+  return intervals(
+    heading,
+    EXPECTED,
+    tolerance,
+    rows.map((row) => bandOf(row, taken(field, row.value))).slice(0, MOST),
+  );
 }
+
+/**
+ * A row without figures if the arm cannot run it.
+ * @param {SweepRow} row
+ * @returns {SweepRow}
+ */
+const promised = (row) => (row.cannot_run ? { ...row, p50_mm: undefined, p95_mm: undefined } : row);
 
 /**
  * What something takes, as it reads.
@@ -137,17 +154,22 @@ function grid(title, rows, fields, tolerance, valueAt) {
     rows.filter((_, k) => k % inner === 0).map(({ value }) => value),
     rows.slice(0, inner).map(({ second }) => /** @type {number | string} */ (second)),
   ];
-  const [a, b] = fields.map((field, k) => placeAmong(values[k], valueAt(field)));
+  // The first goes from left to right, unless it has more values than there is room for.
+  const [across, up] = values[0].length > WIDE && values[0].length > values[1].length ? [1, 0] : [0, 1];
+  const errorAt = (/** @type {number} */ x, /** @type {number} */ y) => rows[across ? y * inner + x : x * inner + y];
+  const places = [across, up].map((k) => placeAmong(values[k], valueAt(fields[k])));
+  const printed = (/** @type {number} */ k) => values[k].map((value) => taken(fields[k], value));
   const data = {
     title: `${title}, at most in 95 of 100 cases`,
-    names: fields.map(({ label, unit }) => [label, shownUnit(unit)].filter(Boolean).join(", ")),
-    values: values[0].map((value) => taken(fields[0], value)),
-    seconds: values[1].map((value) => taken(fields[1], value)),
-    now: Float64Array.from(a === undefined || b === undefined ? [] : [a, b]),
+    names: [across, up].map((k) => [fields[k].label, shownUnit(fields[k].unit)].filter(Boolean).join(", ")),
+    values: printed(across),
+    seconds: printed(up),
+    now: Float64Array.from(places.flatMap((place) => place ?? [])),
     tolerance,
-    errors: Float64Array.from(rows.map(({ p95_mm = NaN }) => p95_mm)),
+    errors: Float64Array.from(values[across].flatMap((_, x) => values[up].map((_, y) => errorAt(x, y).p95_mm ?? NaN))),
   };
-  return { kind: "study_grid", data, rows: inner };
+  if (data.now.length < 2) data.now = new Float64Array();
+  return { kind: "study_grid", data, rows: values[up].length };
 }
 
 /**

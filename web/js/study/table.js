@@ -67,7 +67,7 @@ export function answerTable(caption, { rows, columns }, { sort, marks = () => ""
   }
 
   function filter() {
-    const input = make("input", { type: "search", id: "study-filter", placeholder: "kuka measured" });
+    const input = make("input", { type: "search", id: "study-filter" });
     const able = make("input", { type: "checkbox", id: "study-able" });
     input.addEventListener("input", () => ((words = input.value), fill()));
     able.addEventListener("change", () => ((isAbleOnly = able.checked), fill()));
