@@ -22,6 +22,8 @@ mod cursor;
 mod cut;
 #[path = "page/embed.rs"]
 mod embed;
+#[path = "page/everywhere.rs"]
+mod everywhere;
 #[path = "page/firefox.rs"]
 mod firefox;
 #[path = "page/webkit.rs"]

@@ -1,44 +1,24 @@
-//! The page in WebKitGTK: the same bits, and the first screen. `cargo xtask test --webkit` runs these; they need its
-//! driver.
+//! The page in WebKitGTK: the same bits, the first screen, and one question. `cargo xtask test --webkit` runs these;
+//! they need its driver.
 
-use armill::{Job, Progress};
-use serde_json::json;
-
-use crate::browser::{DESKTOP, Result, THESIS, visit_in};
-use crate::common::run;
+use crate::browser::{DESKTOP, Result, visit_in};
+use crate::current;
+use crate::everywhere;
 use crate::session::Browser;
-use crate::{current, shows};
 
 #[test]
 #[ignore = "needs WebKitGTK: cargo xtask test --webkit"]
 fn webkit_computes_the_same_bits() -> Result {
-    visit_in(Browser::WebKit, THESIS, DESKTOP, async |page| {
-        shows(page, &run(&[])).await?;
-        page.type_into("#motion-feed_mm_s", "80.5").await?;
-        shows(page, &run(&[("motion.feed_mm_s", json!(80.5))])).await
-    })?;
-    visit_in(Browser::WebKit, "/", DESKTOP, async |page| {
-        shows(page, &armill::run(&Job::opening()?, &mut Progress::none())?).await
-    })
+    everywhere::same_bits(Browser::WebKit)
 }
 
 #[test]
 #[ignore = "needs WebKitGTK: cargo xtask test --webkit"]
 fn webkit_has_picture_and_curve_on_the_first_screen() -> Result {
-    visit_in(Browser::WebKit, "/", DESKTOP, async |page| {
-        current(page).await?;
-        page.wait_for("document.querySelector('#curve svg .series')", 30.0).await?;
-        let seen = page
-            .js("return ['.picture', '#curve .drawing', '#verdict', '#expected-p95'].map(css => \
-                 document.querySelector(css).getBoundingClientRect().top).every(top => top >= 0 && top < innerHeight)")
-            .await?;
-        assert_eq!(seen, true);
-        assert_eq!(page.wider().await?, serde_json::Value::Null);
-        Ok(())
-    })
+    everywhere::first_screen(Browser::WebKit)
 }
 
-/// A question about the job: Workers of this browser share its runs.
+/// Its Workers share the runs.
 #[test]
 #[ignore = "needs WebKitGTK: cargo xtask test --webkit"]
 fn webkit_answers_a_question() -> Result {
