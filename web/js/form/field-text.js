@@ -26,10 +26,12 @@ export function withOwn(field) {
 }
 
 /**
+ * What a word of a choice is called.
  * @param {Field} field
  * @param {string} value
  */
-const choiceLabel = (field, value) => field.choices?.find((choice) => choice.value === value)?.label ?? String(value);
+export const choiceLabel = (field, value) =>
+  field.choices?.find((choice) => choice.value === value)?.label ?? String(value);
 
 /** @param {string} unit */
 const numberIn = (unit) => (/** @type {number} */ value) => plainNumber(shownValue(value, unit));

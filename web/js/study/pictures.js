@@ -1,5 +1,6 @@
 // What an answer by cases looks like: a range for each case, or a grid over two things that vary.
 
+import { choiceLabel } from "../form/field-text.js";
 import { shownUnit, shownValue } from "../form/shown.js";
 import { formatNumber } from "../page/number.js";
 import { INPUTS, ranked, titleOf } from "./words.js";
@@ -94,9 +95,7 @@ const promised = (row) => (row.cannot_run ? { ...row, p50_mm: undefined, p95_mm:
  * @param {number | string | undefined} value
  */
 export const taken = (field, value) =>
-  typeof value === "number"
-    ? formatNumber(shownValue(value, field.unit), 4)
-    : (field.choices?.find((choice) => choice.value === value)?.label ?? String(value));
+  typeof value === "number" ? formatNumber(shownValue(value, field.unit), 4) : choiceLabel(field, String(value));
 
 /**
  * The rows that a picture has room for: those that can be run, the least error first; if none can, those with figures.

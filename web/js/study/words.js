@@ -1,6 +1,6 @@
 // Answers in words.
 
-import { quantity } from "../form/field-text.js";
+import { choiceLabel, quantity } from "../form/field-text.js";
 import { lengthText, lengthUnit } from "../page/units.js";
 import { MEASURES } from "./question.js";
 
@@ -168,9 +168,7 @@ function ofSweep(rows, fields) {
  * @param {number | string | undefined} value
  */
 const takenText = (field, value) =>
-  typeof value === "string"
-    ? `“${field.choices?.find((choice) => choice.value === value)?.label ?? value}”`
-    : quantity(rounded(value ?? NaN), field.unit);
+  typeof value === "string" ? `“${choiceLabel(field, value)}”` : quantity(rounded(value ?? NaN), field.unit);
 
 /**
  * The rows that can be run, the least error to expect first.
