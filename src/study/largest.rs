@@ -1,18 +1,15 @@
 //! The largest value of a number for which the error meets the tolerance.
 //!
-//! The range is scanned, and each [`Crossing`] between meeting and missing is narrowed. Those that begin and
-//! end between two values of the scan are not seen.
+//! The range is scanned, and each crossing between meeting and missing is narrowed, see the module `search`.
 
 use crate::error::Error;
 use crate::job::Job;
 use crate::progress::Progress;
-use crate::study::crossing::{Crossing, Tried};
 use crate::study::range::finite;
-use crate::study::{Outcome, Sweep, ValueRange, VariedJob, at_once};
+use crate::study::search::{SCAN, Search, Tried};
+use crate::study::{Outcome, ValueRange, VariedJob, at_once};
 use serde::Serialize;
 
-/// Values of the scan.
-const SCAN: usize = 17;
 /// Ratio of the ends from which on the scan is in equal ratios.
 const DECADE: f64 = 10.0;
 
@@ -56,11 +53,11 @@ impl ErrorMeasure {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Holds {
-    /// At no value of the scan.
+    /// At none of the values that were tried.
     Nowhere,
-    /// At some.
+    /// At some of them.
     Partly,
-    /// At every value of the scan.
+    /// At every one.
     Everywhere,
 }
 
@@ -92,11 +89,14 @@ pub struct LargestAnswer {
     pub holds: Holds,
     /// Every change between meeting and missing, rising: the value on the side that meets.
     pub crossings: Vec<f64>,
-    /// What the run at the largest value says.
+    /// What the run at the largest value says, if it was made here.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_largest: Option<Outcome>,
     /// Number of runs.
     pub runs: usize,
+    /// Values whose errors are still wanted, in the field's unit: they can be run at once. None once it is the answer.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub wanted: Vec<f64>,
 }
 
 impl LargestQuestion {
@@ -128,61 +128,94 @@ impl LargestQuestion {
     /// If the path is that of no number of the job, or no value of the scan has a result: the error of
     /// the first. Other values without a result miss the tolerance.
     pub fn answer(&self, job: &Job) -> Result<LargestAnswer, Error> {
-        let scan = Sweep::new(job, &[self.scan().into()])?;
-        self.answer_from(job, &at_once(SCAN, |index| self.quantity.of(&scan.row(index).outcome)))
+        self.answer_from(job, &[])
     }
 
-    /// The same if the errors at the values of the [`scan`](Self::scan) are known [mm]; `None` without a result.
+    /// The same if some errors are known already, see [`partial`](Self::partial).
     ///
     /// # Errors
-    /// As for [`answer`](Self::answer), and if there are more or fewer of them than values.
-    pub fn answer_from(&self, job: &Job, scanned: &[Option<f64>]) -> Result<LargestAnswer, Error> {
-        if scanned.len() != SCAN {
-            return Err(Error::invalid("scan", scanned.len(), format!("{SCAN} errors")));
-        }
+    /// As for [`answer`](Self::answer) and [`partial`](Self::partial).
+    pub fn answer_from(&self, job: &Job, known: &[Option<f64>]) -> Result<LargestAnswer, Error> {
         let varied = VariedJob::new(job)?;
+        varied.check([(self.path.as_str(), self.from)])?;
+        let mut known = known.to_vec();
+        let mut outcomes: Vec<(f64, Outcome)> = Vec::new();
+        loop {
+            let answer = self.partial(job, &known)?;
+            if answer.wanted.is_empty() {
+                let made = outcomes.into_iter().find(|(value, _)| Some(*value) == answer.largest);
+                return Ok(LargestAnswer { at_largest: made.map(|(_, outcome)| outcome), ..answer });
+            }
+            let run = |value: f64| Outcome::of_varied(varied.with([(self.path.as_str(), value)]));
+            let made = at_once(answer.wanted.len(), |k| run(answer.wanted[k]));
+            known.extend(made.iter().map(|outcome| self.quantity.of(outcome)));
+            outcomes.extend(answer.wanted.into_iter().zip(made));
+        }
+    }
+
+    /// The answer as far as these errors go [mm], and which are wanted next: those at the values of the
+    /// [`scan`](Self::scan), then those that were wanted, in this order; `None` without a result.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] if they end within a round; if none has a result, the error of the first value.
+    pub fn partial(&self, job: &Job, known: &[Option<f64>]) -> Result<LargestAnswer, Error> {
         let tolerance = job.compensation.tolerance_mm;
-        let varied_to = |value: f64| [(self.path.as_str(), value)];
-        let outcome = |value: f64| Outcome::of_varied(varied.with(varied_to(value)));
-        let judged = |value: f64, error: Option<f64>| Tried {
-            value,
-            excess: error.map_or(f64::INFINITY, |error| error - tolerance),
-        };
-        let range = self.scan();
-        let scan: Vec<Tried> =
-            scanned.iter().enumerate().map(|(index, error)| judged(range.at(index), *error)).collect();
-        if scan.iter().all(|tried| tried.excess == f64::INFINITY) {
+        let search = self.searched(tolerance, known)?;
+        let tried = search.tried();
+        if !tried.is_empty() && known.iter().all(Option::is_none) {
             // Nothing can be said of the tolerance: what is wrong is not the value.
-            let job = varied.with(varied_to(self.from))?;
+            let job = VariedJob::new(job)?.with([(self.path.as_str(), self.from)])?;
             crate::simulation::run(&job, &mut Progress::none())?;
         }
-        let changes: Vec<usize> =
-            (1..SCAN).filter(|&index| scan[index - 1].meets() != scan[index].meets()).collect();
-        let run = |value: f64| {
-            let outcome = outcome(value);
-            (judged(value, self.quantity.of(&outcome)), outcome)
-        };
-        let found = at_once(changes.len(), |index| Crossing::narrowed(&scan, changes[index], &run));
-        let meeting = scan.iter().filter(|tried| tried.meets()).count();
+        let crossings = search.crossings();
+        let meeting = tried.iter().filter(|tried| tried.meets()).count();
         let holds = match meeting {
             0 => Holds::Nowhere,
-            SCAN => Holds::Everywhere,
+            _ if meeting == tried.len() => Holds::Everywhere,
             _ => Holds::Partly,
         };
-        let at_end = scan.last().is_some_and(|last| last.meets());
-        let last = found.last().filter(|_| !at_end);
-        let largest = if at_end { Some(self.to) } else { last.map(|crossing| crossing.value) };
-        let known = last.and_then(|crossing| crossing.outcome.clone());
-        let more = usize::from(largest.is_some() && known.is_none());
+        let at_end = tried.last().is_some_and(|last| last.meets());
         Ok(LargestAnswer {
             path: self.path.clone(),
-            largest,
+            largest: if at_end { Some(self.to) } else { crossings.last().copied() },
             quantity: self.quantity,
             tolerance_mm: tolerance,
             holds,
-            crossings: found.iter().map(|crossing| crossing.value).collect(),
-            at_largest: largest.map(|value| known.unwrap_or_else(|| outcome(value))),
-            runs: SCAN + found.iter().map(|crossing| crossing.runs).sum::<usize>() + more,
+            crossings,
+            at_largest: None,
+            runs: tried.len(),
+            wanted: search.wanted(),
         })
     }
+
+    /// The search after the rounds whose errors are known.
+    fn searched(&self, tolerance: f64, known: &[Option<f64>]) -> Result<Search, Error> {
+        let range = self.scan();
+        let mut search = Search::new(std::array::from_fn(|index| range.at(index)));
+        let mut rest = known;
+        loop {
+            if rest.is_empty() {
+                return Ok(search);
+            }
+            let wanted = search.wanted();
+            let whole = known.len() - rest.len();
+            let legal = || format!("{whole} or {} errors", whole + wanted.len());
+            if rest.len() < wanted.len() || wanted.is_empty() {
+                return Err(Error::invalid("scan", known.len(), legal()));
+            }
+            let (round, after) = rest.split_at(wanted.len());
+            let tried = |(value, error): (&f64, &Option<f64>)| Tried {
+                value: *value,
+                excess: excess(*error, tolerance),
+            };
+            let runs: Vec<Tried> = wanted.iter().zip(round).map(tried).collect();
+            search.take(&runs);
+            rest = after;
+        }
+    }
+}
+
+/// How far an error is above the tolerance [mm]: infinitely without a result.
+fn excess(error: Option<f64>, tolerance: f64) -> f64 {
+    error.map_or(f64::INFINITY, |error| error - tolerance)
 }

@@ -6,11 +6,11 @@
 
 mod at_once;
 mod choices;
-mod crossing;
 mod largest;
 mod outcome;
 mod range;
 mod robots;
+mod search;
 mod sweep;
 mod tornado;
 mod variation;
@@ -24,5 +24,5 @@ pub use range::ValueRange;
 pub use robots::{EveryRobot, PartPlace, RobotRow, robots};
 pub use sweep::{Sweep, SweepRow, sweep};
 pub use tornado::{Tornado, TornadoBar, tornado};
-pub use variation::{ChoiceWords, Taken, Variation};
+pub use variation::{ChoiceWords, ListedNumbers, Taken, Variation};
 pub use varied::VariedJob;

@@ -37,8 +37,8 @@ impl ValueRange {
             Error::invalid(
                 "vary",
                 text,
-                "path=from:to:count, such as cutting.axial_depth_mm=0.5:5:20, or with :log; for a choice path=word,word or \
-                 path=all, such as material.preset=all",
+                "path=from:to:count, such as cutting.axial_depth_mm=0.5:5:20, or with :log; path=number,number; for a choice \
+                 path=word,word or path=all, such as material.preset=all",
             )
         };
         let (path, rest) = text.split_once('=').ok_or_else(wrong)?;

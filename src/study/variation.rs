@@ -1,8 +1,9 @@
-//! What a sweep varies: a number over a range, or a choice over its words.
+//! What a sweep varies: a number over a range or a list, or a choice over its words.
 
 use crate::error::Error;
 use crate::job::fields::fields;
 use crate::study::ValueRange;
+use crate::study::range::finite;
 use serde::Serialize;
 
 /// What of a job takes several values.
@@ -11,8 +12,19 @@ use serde::Serialize;
 pub enum Variation {
     /// A number.
     Range(ValueRange),
+    /// A number whose values are listed.
+    Numbers(ListedNumbers),
     /// A choice.
     Words(ChoiceWords),
+}
+
+/// Values of a number, in the order in which they are tried.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ListedNumbers {
+    /// Dotted path in the job.
+    pub path: String,
+    /// The values, in the field's unit.
+    pub values: Vec<f64>,
 }
 
 /// Words of a choice, in the order in which they are tried.
@@ -50,7 +62,7 @@ impl From<ValueRange> for Variation {
 const ALL: &str = "all";
 
 impl Variation {
-    /// Reads a range (see [`ValueRange::read`]), or `path=word,word` and `path=all` for a choice.
+    /// Reads a range (see [`ValueRange::read`]), `path=number,number`, or `path=word,word` and `path=all` for a choice.
     ///
     /// # Errors
     /// [`Error::Invalid`] with the text and what is wrong with it, or a word that the choice does not have.
@@ -60,8 +72,12 @@ impl Variation {
             let field = fields().into_iter().find(|field| field.path == path && !field.choices.is_empty())?;
             Some((field, values.to_owned()))
         };
+        let numbers = |(path, values): (&str, &str)| {
+            let values = values.split(',').map(finite).collect::<Option<Vec<f64>>>()?;
+            Some(Self::Numbers(ListedNumbers { path: path.to_owned(), values }))
+        };
         match choice.and_then(words) {
-            None => ValueRange::read(text).map(Self::Range),
+            None => choice.and_then(numbers).map_or_else(|| ValueRange::read(text).map(Self::Range), Ok),
             Some((field, values)) => {
                 let known: Vec<&str> = field.choices.iter().map(|choice| choice.value).collect();
                 let given: Vec<&str> =
@@ -81,6 +97,7 @@ impl Variation {
     pub fn path(&self) -> &str {
         match self {
             Self::Range(range) => &range.path,
+            Self::Numbers(listed) => &listed.path,
             Self::Words(choice) => &choice.path,
         }
     }
@@ -89,6 +106,7 @@ impl Variation {
     pub fn count(&self) -> usize {
         match self {
             Self::Range(range) => range.count,
+            Self::Numbers(listed) => listed.values.len(),
             Self::Words(choice) => choice.words.len(),
         }
     }
@@ -97,6 +115,7 @@ impl Variation {
     pub fn at(&self, index: usize) -> Taken {
         match self {
             Self::Range(range) => Taken::Number(range.at(index)),
+            Self::Numbers(listed) => Taken::Number(listed.values[index]),
             Self::Words(choice) => Taken::Word(choice.words[index].clone()),
         }
     }

@@ -30,6 +30,7 @@ export interface ChoiceRow extends StudyOutcome {
 export interface LargestAnswer {
   path: string; largest: number | null; quantity: "nominal" | "p95" | "uncompensated"; tolerance_mm: number;
   holds: "nowhere" | "partly" | "everywhere"; crossings: number[]; at_largest?: StudyOutcome; runs: number;
+  wanted?: number[];
 }
 export interface TornadoBar {
   input: string; factors: [number, number]; after_mm: [number, number]; before_mm: [number, number];
@@ -55,7 +56,7 @@ enum Runs {
 #[wasm_bindgen]
 impl Study {
     /// A job over one number or choice, or two: each `path=from:to:count`, with `:log` at the end for equal
-    /// ratios, or `path=word,word`, or `path=all`.
+    /// ratios, or `path=number,number`, or for a choice `path=word,word` or `path=all`.
     /// Throws an error if the job cannot be read, or a range names no number of it.
     pub fn sweep(json: &str, ranges: Vec<String>) -> Result<Study, JsValue> {
         let of = || Ok(Runs::Sweep(Sweep::new(&Job::from_json(json)?, &read_ranges(&ranges)?)?));
@@ -112,24 +113,26 @@ impl Study {
 }
 
 /// The largest value of a number for which the error meets the tolerance: `question` is `path=from:to`, and
-/// `quantity` the error, `nominal`, `p95` or `uncompensated`. `scanned` may hold that error [mm] at each value of
-/// [`Study::scan`], NaN without a result.
+/// `quantity` the error, `nominal`, `p95` or `uncompensated`. `scanned` may hold that error [mm], NaN without a result,
+/// at each value of [`Study::scan`], then at those that were `wanted`. With `partial`, the answer is as far as these
+/// errors go, and what it still wants can be run at once, as a sweep over `path=number,number`; without, it is run here.
 #[wasm_bindgen(unchecked_return_type = "LargestAnswer")]
 pub fn largest(
     json: &str,
     question: &str,
     quantity: &str,
     scanned: Option<Vec<f64>>,
+    partial: Option<bool>,
 ) -> Result<JsValue, JsValue> {
+    let known: Vec<Option<f64>> =
+        scanned.unwrap_or_default().iter().map(|error| (!error.is_nan()).then_some(*error)).collect();
     let answer = || {
         let job = Job::from_json(json)?;
         let question = LargestQuestion::read(question, ErrorMeasure::named(quantity)?)?;
-        match &scanned {
-            None => question.answer(&job),
-            Some(errors) => {
-                let known: Vec<_> = errors.iter().map(|error| (!error.is_nan()).then_some(*error)).collect();
-                question.answer_from(&job, &known)
-            }
+        if partial == Some(true) {
+            question.partial(&job, &known)
+        } else {
+            question.answer_from(&job, &known)
         }
     };
     object(&answer().map_err(|error: Error| thrown(&error))?)

@@ -61,7 +61,7 @@ const answers = {
   thesis_recomputed: [armill.thesis_recomputed()],
   largest: [
     armill.largest(coarse, "cutting.axial_depth_mm=0.1:10", "uncompensated"),
-    armill.largest(coarse, "cutting.axial_depth_mm=8:9", "nominal", new Float64Array(17).fill(1)),
+    armill.largest(coarse, "cutting.axial_depth_mm=8:9", "nominal", new Float64Array(9).fill(1)),
   ],
   tornado: [armill.tornado(coarse)],
 };

@@ -5,7 +5,7 @@
 /**
  * A question of many runs: its texts are those of the script's command line.
  *
- * @typedef {{ kind: "sweep" | "scan" | "robots" | "choices", json: string, texts: string[] }} Runs
+ * @typedef {{ kind: "sweep" | "robots" | "choices", json: string, texts: string[] }} Runs
  */
 
 /**
@@ -94,8 +94,8 @@ export function studies(core) {
       /** @type {string} */ json,
       /** @type {string} */ text,
       /** @type {string} */ quantity,
-      /** @type {Float64Array} */ scanned,
-    ) => core().largest(json, text, quantity, scanned),
+      /** @type {Float64Array} */ errors,
+    ) => core().largest(json, text, quantity, errors, true),
     tornado: (/** @type {string} */ json) => core().tornado(json),
     study_chart: (/** @type {Curves} */ curves, /** @type {ChartOptions} */ options) =>
       drawn(curvesOf(curves), (made) => made.chart(options)),

@@ -6,8 +6,10 @@ import { largestText, rangeText } from "./question.js";
 /**
  * @import { ChoiceRow, LargestAnswer, RobotRow, StudyOutcome, Summary, SweepRow, Tornado } from "../../pkg/armill.js"
  * @import { Runs } from "../core/studies.js"
- * @import { Measure, Question } from "./question.js"
+ * @import { Largest, Measure, Question } from "./question.js"
  */
+
+const SEARCHED = 13; // runs that a search for the largest value usually takes
 
 /** @typedef {Summary["how_sure"]["measures"]} Measurements */
 
@@ -44,26 +46,44 @@ export async function answer(question, json, onprogress, signal) {
     const { how_sure, expected_mm } = await alone("hold", "measures", json);
     return { measures: how_sure.measures, now: expected_mm.p95 };
   }
-  const text = largestText(question);
-  /** @type {SweepRow[]} */
-  const rows = await runs("scan", [text]);
-  const scanned = Float64Array.from(rows.map((row) => errorOf(question.measure, row)));
-  return { rows, largest: await alone("largest", json, text, question.measure, scanned) };
+  return searched(question);
+
+  /**
+   * Rounds of runs until the largest value is known.
+   * @param {Largest} asked
+   * @returns {Promise<Answer>}
+   */
+  async function searched(asked) {
+    const given = [json, largestText(asked), asked.measure];
+    /** @type {SweepRow[]} */
+    const rows = [];
+    for (;;) {
+      const errors = Float64Array.from(rows, (row) => errorOf(asked.measure, row));
+      /** @type {LargestAnswer} */
+      const largest = await alone("largest", ...given, errors);
+      const { wanted = [] } = largest;
+      if (!wanted.length) return { rows: rows.sort((a, b) => Number(a.value) - Number(b.value)), largest };
+      rows.push(...(await runs("sweep", [`${asked.path}=${wanted.join(",")}`], rows.length, SEARCHED)));
+    }
+  }
 
   /**
    * @param {Runs["kind"]} kind
    * @param {string[]} texts
+   * @param {number} before how many were made before
+   * @param {number} [expected] how many there will probably be
    */
-  async function runs(kind, texts) {
+  async function runs(kind, texts, before = 0, expected = 0) {
     /** @type {Runs} */
     const asked = { kind, json, texts };
     const count = await alone("study_count", asked);
     /** @type {any[]} */
     const rows = Array.from({ length: count });
-    let done = 0;
+    const total = Math.max(expected, before + count);
+    let done = before;
     const keep = (/** @type {unknown} */ row, /** @type {number} */ index) => {
       rows[index] = row;
-      onprogress(++done / count);
+      onprogress(++done / total);
     };
     await shareOut(count, (worker, index) => worker.ask("study_row", asked, index), keep, signal);
     return rows;
