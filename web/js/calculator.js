@@ -56,8 +56,8 @@ import { formatNumber } from "./page/number.js";
  */
 
 const TYPING_MS = 150; // results follow this long after the last key
-const PUSHED = 4000; // samples of a run that follows a number while it is pushed
-const COARSE_S = 0.005; // but no further apart than this
+const PUSHED = 2000; // samples of a run that follows a number while it is pushed
+const COARSE_S = 0.01; // but no further apart than this
 const PATIENCE_MS = 150; // a run that takes longer shows its progress
 const SILENCE_MS = 30_000; // without progress: browsers do not report a killed Worker
 
