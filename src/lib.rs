@@ -56,6 +56,7 @@ pub mod report;
 pub mod placement;
 pub mod simulation;
 pub mod study;
+pub mod online;
 pub mod identify;
 pub mod chart;
 pub mod export;

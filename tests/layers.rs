@@ -6,7 +6,7 @@ use std::path::Path;
 /// The modules from left to right. The job is read first, but its fields and its setup name things
 /// that the stages offer (robots, materials, shapes), so these stand to its left. `column` is the
 /// currency of report, charts and files.
-const ORDER: [&str; 27] = [
+const ORDER: [&str; 28] = [
     "math",
     "units",
     "spread",
@@ -30,6 +30,7 @@ const ORDER: [&str; 27] = [
     "placement",
     "simulation",
     "study",
+    "online",
     "identify",
     "chart",
     "export",

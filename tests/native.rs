@@ -46,6 +46,7 @@ mod laws;
 mod layers;
 mod library;
 mod numerical;
+mod online;
 mod overload;
 mod packages;
 mod path;

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::job::Job;
 use crate::progress::Progress;
 use crate::study::range::finite;
-use crate::study::search::{SCAN, Search, Tried};
+use crate::study::search::{CrossingSearch, SCAN, Tried};
 use crate::study::{Outcome, ValueRange, VariedJob, at_once};
 use serde::Serialize;
 
@@ -189,9 +189,9 @@ impl LargestQuestion {
     }
 
     /// The search after the rounds whose errors are known.
-    fn searched(&self, tolerance: f64, known: &[Option<f64>]) -> Result<Search, Error> {
+    fn searched(&self, tolerance: f64, known: &[Option<f64>]) -> Result<CrossingSearch, Error> {
         let range = self.scan();
-        let mut search = Search::new(std::array::from_fn(|index| range.at(index)));
+        let mut search = CrossingSearch::new(std::array::from_fn(|index| range.at(index)));
         let mut rest = known;
         loop {
             if rest.is_empty() {

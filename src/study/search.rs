@@ -33,14 +33,14 @@ impl Tried {
 
 /// All runs of a search so far.
 #[derive(Debug, Clone)]
-pub(super) struct Search {
+pub(super) struct CrossingSearch {
     scan: [f64; SCAN],
     /// By their values, rising.
     tried: Vec<Tried>,
     rounds: usize,
 }
 
-impl Search {
+impl CrossingSearch {
     /// A search that begins with these values, rising.
     pub(super) fn new(scan: [f64; SCAN]) -> Self {
         Self { scan, tried: Vec::new(), rounds: 0 }
@@ -153,7 +153,7 @@ mod tests {
 
     /// The crossings of a function, and the runs and rounds that it took.
     fn search(of: impl Fn(f64) -> f64, [from, to]: [f64; 2]) -> (Vec<f64>, usize, usize) {
-        let mut search = Search::new(std::array::from_fn(|k| from + (to - from) * k as f64 / 8.0));
+        let mut search = CrossingSearch::new(std::array::from_fn(|k| from + (to - from) * k as f64 / 8.0));
         loop {
             let wanted = search.wanted();
             if wanted.is_empty() {

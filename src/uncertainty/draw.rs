@@ -38,17 +38,21 @@ impl Draw {
     }
 }
 
-/// `count` sets of deviates from a seed, by the Box-Muller transform.
+/// `count` sets of deviates from a seed.
 pub fn deviates(seed: u64, count: usize) -> Vec<Deviates> {
     let mut random = fastrand::Rng::with_seed(seed);
+    (0..count).map(|_| std::array::from_fn(|_| normal(&mut random))).collect()
+}
+
+/// The next standard normal deviate, by the Box-Muller transform; none lies beyond 3.09.
+pub fn normal(random: &mut fastrand::Rng) -> f64 {
     // A uniform number in (0, 1) from the upper 53 bits.
     let mut uniform = || ((random.u64(..) >> 11) as f64 + 0.5) / 9_007_199_254_740_992.0;
-    let mut normal = || loop {
+    loop {
         let radius = (-2.0 * math::ln(uniform())).sqrt();
         let z = radius * math::cos(TAU * uniform());
         if z.abs() <= CUT_OFF {
             return z;
         }
-    };
-    (0..count).map(|_| std::array::from_fn(|_| normal())).collect()
+    }
 }
