@@ -1,9 +1,17 @@
 //! A loop on top of the path, against closed forms, published orders of magnitude and its own simulation.
 
+use crate::common::job_text;
 use armill::math::{TAU, cos, sin};
 use armill::online::simulated::{fed_back, fed_forward};
-use armill::online::{FeedForward, Feedback, LoopTimes, Sensor};
+use armill::online::spectrum::share_below;
+use armill::online::{
+    Comparison, FeedForward, Feedback, LoopPreset, LoopTimes, Measures, OnlineLoop, PRESETS, Sensor, compare,
+};
+use armill::units::MM;
+use armill::{Job, Progress, Report};
 use nalgebra::{Complex, Vector3};
+use serde_json::{Value, json};
+use std::process::Command;
 
 const MS: f64 = 1e-3;
 
@@ -247,4 +255,193 @@ fn noise_is_seeded() {
     };
     assert_eq!(with(1), with(1));
     assert_ne!(with(1), with(2));
+}
+
+/// Two swings of 3 and 4 mm: 9 of 25 parts of the mean square are slow; and all of a constant.
+#[test]
+fn shares_of_a_spectrum_are_those_of_its_lines() {
+    let count = 5000;
+    let of = |amplitude: f64, frequency: f64, k: usize| {
+        amplitude * MS * sin(TAU * frequency * 4.0 * MS * k as f64)
+    };
+    let series: Vec<_> = (0..count).map(|k| Vector3::new(of(3.0, 0.5, k), of(4.0, 7.0, k), 0.0)).collect();
+    for (frequency, share) in [(0.4, 0.0), (0.5, 0.36), (6.9, 0.36), (7.0, 1.0), (125.0, 1.0)] {
+        let found = share_below(&series, 4.0 * MS, frequency);
+        assert!((found - share).abs() < 1e-9, "{frequency} Hz: {found}, {share}");
+    }
+    assert!((share_below(&vec![Vector3::new(1.0, 2.0, 3.0); 99], 4.0 * MS, 0.0) - 1.0).abs() < 1e-12);
+    // Parseval: all lines together are the whole, for an even and an odd number.
+    for count in [96, 97] {
+        let series: Vec<_> =
+            (0..count).map(|k| Vector3::new(sin((k * k) as f64), 0.3, cos(k as f64))).collect();
+        assert!((share_below(&series, 0.01, 50.0) - 1.0).abs() < 1e-9);
+    }
+}
+
+/// The default job, sampled at 4 ms and without its shaper.
+fn report(changes: &[(&'static str, Value)]) -> Report {
+    let mut all = vec![
+        ("shaper", json!("none")),
+        ("motion.sample_time_s", json!(0.004)),
+        ("uncertainty", json!({ "stiffness_percent": 20, "cutting_percent": 30, "draws": 200 })),
+    ];
+    for (key, value) in changes {
+        all.retain(|(known, _)| known != key);
+        all.push((key, value.clone()));
+    }
+    armill::run(&Job::from_json(&job_text(&all)).unwrap(), &mut Progress::none()).unwrap()
+}
+
+fn online(measures: Measures, times: LoopTimes) -> OnlineLoop {
+    OnlineLoop { measures, times, sensor: Sensor::IDEAL, gain: None }
+}
+
+fn compared(report: &Report, measures: Measures, preset: &str) -> Comparison {
+    compare(report, &online(measures, LoopPreset::named(preset).unwrap().times)).unwrap()
+}
+
+/// Without a loop, the quantiles are those of the band, which looks at its own places: within 2 %.
+#[test]
+fn what_stays_without_a_loop_is_the_band() {
+    let corners = json!({"kind":"polyline","points_mm":[[0,0,0],[70,0,0],[70,40,0],[20,60,10],[0,10,0]]});
+    for changes in [
+        vec![],
+        vec![("shaper", json!({ "kind": "zv", "frequency_rad_s": 18, "damping": 0.1 }))],
+        vec![("path", corners), ("motion.sample_time_s", json!(0.01))],
+    ] {
+        let report = report(&changes);
+        let found = compared(&report, Measures::Force, "kuka-rsi-4");
+        for (ours, band) in [(found.without, report.band.before), (found.offline, report.band.after)] {
+            for (ours, band) in [(ours.p50, band.p50), (ours.p95, band.p95)] {
+                assert!((ours / band - 1.0).abs() < 0.02, "{ours} {band}");
+            }
+        }
+    }
+}
+
+/// A plant without spread, by hand: the report's own errors through the loop, a sample a cycle.
+#[test]
+fn a_known_plant_is_its_own_errors_through_the_loop() {
+    let known = json!({ "stiffness_percent": 0, "cutting_percent": 0, "draws": 100 });
+    let report = report(&[("uncertainty", known), ("compensation.max_passes", json!(0))]);
+    let times = LoopPreset::named("abb-egm").unwrap().times;
+    let found = compare(&report, &online(Measures::Position, times)).unwrap();
+    let mut errors = vec![-report.before.contour_error[0]; 2000];
+    errors.extend(report.before.contour_error.iter().map(|error| -error));
+    let feedback = Feedback::new(&times);
+    let left = fed_back(&feedback, feedback.gain_for_peak(1.7), &Sensor::IDEAL, &errors);
+    let most = left[2000..].iter().fold(0.0_f64, |most, v| most.max(v.norm()));
+    let online = found.online.unwrap();
+    assert!((online.p95 / most - 1.0).abs() < 1e-3, "{} {most}", online.p95);
+    assert_eq!(online.p50.to_bits(), online.p95.to_bits());
+    let before = report.before.statistics.max;
+    assert!((found.without.p95 / before - 1.0).abs() < 1e-3, "{} {before}", found.without.p95);
+}
+
+/// If only the force is unknown and nothing is late, a measured force leaves what the levers that are held still leave.
+#[test]
+fn a_force_that_is_known_at_once_leaves_nothing() {
+    let force = json!({ "stiffness_percent": 0, "cutting_percent": 40, "draws": 100 });
+    let report = report(&[("uncertainty", force)]);
+    let none = LoopTimes { cycle: 0.004, dead_time: 0.0, arm_lag: 0.0, filter: 0.0 };
+    let found = compare(&report, &online(Measures::Force, none)).unwrap();
+    assert!(found.offline.p95 > 0.1 * MM && found.without.p95 > MM);
+    assert!(found.online.unwrap().p95 < 0.01 * found.without.p95, "{:?}", found.online);
+    assert!(found.both.unwrap().p95 < 0.01 * found.offline.p95, "{:?}", found.both);
+}
+
+/// A circle turns slowly: every loop works, a later one less; off line first leaves the loop less to do. What one that is
+/// fed forward cannot know is the arm's stiffness.
+#[test]
+fn loops_help_where_the_error_is_slow() {
+    let report = report(&[]);
+    let mut former = 0.0;
+    for preset in ["kuka-rsi-4", "staubli-4", "abb-egm", "kuka-rsi-12"] {
+        let found = compared(&report, Measures::Position, preset);
+        let (online, both) = (found.online.unwrap().p95, found.both.unwrap().p95);
+        assert!(online > former && online < 0.65 * found.without.p95, "{preset}: {found:?}");
+        assert!(both < online && both < found.offline.p95, "{preset}: {found:?}");
+        // The loop is linear: it leaves the same share of either, but for how fast each changes.
+        let shares = (online / found.without.p95) / (both / found.offline.p95);
+        assert!(shares > 0.4 && shares < 2.5, "{preset}: {shares}");
+        assert!(found.slow_share > 0.95 && found.stable());
+        former = online;
+    }
+    let stiffness = json!({ "stiffness_percent": 40, "cutting_percent": 0, "draws": 100 });
+    let report = self::report(&[("uncertainty", stiffness)]);
+    let found = compared(&report, Measures::Force, "kuka-rsi-4");
+    let (both, offline) = (found.both.unwrap(), found.offline);
+    assert!((both.p95 / offline.p95 - 1.0).abs() < 0.05, "{both:?} {offline:?}");
+}
+
+/// Encoders behind the gears see what the joints do, and not what a slender tool does.
+#[test]
+fn encoders_behind_the_gears_do_not_see_the_tool() {
+    let stiff = report(&[]);
+    let [at_the_joints, at_the_tip] = [Measures::LoadSideAngle, Measures::Position]
+        .map(|measures| compared(&stiff, measures, "kuka-rsi-4"));
+    let (joints, tip) = (at_the_joints.online.unwrap(), at_the_tip.online.unwrap());
+    assert!((joints.p95 / tip.p95 - 1.0).abs() < 0.15, "{joints:?} {tip:?}");
+    let slender = report(&[("tool.bending", json!("cantilever")), ("tool.stickout_mm", json!(90))]);
+    let found = compared(&slender, Measures::LoadSideAngle, "kuka-rsi-4");
+    let tip = compared(&slender, Measures::Position, "kuka-rsi-4");
+    assert!(found.online.unwrap().p95 > 1.3 * tip.online.unwrap().p95, "{found:?} {tip:?}");
+    // Corrected commands know of the nominal bending.
+    assert!(found.both.unwrap().p95 < found.online.unwrap().p95, "{found:?}");
+}
+
+#[test]
+fn loops_that_cannot_be_are_refused_or_said_to_be_unstable() {
+    let report = report(&[]);
+    let times = LoopPreset::named("kuka-rsi-4").unwrap().times;
+    let with = |times: LoopTimes, gain: Option<f64>| {
+        compare(&report, &OnlineLoop { gain, ..online(Measures::Position, times) })
+    };
+    for (field, wrong) in [
+        ("online.cycle_s", LoopTimes { cycle: 0.0, ..times }),
+        ("online.cycle_s", LoopTimes { cycle: f64::NAN, ..times }),
+        ("online.dead_time_s", LoopTimes { dead_time: -0.1, ..times }),
+        ("online.arm_lag_s", LoopTimes { arm_lag: f64::INFINITY, ..times }),
+        ("online.filter_s", LoopTimes { filter: 6.0, ..times }),
+    ] {
+        assert_eq!(with(wrong, None).unwrap_err().field(), Some(field), "{wrong:?}");
+    }
+    for gain in [0.0, -1.0, f64::NAN] {
+        assert_eq!(with(times, Some(gain)).unwrap_err().field(), Some("online.gain"));
+    }
+    let wild = with(times, Some(1.1)).unwrap();
+    assert!(!wild.stable() && wild.online.is_none() && wild.both.is_none() && wild.helps_below.is_none());
+    assert!(wild.summary().verdict.contains("not stable"));
+    assert!(LoopPreset::named("rsi").unwrap_err().to_string().contains("kuka-rsi-12"));
+    assert!(PRESETS.iter().all(|preset| with(preset.times, None).unwrap().stable()));
+}
+
+#[test]
+fn the_script_prints_the_same() {
+    let text = Job::default().to_json();
+    let report = armill::run(&Job::from_json(&text).unwrap(), &mut Progress::none()).unwrap();
+    let expected = compared(&report, Measures::Position, "abb-egm").summary();
+    let script = |arguments: &[&str]| {
+        Command::new(env!("CARGO"))
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .args(["run", "--quiet", "--locked", "--example", "online", "--"])
+            .args(arguments)
+            .output()
+            .unwrap()
+    };
+    let output = script(&["--measures", "position", "--preset", "abb-egm", "--delays", "0.01:0.05:2"]);
+    let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let expected: Value = serde_json::from_str(&serde_json::to_string(&expected).unwrap()).unwrap();
+    assert_eq!(printed["online"], expected);
+    let rows = printed["by_delay"].as_array().unwrap();
+    assert_eq!(rows[1]["online"], printed["online"]["online"]);
+    assert!(rows[0]["both"]["p95"].as_f64() < rows[1]["both"]["p95"].as_f64());
+    for keys in ["without", "offline", "online", "both", "helps_below_hz", "stable"] {
+        assert!(!printed["online"][keys].is_null(), "{keys}");
+    }
+    for wrong in [vec![], vec!["--measures", "heat"], vec!["--measures", "force", "--cycle", "fast"]] {
+        let output = script(&wrong);
+        let said: Value = serde_json::from_slice(&output.stderr).unwrap();
+        assert!(!output.status.success() && said["code"] == "usage", "{said}");
+    }
 }

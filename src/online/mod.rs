@@ -9,15 +9,22 @@
 //! Frequencies f in Hz enter as z = e^(j 2 pi f Ts), with the cycle Ts. Left out: the arm's own modes, which limit a loop at
 //! 8 to 25 Hz, jitter of the cycle, and lost measurements.
 
+pub mod compared;
 mod feed_forward;
 mod feedback;
 mod lag;
+mod preset;
 pub mod simulated;
+pub mod spectrum;
+mod summary;
 
+pub use compared::{Comparison, Measures, OnlineLoop, compare};
 pub use feed_forward::FeedForward;
 pub use feedback::Feedback;
 pub use lag::Lag;
+pub use preset::{LoopPreset, PRESETS};
 pub use simulated::Sensor;
+pub use summary::{LoopError, OnlineSummary};
 
 use crate::math::{self, TAU};
 use nalgebra::Complex;
