@@ -28,7 +28,13 @@ struct Asked {
 fn read(mut arguments: impl Iterator<Item = String>) -> Result<Asked, String> {
     let times = LoopPreset::named("kuka-rsi-4").map_err(|error| error.to_string())?.times;
     let (mut file, mut measures, mut delays) = (None, None, None);
-    let mut asked = OnlineLoop { measures: Measures::Force, times, sensor: Sensor::IDEAL, gain: None };
+    let mut asked = OnlineLoop {
+        measures: Measures::Force,
+        times,
+        sensor: Sensor::IDEAL,
+        gain: None,
+        plants: usize::MAX,
+    };
     while let Some(argument) = arguments.next() {
         if !argument.starts_with('-') {
             if file.replace(argument).is_some() {

@@ -5,7 +5,8 @@ use armill::math::{TAU, cos, sin};
 use armill::online::simulated::{fed_back, fed_forward};
 use armill::online::spectrum::share_below;
 use armill::online::{
-    Comparison, FeedForward, Feedback, LoopPreset, LoopTimes, Measures, OnlineLoop, PRESETS, Sensor, compare,
+    Comparison, EveryLoop, FeedForward, Feedback, LoopPreset, LoopTimes, Measures, OnlineLoop, PRESETS,
+    Sensor, compare,
 };
 use armill::units::MM;
 use armill::{Job, Progress, Report};
@@ -293,7 +294,7 @@ fn report(changes: &[(&'static str, Value)]) -> Report {
 }
 
 fn online(measures: Measures, times: LoopTimes) -> OnlineLoop {
-    OnlineLoop { measures, times, sensor: Sensor::IDEAL, gain: None }
+    OnlineLoop { measures, times, sensor: Sensor::IDEAL, gain: None, plants: usize::MAX }
 }
 
 fn compared(report: &Report, measures: Measures, preset: &str) -> Comparison {
@@ -372,6 +373,35 @@ fn loops_help_where_the_error_is_slow() {
     let found = compared(&report, Measures::Force, "kuka-rsi-4");
     let (both, offline) = (found.both.unwrap(), found.offline);
     assert!((both.p95 / offline.p95 - 1.0).abs() < 0.05, "{both:?} {offline:?}");
+}
+
+/// A few plants that stand evenly among all draws have their quantiles, with a loop and without.
+#[test]
+fn a_few_plants_stand_for_all() {
+    let report = report(&[("uncertainty", json!({ "draws": 2000 }))]);
+    for measures in [Measures::Position, Measures::Force] {
+        let all = online(measures, LoopPreset::named("abb-egm").unwrap().times);
+        let [all, few] =
+            [all, OnlineLoop { plants: 60, ..all }].map(|online| compare(&report, &online).unwrap());
+        for (all, few) in [
+            (all.without, few.without),
+            (all.offline, few.offline),
+            (all.online.unwrap(), few.online.unwrap()),
+            (all.both.unwrap(), few.both.unwrap()),
+        ] {
+            assert!((few.p50 / all.p50 - 1.0).abs() < 0.1, "{measures:?}: {few:?} {all:?}");
+            assert!((few.p95 / all.p95 - 1.0).abs() < 0.1, "{measures:?}: {few:?} {all:?}");
+        }
+    }
+    // Rows are those comparisons.
+    let job = Job::from_json(&job_text(&[("motion.sample_time_s", json!(0.01))])).unwrap();
+    let report = armill::run(&job, &mut Progress::none()).unwrap();
+    let every = EveryLoop::new(&job).unwrap();
+    let row = every.row(every.count() - 1).unwrap();
+    let times = LoopPreset::named(row.preset).unwrap().times;
+    let alone = compare(&report, &OnlineLoop { plants: 60, ..online(row.measures, times) }).unwrap();
+    assert_eq!(row.outcome, alone.summary());
+    assert_eq!((row.measures, every.count()), (Measures::Force, 3 * PRESETS.len()));
 }
 
 /// Encoders behind the gears see what the joints do, and not what a slender tool does.

@@ -10,6 +10,7 @@ use crate::cutting::PartForces;
 use crate::deviation::contour;
 use crate::error::Error;
 use crate::job::Sources;
+use crate::math;
 use crate::online::simulated::{fed_back, fed_forward};
 use crate::online::{FeedForward, Feedback, LoopTimes, Sensor, spectrum};
 use crate::plan::Plan;
@@ -26,6 +27,8 @@ use serde::Serialize;
 const CYCLES: usize = 1_000_000;
 /// The loop settles for so many times its delays before the run begins.
 const SETTLES: f64 = 20.0;
+/// Places that are looked at to find that order.
+const RANKED_BY: usize = 48;
 /// The largest |S| for which the gain is chosen.
 pub const PEAK: f64 = 1.7;
 
@@ -53,6 +56,9 @@ pub struct OnlineLoop {
     pub sensor: Sensor,
     /// Integral gain; without one, that for which the largest |S| is [`PEAK`]. A force is fed forward with the gain 1.
     pub gain: Option<f64>,
+    /// Most plants that are simulated. Of more draws, those are that stand evenly in the order of what they leave without
+    /// a loop, so that its quantiles are those of all.
+    pub plants: usize,
 }
 
 /// The largest contour error [m] over the plants, with and without a loop.
@@ -97,43 +103,53 @@ pub fn compare(report: &Report, online: &OnlineLoop) -> Result<Comparison, Error
         .map(|z| Draw { frequency: 1.0, ..Draw::at(spreads, z) })
         .collect();
     let settles = settling(&online.times);
+    // Where the band is widest, the order of all plants is seen.
+    let few = Track { at: widest(report), ..track };
     let runs = |q: &[Joints], expected: Draw| {
-        let sent = track.sent(plan, q);
-        at_once(draws.len(), |k| {
-            let tips: Vec<Vector3<f64>> = sent.iter().map(|place| place.tip(plan, &draws[k])).collect();
-            let open = track.largest(plan, (&sent, &tips), |_| Vector3::zeros());
-            let closed = acting.is_stable().then(|| {
-                let corrections = match &acting {
-                    Acting::Back { feedback, gain, .. } => {
-                        let seen = match online.measures {
-                            Measures::LoadSideAngle => track.bent_joints(plan, &sent, (&draws[k], &expected)),
-                            _ => track.errors(plan, (&sent, &tips)),
-                        };
-                        let errors = track.cycles(&seen, settles);
-                        let left = fed_back(feedback, *gain, &online.sensor, &errors);
-                        left.iter().zip(&errors).map(|(left, error)| left - error).collect()
-                    }
-                    Acting::Forward(forward) => {
-                        let assumed =
-                            track.cycles(&track.assumed(plan, &sent, (&draws[k], &expected)), settles);
-                        let still = vec![Vector3::zeros(); assumed.len()];
-                        fed_forward(forward, &online.sensor, (&still, &assumed))
-                    }
-                };
-                track.largest(plan, (&sent, &tips), |place| track.at_place(&corrections[settles..], place))
-            });
-            (open, closed)
-        })
+        let [sent, sent_to_few] = [&track, &few].map(|track| track.sent(plan, q));
+        let tips = |sent: &[DrawnPlace], draw: &Draw| -> Vec<Vector3<f64>> {
+            sent.iter().map(|place| place.tip(plan, draw)).collect()
+        };
+        let open = |track: &Track, sent: &[DrawnPlace], draw: &Draw| {
+            track.largest(plan, (sent, &tips(sent, draw)), |_| Vector3::zeros())
+        };
+        let closed = |draw: &Draw| {
+            let tips = tips(&sent, draw);
+            let corrections = match &acting {
+                Acting::Back { feedback, gain, .. } => {
+                    let seen = match online.measures {
+                        Measures::LoadSideAngle => track.bent_joints(plan, &sent, (draw, &expected)),
+                        _ => track.errors(plan, (&sent, &tips)),
+                    };
+                    let errors = track.cycles(&seen, settles);
+                    let left = fed_back(feedback, *gain, &online.sensor, &errors);
+                    left.iter().zip(&errors).map(|(left, error)| left - error).collect()
+                }
+                Acting::Forward(forward) => {
+                    let assumed = track.cycles(&track.assumed(plan, &sent, (draw, &expected)), settles);
+                    let still = vec![Vector3::zeros(); assumed.len()];
+                    fed_forward(forward, &online.sensor, (&still, &assumed))
+                }
+            };
+            track.largest(plan, (&sent, &tips), |place| track.at_place(&corrections[settles..], place))
+        };
+        let without = evenly(&draws, online.plants, |draw| open(&few, &sent_to_few, draw));
+        // Feedback leaves a share of what there is; a force, what it would if it were fed forward at once.
+        let with = match &acting {
+            Acting::Back { .. } => without.clone(),
+            Acting::Forward(_) => evenly(&draws, online.plants, |draw| {
+                let assumed = few.assumed(plan, &sent_to_few, (draw, &expected));
+                few.largest(plan, (&sent_to_few, &tips(&sent_to_few, draw)), |place| -assumed[place])
+            }),
+        };
+        let left = at_once(without.len(), |k| open(&track, &sent, &without[k]));
+        let left_by_loop = acting.is_stable().then(|| at_once(with.len(), |k| closed(&with[k])));
+        (Quantiles::of(left), left_by_loop.map(Quantiles::of))
     };
     // What the correction of the commands takes back already is not fed forward again.
     let no_force = Draw { force: [0.0; 3], ..Draw::NOMINAL };
-    let desired = runs(&report.q, no_force);
-    let kept = runs(&report.compensation.q, Draw::NOMINAL);
-    let quantiles = |runs: &[(f64, Option<f64>)]| {
-        let closed: Option<Vec<f64>> = runs.iter().map(|(_, closed)| *closed).collect();
-        (Quantiles::of(runs.iter().map(|(open, _)| *open).collect()), closed.map(Quantiles::of))
-    };
-    let ((without, online_alone), (offline, both)) = (quantiles(&desired), quantiles(&kept));
+    let (without, online_alone) = runs(&report.q, no_force);
+    let (offline, both) = runs(&report.compensation.q, Draw::NOMINAL);
     let sent = track.sent(plan, &report.q);
     let tips: Vec<Vector3<f64>> = sent.iter().map(|place| place.tip(plan, &Draw::NOMINAL)).collect();
     let nominal = track.errors(plan, (&sent, &tips));
@@ -303,6 +319,27 @@ fn between(series: &[Vector3<f64>], place: f64) -> Vector3<f64> {
     let place = place.min(last as f64);
     let below = (place.floor() as usize).min(last);
     series[below].lerp(&series[(below + 1).min(last)], place - below as f64)
+}
+
+/// The samples where the band is widest, and as many all along, rising.
+fn widest(report: &Report) -> Vec<usize> {
+    let band = &report.band;
+    let widest = math::rising(0..band.samples.len(), |place| -band.p95[*place]);
+    let along = (0..band.samples.len()).step_by(band.samples.len().div_ceil(RANKED_BY / 2));
+    let places = widest.into_iter().take(RANKED_BY / 2).chain(along).map(|place| band.samples[place]);
+    let mut at = math::rising(places, |sample| *sample as f64);
+    at.dedup();
+    at
+}
+
+/// At most `count` of the draws, evenly spread in the order of their sizes.
+fn evenly(draws: &[Draw], count: usize, size: impl Fn(&Draw) -> f64) -> Vec<Draw> {
+    if draws.len() <= count {
+        return draws.to_vec();
+    }
+    let sizes: Vec<f64> = draws.iter().map(size).collect();
+    let order = math::rising(0..draws.len(), |k| sizes[*k]);
+    (0..count).map(|k| draws[order[(2 * k + 1) * order.len() / (2 * count)]]).collect()
 }
 
 /// Cycles until the loop has settled.

@@ -10,6 +10,7 @@
 //! 8 to 25 Hz, jitter of the cycle, and lost measurements.
 
 pub mod compared;
+mod every;
 mod feed_forward;
 mod feedback;
 mod lag;
@@ -19,6 +20,7 @@ pub mod spectrum;
 mod summary;
 
 pub use compared::{Comparison, Measures, OnlineLoop, compare};
+pub use every::{EveryLoop, LoopRow};
 pub use feed_forward::FeedForward;
 pub use feedback::Feedback;
 pub use lag::Lag;

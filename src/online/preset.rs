@@ -24,25 +24,25 @@ const fn times(cycle: f64, dead_time: f64) -> LoopTimes {
 pub const PRESETS: [LoopPreset; 4] = [
     LoopPreset {
         id: "kuka-rsi-4",
-        name: "KUKA RSI, 4 ms",
+        name: "KUKA RSI 4 ms",
         times: times(0.004, 0.008),
         source: "Cycle of IPO_FAST; a dead time of two cycles is assumed. Measure yours",
     },
     LoopPreset {
         id: "kuka-rsi-12",
-        name: "KUKA RSI, 12 ms",
+        name: "KUKA RSI 12 ms",
         times: times(0.012, 0.12),
         source: "120 ms from command to motion measured with RSI 2 (kuka_experimental, issues 71 and 132)",
     },
     LoopPreset {
         id: "abb-egm",
-        name: "ABB EGM, 4 ms",
+        name: "ABB EGM 4 ms",
         times: times(0.004, 0.05),
         source: "Dead time of 50 ms, 40 to 80 ms in all, as users report (abb_libegm, issues 49, 111 and 131)",
     },
     LoopPreset {
         id: "staubli-4",
-        name: "Stäubli, 4 ms",
+        name: "Stäubli 4 ms",
         times: times(0.004, 0.02),
         source: "Cycle of the controller; a dead time of five cycles is assumed. Measure yours",
     },

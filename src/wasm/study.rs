@@ -1,5 +1,6 @@
 //! Questions about a job. Ranges and questions are texts, the same as on the script's command line.
 
+use crate::online::EveryLoop;
 use crate::study::{
     self, ErrorMeasure, EveryChoice, EveryRobot, LargestQuestion, PartPlace, Sweep, Variation,
 };
@@ -32,11 +33,18 @@ export interface LargestAnswer {
   holds: "nowhere" | "partly" | "everywhere"; crossings: number[]; at_largest?: StudyOutcome; runs: number;
   wanted?: number[];
 }
+export interface LoopError { p50: number; p95: number; }
+/** Largest contour errors [mm] with a loop on top of the path; `verdict` says them in words. */
+export interface LoopRow {
+  measures: "position" | "load-side-angle" | "force"; preset: string; name: string; cannot_run?: string;
+  without: LoopError; offline: LoopError; online?: LoopError; both?: LoopError;
+  helps_below_hz?: number; slow_share: number; stable: boolean; gain: number; largest_stable_gain?: number; verdict: string;
+}
 export interface TornadoBar {
   input: string; factors: [number, number]; after_mm: [number, number]; before_mm: [number, number];
 }
 export interface Tornado { after_mm: number; before_mm: number; bars: TornadoBar[]; }
-export type StudyRow = SweepRow | RobotRow | ChoiceRow;
+export type StudyRow = SweepRow | RobotRow | ChoiceRow | LoopRow;
 "#;
 
 /// A question whose answer is many runs, each by itself: Workers share them among each other.
@@ -51,6 +59,7 @@ enum Runs {
     Sweep(Sweep),
     Robots(EveryRobot),
     Choices(EveryChoice),
+    Loops(Box<EveryLoop>),
 }
 
 #[wasm_bindgen]
@@ -85,12 +94,19 @@ impl Study {
         Ok(Study::of(Runs::Choices(EveryChoice::new(&job))))
     }
 
+    /// A job with every sensor and controller of a loop on top of the path. Throws an error if it cannot be computed.
+    pub fn loops(json: &str) -> Result<Study, JsValue> {
+        let of = || Ok(Runs::Loops(Box::new(EveryLoop::new(&Job::from_json(json)?)?)));
+        of().map(Study::of).map_err(|error: Error| thrown(&error))
+    }
+
     /// Number of runs.
     pub fn count(&self) -> usize {
         match &self.runs {
             Runs::Sweep(sweep) => sweep.count(),
             Runs::Robots(robots) => robots.count(),
             Runs::Choices(choices) => choices.count(),
+            Runs::Loops(loops) => loops.count(),
         }
     }
 
@@ -104,6 +120,7 @@ impl Study {
             Runs::Sweep(sweep) => object(&sweep.row(index)),
             Runs::Robots(robots) => object(&robots.row(index)),
             Runs::Choices(choices) => object(&choices.row(index)),
+            Runs::Loops(loops) => object(&loops.row(index).map_err(|error| thrown(&error))?),
         }
     }
 

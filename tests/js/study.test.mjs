@@ -21,6 +21,7 @@ test("every question comes back from its text", () => {
     { kind: "choices" },
     { kind: "tornado" },
     { kind: "measures" },
+    { kind: "loops" },
   ]) {
     assert.deepEqual(read(written(question)), question);
     assert.deepEqual(askedIn(`#job=2.abc&view=compare&ask=${encodeURIComponent(written(question))}`), question);

@@ -22,6 +22,7 @@ const studies = [
   armill.Study.robots(coarse, "sought"),
   armill.Study.sweep(coarse, ["shaper.kind=zv,ei", "start_branch.elbow=all"]),
   armill.Study.choices(coarse),
+  armill.Study.loops(coarse),
 ];
 const curves = new armill.StudyCurves(
   "Axial depth",

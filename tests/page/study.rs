@@ -3,6 +3,7 @@
 use crate::browser::{DESKTOP, PHONE, Page, Result, THESIS, visit};
 use crate::common::job_text;
 use crate::{current, narrow, number, text};
+use armill::online::EveryLoop;
 use armill::study::{
     ErrorMeasure, EveryRobot, LargestQuestion, PartPlace, Variation, choices, sweep, tornado,
 };
@@ -148,8 +149,22 @@ fn a_link_asks_again_and_other_questions_are_the_script_s() -> Result {
         assert_eq!(shown, bars.iter().map(|bar| Some(bar.after_mm[1])).collect::<Vec<_>>());
         page.click("[data-question=measures]").await?;
         answered(page, "M").await?;
+        page.click("[data-question=loops]").await?;
+        page.wait_for("document.querySelectorAll('.answer-table tbody tr').length === 12", 120.0).await?;
+        page.wait_for("document.querySelector('#study-cancel').hidden", 10.0).await?;
+        let said = answered(page, "The arm cannot run this").await?;
+        assert!(said.contains("With a sensor as well, at best"), "{said}");
+        let every = EveryLoop::new(&job)?;
+        let native: Vec<_> =
+            (0..every.count()).map(|index| every.row(index)).collect::<std::result::Result<_, _>>()?;
+        let shown: Vec<Option<f64>> = column(page, 4).await?.into_iter().map(|(_, value)| value).collect();
+        assert_eq!(
+            shown,
+            native.iter().map(|row| row.outcome.both.map(|error| error.p95)).collect::<Vec<_>>()
+        );
+        narrow(page, "loops").await?;
         page.click("[data-question=choices]").await?;
-        page.wait_for("document.querySelectorAll('.answer-table tbody tr').length > 10", 120.0).await?;
+        page.wait_for("document.querySelectorAll('.answer-table tbody tr').length > 12", 120.0).await?;
         page.wait_for("document.querySelector('#study-cancel').hidden", 10.0).await?;
         let least = choices(&job)
             .into_iter()

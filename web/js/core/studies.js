@@ -5,7 +5,7 @@
 /**
  * A question of many runs: its texts are those of the script's command line.
  *
- * @typedef {{ kind: "sweep" | "robots" | "choices", json: string, texts: string[] }} Runs
+ * @typedef {{ kind: "sweep" | "robots" | "choices" | "loops", json: string, texts: string[] }} Runs
  */
 
 /**

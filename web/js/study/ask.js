@@ -4,7 +4,7 @@ import { shareOut } from "../core/pool.js";
 import { largestText, rangeText } from "./question.js";
 
 /**
- * @import { ChoiceRow, LargestAnswer, RobotRow, StudyOutcome, Summary, SweepRow, Tornado } from "../../pkg/armill.js"
+ * @import { ChoiceRow, LargestAnswer, LoopRow, RobotRow, StudyOutcome, Summary, SweepRow, Tornado } from "../../pkg/armill.js"
  * @import { Runs } from "../core/studies.js"
  * @import { Largest, Measure, Question } from "./question.js"
  */
@@ -16,7 +16,7 @@ const SEARCHED = 13; // runs that a search for the largest value usually takes
 /**
  * @typedef {{
  *   rows?: SweepRow[], largest?: LargestAnswer, robots?: RobotRow[], choices?: ChoiceRow[], tornado?: Tornado,
- *   measures?: Measurements, now?: number,
+ *   loops?: LoopRow[], measures?: Measurements, now?: number,
  * }} Answer `now` is what 95 of 100 cases leave at most before anything is measured [mm]
  */
 
@@ -41,6 +41,7 @@ export async function answer(question, json, onprogress, signal) {
   if (question.kind === "sweep") return { rows: await runs("sweep", question.ranges.map(rangeText)) };
   if (question.kind === "robots") return { robots: await runs("robots", [question.place]) };
   if (question.kind === "choices") return { choices: await runs("choices", []) };
+  if (question.kind === "loops") return { loops: await runs("loops", []) };
   if (question.kind === "tornado") return { tornado: await alone("tornado", json) };
   if (question.kind === "measures") {
     const { how_sure, expected_mm } = await alone("hold", "measures", json);

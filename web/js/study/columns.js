@@ -4,10 +4,10 @@ import { shownUnit, shownValue } from "../form/shown.js";
 import { formatNumber } from "../page/number.js";
 import { forceText, forceUnit, inLength, lengthText, lengthUnit } from "../page/units.js";
 import { taken } from "./pictures.js";
-import { INPUTS } from "./words.js";
+import { INPUTS, SENSORS, shareText } from "./words.js";
 
 /**
- * @import { Field, StudyOutcome } from "../../pkg/armill.js"
+ * @import { Field, LoopRow, StudyOutcome } from "../../pkg/armill.js"
  * @import { Answer } from "./ask.js"
  * @import { Place, Question } from "./question.js"
  */
@@ -153,6 +153,7 @@ export function listed(question, answer, fields) {
       rows: answer.choices ?? [],
       columns: [{ key: "choice", label: "Choice", of: ({ label }) => label }, ...errors(), verdict()],
     };
+  if (question.kind === "loops") return { rows: answer.loops ?? [], columns: loopColumns() };
   if (question.kind === "tornado") return { rows: answer.tornado?.bars ?? [], columns: tornadoColumns() };
   if (question.kind === "measures")
     return {
@@ -165,6 +166,31 @@ export function listed(question, answer, fields) {
   const numbers = fields.map((field, k) => numberColumn(field, k ? "second" : "value", k ? "second" : "value"));
   return { rows: answer.rows ?? [], columns: [...numbers, ...errors(), verdict()] };
 }
+
+/** @returns {Column[]} */
+const loopColumns = () => [
+  { key: "sensor", label: "Measured", of: (/** @type {LoopRow} */ { measures }) => SENSORS[measures] },
+  { key: "controller", label: "Controller", of: ({ name }) => name },
+  lengthColumn("online", "Loop alone, 95 of 100", (row) => row.online?.p95),
+  lengthColumn("p50", "Loop and corrected commands, 50 of 100", (row) => row.both?.p50),
+  lengthColumn("p95", "95 of 100", (row) => row.both?.p95),
+  {
+    key: "helps",
+    label: "Helps below",
+    unit: "Hz",
+    of: ({ helps_below_hz }) => helps_below_hz,
+    text: ({ helps_below_hz }) => textOf(helps_below_hz, (hertz) => formatNumber(hertz, 2)),
+    digits: true,
+  },
+  {
+    key: "slow",
+    label: "Error that lies there",
+    unit: "%",
+    of: ({ slow_share }) => 100 * slow_share,
+    text: ({ slow_share }) => shareText(slow_share),
+    digits: true,
+  },
+];
 
 /** @returns {Column[]} */
 const tornadoColumns = () => [

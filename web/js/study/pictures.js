@@ -27,6 +27,9 @@ const MEASURED = {
   pass: "A milled pass",
 };
 
+/** @type {Record<string, string>} what a loop measures, where there is little room */
+const SEEN = { position: "Tool", "load-side-angle": "Joints", force: "Force" };
+
 /**
  * @param {number} from
  * @param {number} to
@@ -54,6 +57,13 @@ export function pictureOf(question, answer, fields, { tolerance, valueAt }) {
   if (question.kind === "choices") {
     const cases = first(answer.choices ?? []).map((row) => bandOf(row, row.label));
     return intervals(title, EXPECTED, tolerance, cases);
+  }
+  if (question.kind === "loops") {
+    const cases = (answer.loops ?? []).map(({ measures, name, both }) => ({
+      name: `${SEEN[measures]}, ${name}`,
+      range: ends(both?.p50 ?? NaN, both?.p95 ?? NaN),
+    }));
+    return intervals(`${title}, with corrected commands`, EXPECTED, tolerance, cases, answer.loops?.[0]?.offline.p95);
   }
   if (question.kind === "tornado") {
     const { bars = [], after_mm = NaN } = answer.tornado ?? {};

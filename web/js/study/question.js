@@ -15,7 +15,7 @@
  * @typedef {{ kind: "largest", path: string, from: number, to: number, measure: Measure }} Largest
  * @typedef {{ kind: "sweep", ranges: Range[] }} Sweep
  * @typedef {{ kind: "robots", place: Place }} Robots
- * @typedef {{ kind: "choices" } | { kind: "tornado" } | { kind: "measures" }} Plain
+ * @typedef {{ kind: "choices" } | { kind: "tornado" } | { kind: "measures" } | { kind: "loops" }} Plain
  * @typedef {Largest | Sweep | Robots | Plain} Question
  */
 
@@ -46,7 +46,7 @@ export const LIMITED = [
   "motion.force_n",
 ];
 
-const PLAIN = ["choices", "tornado", "measures"];
+const PLAIN = ["choices", "tornado", "measures", "loops"];
 const RANGE = /^([\w.]+)=([^:]+):([^:]+)(?::(\d+)(:log)?)?$/;
 
 /**

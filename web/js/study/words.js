@@ -1,11 +1,12 @@
 // Answers in words.
 
 import { choiceLabel, quantity } from "../form/field-text.js";
+import { formatNumber } from "../page/number.js";
 import { lengthText, lengthUnit } from "../page/units.js";
 import { MEASURES } from "./question.js";
 
 /**
- * @import { ChoiceRow, Field, LargestAnswer, RobotRow, StudyOutcome, SweepRow, Tornado } from "../../pkg/armill.js"
+ * @import { ChoiceRow, Field, LargestAnswer, LoopRow, RobotRow, StudyOutcome, SweepRow, Tornado } from "../../pkg/armill.js"
  * @import { Answer, Measurements } from "./ask.js"
  * @import { Measure, Question } from "./question.js"
  */
@@ -24,6 +25,9 @@ export const INPUTS = {
   frequency: "Frequency of the filter",
 };
 
+/** @type {Record<LoopRow["measures"], string>} what a loop measures */
+export const SENSORS = { position: "Position of the tool", "load-side-angle": "Angles of the joints", force: "Force" };
+
 /** @type {Record<Measure, string>} */
 const MEANT = {
   p95: "the error after compensation, in 95 of 100 cases,",
@@ -41,10 +45,12 @@ const length = (mm) => `${lengthText(mm)} ${lengthUnit()}`;
  * @param {Field[]} fields
  */
 export function sentenceOf(question, answer, fields) {
-  const { rows = [] } = answer;
+  const { loops = [] } = answer;
+  const { rows = loops } = /** @type {{ rows?: { cannot_run?: string }[] }} */ (answer);
   const why = rows.length > 0 && rows.every(({ cannot_run }) => cannot_run) ? rows[0].cannot_run : undefined;
-  const first = why ? `The arm cannot run this at any of these values: ${why}. If it could: ` : "";
-  return first + ofNumbers(question, answer, fields, rows);
+  const where = question.kind === "loops" ? "this" : "this at any of these values";
+  const first = why ? `The arm cannot run ${where}: ${why}. If it could: ` : "";
+  return first + ofNumbers(question, answer, fields, answer.rows ?? []);
 }
 
 /**
@@ -60,6 +66,7 @@ function ofNumbers(question, answer, fields, rows) {
   if (answer.largest) return ofLargest(answer.largest, fields[0], question);
   if (answer.robots) return ofRobots(answer.robots);
   if (answer.choices) return ofChoices(answer.choices);
+  if (answer.loops) return ofLoops(answer.loops);
   if (answer.tornado) return ofTornado(answer.tornado);
   if (answer.measures) return ofMeasures(answer.measures);
   return ofSweep(rows, fields);
@@ -145,6 +152,26 @@ function ofTornado({ after_mm, bars }) {
   );
 }
 
+/** @param {LoopRow[]} loops */
+function ofLoops(loops) {
+  const [{ without, offline }] = loops;
+  /** @param {LoopRow} row */
+  const left = ({ both }) => both?.p95 ?? Infinity;
+  const best = loops.reduce((least, row) => (left(row) < left(least) ? row : least));
+  const now = `95 of 100 cases have at most ${length(without.p95)} if nothing corrects, ${length(offline.p95)} with corrected commands.`;
+  if (!(left(best) < offline.p95)) return `${now} No sensor would bring more.`;
+  return (
+    `${now} With a sensor as well, at best about ${length(Number(left(best).toPrecision(2)))}: ${SENSORS[best.measures].toLowerCase()}, ${best.name}. ` +
+    `It helps below ${formatNumber(best.helps_below_hz ?? NaN, 2)} Hz; ${shareText(best.slow_share)} % of this error lies there.`
+  );
+}
+
+/**
+ * A share in percent; nearly all is not all.
+ * @param {number} share
+ */
+export const shareText = (share) => (share > 0.99 ? "more than 99" : formatNumber(100 * share, 2));
+
 /** @param {Measurements} measures */
 const ofMeasures = (measures) => measures[0]?.sentence ?? "Nothing that could be measured would narrow the band.";
 
@@ -201,5 +228,6 @@ export function titleOf(question, fields) {
     choices: "Choices of the programmer",
     tornado: "What each uncertain input does",
     measures: "What to measure first",
+    loops: "What a sensor would bring while the arm mills",
   }[question.kind];
 }

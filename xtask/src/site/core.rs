@@ -26,7 +26,7 @@ pub(crate) const MODULE: &str = "armill_bg.wasm";
 /// coupling, the feed rule, the surface left, the questions with their charts and the part on the map it has 2,191,000 and
 /// 899,000; these are 1 % more.
 /// Raise them only with a reason in CHANGELOG.md.
-pub(super) const LIMITS: [usize; 2] = [2_215_000, 908_000];
+pub(super) const LIMITS: [usize; 2] = [2_230_000, 914_000];
 
 /// Makes the core in `package` from the sources in `root`: `folder` gets the module, its JavaScript
 /// side and their types.
