@@ -10,6 +10,8 @@
 //! 8 to 25 Hz, jitter of the cycle, and lost measurements.
 
 pub mod compared;
+mod cycles;
+mod drawn_run;
 mod every;
 mod feed_forward;
 mod feedback;
