@@ -182,6 +182,8 @@ fn settled_results_are_announced_once() -> Result {
             page.wait_for("document.getElementById('announced').textContent", 20.0).await?;
             page.js(LISTEN).await?;
             for slid in [false, true] {
+                // What a program is worth comes last, and late on a busy machine.
+                page.wait_for("document.getElementById('as-program').textContent", 60.0).await?;
                 page.js("return new Promise(done => setTimeout(done, 2000))").await?;
                 page.js("document.getElementById('group-motion').open = true; window.said = []; \
                      document.querySelector('#motion-feed_mm_s').focus()")
