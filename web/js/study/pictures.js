@@ -73,7 +73,7 @@ export function pictureOf(question, answer, fields, { tolerance, valueAt }) {
   if (question.kind === "measures") {
     const { measures = [], now = NaN } = answer;
     const cases = measures.map(({ input, p95_mm }) => ({ name: MEASURED[input], range: ends(p95_mm, now) }));
-    return intervals(title, "Error in 95 of 100 cases, then and now", tolerance, cases);
+    return intervals(title, "95 of 100 cases, then and now", tolerance, cases);
   }
   const all = answer.rows ?? [];
   if (question.kind !== "sweep" || !all.length) return undefined;
