@@ -48,8 +48,7 @@ impl ValueRange {
             [from, to, count, "log"] => (from, to, count, true),
             _ => return Err(wrong()),
         };
-        let number =
-            |text: &str| text.parse::<f64>().ok().filter(|number| number.is_finite()).ok_or_else(wrong);
+        let number = |text: &str| finite(text).ok_or_else(wrong);
         let count: usize = count.parse().map_err(|_| wrong())?;
         Self { path: path.to_owned(), from: number(from)?, to: number(to)?, count, logarithmic }.checked()
     }

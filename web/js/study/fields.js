@@ -32,7 +32,9 @@ const KINDS = {
   tornado: { button: "What matters most?", help: "Each uncertain input alone, over its own range." },
   loops: {
     button: "What would a sensor bring?",
-    help: "A force, the tool’s position or the joints’ angles, measured while the arm mills, and corrected every cycle; the times of the controllers are in the documentation.",
+    help:
+      "A force, the tool’s position or the joints’ angles, measured while the arm mills, and corrected every cycle; " +
+      "the times of the controllers are in the documentation.",
   },
   measures: { button: "What to measure?", help: "What each measurement would do to the band." },
 };

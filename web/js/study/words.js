@@ -158,10 +158,13 @@ function ofLoops(loops) {
   /** @param {LoopRow} row */
   const left = ({ both }) => both?.p95 ?? Infinity;
   const best = loops.reduce((least, row) => (left(row) < left(least) ? row : least));
-  const now = `95 of 100 cases have at most ${length(without.p95)} if nothing corrects, ${length(offline.p95)} with corrected commands.`;
+  const now =
+    `95 of 100 cases have at most ${length(without.p95)} if nothing corrects, ` +
+    `${length(offline.p95)} with corrected commands.`;
   if (!(left(best) < offline.p95)) return `${now} No sensor would bring more.`;
+  const least = `${length(Number(left(best).toPrecision(2)))}: ${SENSORS[best.measures].toLowerCase()}, ${best.name}`;
   return (
-    `${now} With a sensor as well, at best about ${length(Number(left(best).toPrecision(2)))}: ${SENSORS[best.measures].toLowerCase()}, ${best.name}. ` +
+    `${now} With a sensor as well, at best about ${least}. ` +
     `It helps below ${formatNumber(best.helps_below_hz ?? NaN, 2)} Hz; ${shareText(best.slow_share)} % of this error lies there.`
   );
 }
