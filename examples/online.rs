@@ -1,128 +1,145 @@
 //! What a loop on top of the path would bring for a job (the default job without a file): a sensor measures force or
-//! position, and the controller corrects the arm every cycle. Prints one JSON object.
+//! position, and the controller corrects the arm every cycle. Prints one JSON object. Options change the job's own loop, if
+//! it has one.
 //!
 //! ```sh
 //! cargo run --release --example online -- [job.json] --measures force|position|load-side-angle --preset kuka-rsi-4
 //! cargo run --release --example online -- [job.json] --measures position --cycle 0.004 --dead-time 0.03 --arm-lag 0.02
-//!     [--delays 0:0.2:9] [--filter 0.01] [--gain 0.1] [--noise-mm 0.01] [--resolution-mm 0.01] [--largest-correction-mm 5] [--seed 1]
+//!     [--sensor tracker|camera] [--delays 0:0.2:9] [--filter 0.01] [--gain 0.1] [--noise-mm 0.01] [--resolution-mm 0.01] [--largest-correction-mm 5] [--seed 1]
 //! ```
 
-use armill::online::{LoopPreset, LoopTimes, Measures, OnlineLoop, OnlineSummary, Sensor, compare};
+use armill::online::{Comparison, LoopPreset, Measures, OnlineLoop, OnlineSummary, Sensor, SensorPreset};
 use armill::study::ValueRange;
 use armill::units::MM;
 use armill::{Error, Job, Progress};
 use serde_json::{Value, json};
 use std::process::ExitCode;
 
-const USAGE: &str = "online [job.json] --measures force|position|load-side-angle [--preset kuka-rsi-4|kuka-rsi-12|abb-egm|staubli-4] \
+const USAGE: &str = "online [job.json] --measures force|position|load-side-angle [--preset kuka-rsi-4|kuka-rsi-12|abb-egm|staubli-4] [--sensor tracker|camera] \
                      [--cycle s] [--dead-time s] [--arm-lag s] [--filter s] [--delays from:to:count] [--gain number] [--noise-mm mm] \
                      [--resolution-mm mm] [--largest-correction-mm mm] [--seed number]";
 
-/// What is asked on the command line: the job's file, the loop, and dead times to compare.
+/// What is asked on the command line: the loop, changed option by option from that of the job, and dead times to compare.
 struct Asked {
-    file: Option<String>,
     online: OnlineLoop,
     delays: Option<ValueRange>,
 }
 
-fn read(mut arguments: impl Iterator<Item = String>) -> Result<Asked, String> {
-    let times = LoopPreset::named("kuka-rsi-4").map_err(|error| error.to_string())?.times;
-    let (mut file, mut measures, mut delays) = (None, None, None);
-    let mut asked = OnlineLoop {
-        measures: Measures::Force,
-        times,
-        sensor: Sensor::IDEAL,
-        gain: None,
-        plants: usize::MAX,
-    };
+/// The file that is named, and the options with their values.
+fn sorted(mut arguments: impl Iterator<Item = String>) -> Result<(Option<String>, Vec<[String; 2]>), String> {
+    let (mut file, mut options) = (None, Vec::new());
     while let Some(argument) = arguments.next() {
-        if !argument.starts_with('-') {
-            if file.replace(argument).is_some() {
-                return Err("one job file at a time".into());
-            }
-            continue;
+        if argument.starts_with('-') {
+            let value = arguments.next().ok_or(format!("{argument} needs a value"))?;
+            options.push([argument, value]);
+        } else if file.replace(argument).is_some() {
+            return Err("one job file at a time".into());
         }
-        let value = arguments.next().ok_or(format!("{argument} needs a value"))?;
+    }
+    Ok((file, options))
+}
+
+impl Asked {
+    fn of(options: &[[String; 2]], of_job: Option<OnlineLoop>) -> Result<Self, String> {
+        let times = LoopPreset::named("kuka-rsi-4").map_err(|error| error.to_string())?.times;
+        let measures = Measures::Force;
+        let plain = OnlineLoop { measures, times, sensor: Sensor::IDEAL, gain: None, plants: 0 };
+        let online = OnlineLoop { plants: usize::MAX, ..of_job.unwrap_or(plain) };
+        let mut asked = Self { online, delays: None };
+        if of_job.is_none() && !options.iter().any(|[option, _]| option == "--measures") {
+            return Err("--measures force, position or load-side-angle?".into());
+        }
+        options.iter().try_for_each(|[option, value]| asked.set(option, value))?;
+        Ok(asked)
+    }
+
+    fn set(&mut self, option: &str, value: &str) -> Result<(), String> {
         let number = || {
             let number = value.parse::<f64>().ok().filter(|number| number.is_finite());
-            number.ok_or(format!("{argument} needs a number, not {value}"))
+            number.ok_or(format!("{option} needs a number, not {value}"))
         };
         let length = || {
             number().and_then(|mm| {
-                if mm >= 0.0 { Ok(mm * MM) } else { Err(format!("{argument}: {value}, not negative")) }
+                if mm >= 0.0 { Ok(mm * MM) } else { Err(format!("{option}: {value}, not negative")) }
             })
         };
-        let OnlineLoop { times: LoopTimes { cycle, dead_time, arm_lag, filter }, sensor, gain, .. } =
-            &mut asked;
-        match argument.as_str() {
+        let OnlineLoop { measures, times, sensor, gain, .. } = &mut self.online;
+        match option {
             "--measures" => {
-                measures = Some(match value.as_str() {
+                *measures = match value {
                     "force" => Measures::Force,
                     "position" => Measures::Position,
                     "load-side-angle" => Measures::LoadSideAngle,
                     _ => {
                         return Err(format!(
-                            "--measures needs force, position or load-side-angle, not {value}"
+                            "{option} needs force, position or load-side-angle, not {value}"
                         ));
                     }
-                });
+                }
             }
-            "--preset" => {
-                let known = LoopPreset::named(&value).map_err(|error| error.to_string())?.times;
-                asked.times = known;
+            "--preset" => *times = LoopPreset::named(value).map_err(|error| error.to_string())?.times,
+            "--sensor" => {
+                SensorPreset::named(value).map_err(|error| error.to_string())?.put_on(&mut self.online);
             }
             "--delays" => {
                 let range = ValueRange::read(&format!("delays={value}"));
-                delays = Some(range.map_err(|error| error.to_string())?);
+                self.delays = Some(range.map_err(|error| error.to_string())?);
             }
-            "--cycle" => *cycle = number()?,
-            "--dead-time" => *dead_time = number()?,
-            "--arm-lag" => *arm_lag = number()?,
-            "--filter" => *filter = number()?,
+            "--cycle" => times.cycle = number()?,
+            "--dead-time" => times.dead_time = number()?,
+            "--arm-lag" => times.arm_lag = number()?,
+            "--filter" => times.filter = number()?,
             "--gain" => *gain = Some(number()?),
             "--noise-mm" => sensor.noise = length()?,
             "--resolution-mm" => sensor.resolution = length()?,
             "--largest-correction-mm" => sensor.largest_correction = length()?,
             "--seed" => {
                 sensor.seed =
-                    value.parse().map_err(|_| format!("--seed needs a whole number, not {value}"))?
+                    value.parse().map_err(|_| format!("{option} needs a whole number, not {value}"))?
             }
             other => return Err(format!("unknown option {other}")),
         }
+        Ok(())
     }
-    asked.measures = measures.ok_or("--measures force, position or load-side-angle?")?;
-    Ok(Asked { file, online: asked, delays })
-}
 
-fn answer(text: &str, Asked { online, delays, .. }: &Asked) -> Result<Value, Error> {
-    let report = armill::run(&Job::from_json(text)?, &mut Progress::none())?;
-    let mut answer = json!({ "online": compare(&report, online)?.summary() });
-    if let Some(delays) = delays {
-        let row = |index: usize| -> Result<Value, Error> {
-            let dead_time = delays.at(index);
-            let times = LoopTimes { dead_time, ..online.times };
-            let OnlineSummary { online, both, helps_below_hz, .. } =
-                compare(&report, &OnlineLoop { times, ..*online })?.summary();
-            Ok(json!({
-                "dead_time_s": dead_time, "online": online, "both": both, "helps_below_hz": helps_below_hz,
-            }))
-        };
-        answer["by_delay"] = json!((0..delays.count).map(row).collect::<Result<Vec<_>, _>>()?);
+    fn answer(&self, job: &Job) -> Result<Value, Error> {
+        let Self { online, delays } = self;
+        let report = armill::run(job, &mut Progress::none())?;
+        let run = report.looped();
+        let mut answer = json!({ "online": run.with(online)?.summary() });
+        if let Some(delays) = delays {
+            let dead_times: Vec<f64> = (0..delays.count).map(|index| delays.at(index)).collect();
+            let row = |(dead_time, compared): (&f64, Comparison)| {
+                let OnlineSummary { online, both, helps_below_hz, .. } = compared.summary();
+                json!({ "dead_time_s": dead_time, "online": online, "both": both, "helps_below_hz": helps_below_hz })
+            };
+            let compared = run.by_dead_time(online, &dead_times)?;
+            answer["by_delay"] = dead_times.iter().zip(compared).map(row).collect();
+        }
+        Ok(answer)
     }
-    Ok(answer)
 }
 
 fn main() -> ExitCode {
-    let asked = match read(std::env::args().skip(1)) {
+    let (file, options) = match sorted(std::env::args().skip(1)) {
+        Ok(sorted) => sorted,
+        Err(message) => return usage(&message),
+    };
+    let text = match file.as_deref().map(std::fs::read_to_string) {
+        None => Job::default().to_json(),
+        Some(Ok(text)) => text,
+        Some(Err(error)) => return usage(&format!("{}: {error}", file.unwrap_or_default())),
+    };
+    let job = Job::from_json(&text).and_then(|job| Ok((OnlineLoop::of(&job)?, job)));
+    let (of_job, job) = match job {
+        Ok(job) => job,
+        Err(error) => return failed(&error),
+    };
+    let asked = match Asked::of(&options, of_job) {
         Ok(asked) => asked,
         Err(message) => return usage(&message),
     };
-    let text = match asked.file.as_deref().map(std::fs::read_to_string) {
-        None => Job::default().to_json(),
-        Some(Ok(text)) => text,
-        Some(Err(error)) => return usage(&format!("{}: {error}", asked.file.unwrap_or_default())),
-    };
-    match answer(&text, &asked) {
+    match asked.answer(&job) {
         Ok(answer) => {
             use std::io::Write;
             // A reader that closed the pipe early (`| head`) is not an error.
@@ -130,11 +147,13 @@ fn main() -> ExitCode {
                 writeln!(std::io::stdout(), "{}", serde_json::to_string_pretty(&answer).unwrap_or_default());
             ExitCode::SUCCESS
         }
-        Err(error) => {
-            eprintln!("{}", json!(error));
-            ExitCode::FAILURE
-        }
+        Err(error) => failed(&error),
     }
+}
+
+fn failed(error: &Error) -> ExitCode {
+    eprintln!("{}", json!(error));
+    ExitCode::FAILURE
 }
 
 fn usage(message: &str) -> ExitCode {

@@ -535,6 +535,7 @@ fn every_chart_draws() {
         vec![],
         vec![("shaper", json!("none")), ("cutting.axial_depth_mm", json!(0))],
         vec![("shaper", json!("none")), ("stock", in_stock)],
+        vec![("online", json!({"measures": "position"}))],
     ];
     for changes in jobs {
         let report = run(&changes);
@@ -545,8 +546,15 @@ fn every_chart_draws() {
             let drawn = chart(&report, name, &ChartOptions::sized(700.0, 320.0));
             assert_eq!(drawn.is_ok(), stock, "{name}");
         }
+        let looped = report.online.is_some();
+        for name in ["loop-spectrum", "loop-delay"] {
+            assert_eq!(charts.iter().any(|entry| entry.name == name), looped, "{name}");
+            assert_eq!(chart(&report, name, &ChartOptions::sized(700.0, 320.0)).is_ok(), looped, "{name}");
+        }
         let in_stock = ["engagement", "removal", "surface"];
-        for entry in CATALOG.into_iter().filter(|entry| stock || !in_stock.contains(&entry.name)) {
+        let applies =
+            |name: &str| (stock || !in_stock.contains(&name)) && (looped || !name.starts_with("loop-"));
+        for entry in CATALOG.into_iter().filter(|entry| applies(entry.name)) {
             let options = ChartOptions::sized(700.0, 320.0);
             let drawn = chart(&report, entry.name, &options).unwrap();
             assert!(drawn.svg.starts_with("<svg") && !drawn.svg.contains("NaN"), "{}", entry.name);

@@ -6,7 +6,7 @@ use std::path::Path;
 /// The modules from left to right. The job is read first, but its fields and its setup name things
 /// that the stages offer (robots, materials, shapes), so these stand to its left. `column` is the
 /// currency of report, charts and files.
-const ORDER: [&str; 28] = [
+const ORDER: [&str; 29] = [
     "math",
     "units",
     "spread",
@@ -14,6 +14,7 @@ const ORDER: [&str; 28] = [
     "error",
     "column",
     "progress",
+    "at_once",
     "robot",
     "path",
     "motion",
@@ -26,11 +27,11 @@ const ORDER: [&str; 28] = [
     "compensation",
     "uncertainty",
     "surface",
+    "online",
     "report",
     "placement",
     "simulation",
     "study",
-    "online",
     "identify",
     "chart",
     "export",

@@ -3,11 +3,12 @@
 use crate::common::job_text;
 use armill::math::{TAU, cos, sin};
 use armill::online::simulated::{fed_back, fed_forward};
-use armill::online::spectrum::share_below;
+use armill::online::spectrum::{amplitudes, share_below};
 use armill::online::{
-    Comparison, EveryLoop, FeedForward, Feedback, LoopPreset, LoopTimes, Measures, OnlineLoop, PRESETS,
-    Sensor, compare,
+    Comparison, FeedForward, Feedback, LoopPreset, LoopTimes, Measures, OnlineLoop, PRESETS, SENSORS, Sensor,
+    SensorPreset,
 };
+use armill::study::EveryLoop;
 use armill::units::MM;
 use armill::{Job, Progress, Report};
 use nalgebra::{Complex, Vector3};
@@ -298,7 +299,7 @@ fn online(measures: Measures, times: LoopTimes) -> OnlineLoop {
 }
 
 fn compared(report: &Report, measures: Measures, preset: &str) -> Comparison {
-    compare(report, &online(measures, LoopPreset::named(preset).unwrap().times)).unwrap()
+    report.looped().with(&online(measures, LoopPreset::named(preset).unwrap().times)).unwrap()
 }
 
 /// Without a loop, the quantiles are those of the band, which looks at its own places: within 2 %.
@@ -326,7 +327,7 @@ fn a_known_plant_is_its_own_errors_through_the_loop() {
     let known = json!({ "stiffness_percent": 0, "cutting_percent": 0, "draws": 100 });
     let report = report(&[("uncertainty", known), ("compensation.max_passes", json!(0))]);
     let times = LoopPreset::named("abb-egm").unwrap().times;
-    let found = compare(&report, &online(Measures::Position, times)).unwrap();
+    let found = report.looped().with(&online(Measures::Position, times)).unwrap();
     let mut errors = vec![-report.before.contour_error[0]; 2000];
     errors.extend(report.before.contour_error.iter().map(|error| -error));
     let feedback = Feedback::new(&times);
@@ -345,7 +346,7 @@ fn a_force_that_is_known_at_once_leaves_nothing() {
     let force = json!({ "stiffness_percent": 0, "cutting_percent": 40, "draws": 100 });
     let report = report(&[("uncertainty", force)]);
     let none = LoopTimes { cycle: 0.004, dead_time: 0.0, arm_lag: 0.0, filter: 0.0 };
-    let found = compare(&report, &online(Measures::Force, none)).unwrap();
+    let found = report.looped().with(&online(Measures::Force, none)).unwrap();
     assert!(found.offline.p95 > 0.1 * MM && found.without.p95 > MM);
     assert!(found.online.unwrap().p95 < 0.01 * found.without.p95, "{:?}", found.online);
     assert!(found.both.unwrap().p95 < 0.01 * found.offline.p95, "{:?}", found.both);
@@ -382,7 +383,7 @@ fn a_few_plants_stand_for_all() {
     for measures in [Measures::Position, Measures::Force] {
         let all = online(measures, LoopPreset::named("abb-egm").unwrap().times);
         let [all, few] =
-            [all, OnlineLoop { plants: 60, ..all }].map(|online| compare(&report, &online).unwrap());
+            [all, OnlineLoop { plants: 60, ..all }].map(|online| report.looped().with(&online).unwrap());
         for (all, few) in [
             (all.without, few.without),
             (all.offline, few.offline),
@@ -399,7 +400,7 @@ fn a_few_plants_stand_for_all() {
     let every = EveryLoop::new(&job).unwrap();
     let row = every.row(every.count() - 1).unwrap();
     let times = LoopPreset::named(row.preset).unwrap().times;
-    let alone = compare(&report, &OnlineLoop { plants: 60, ..online(row.measures, times) }).unwrap();
+    let alone = report.looped().with(&OnlineLoop { plants: 60, ..online(row.measures, times) }).unwrap();
     assert_eq!(row.outcome, alone.summary());
     assert_eq!((row.measures, every.count()), (Measures::Force, 3 * PRESETS.len()));
 }
@@ -425,7 +426,7 @@ fn loops_that_cannot_be_are_refused_or_said_to_be_unstable() {
     let report = report(&[]);
     let times = LoopPreset::named("kuka-rsi-4").unwrap().times;
     let with = |times: LoopTimes, gain: Option<f64>| {
-        compare(&report, &OnlineLoop { gain, ..online(Measures::Position, times) })
+        report.looped().with(&OnlineLoop { gain, ..online(Measures::Position, times) })
     };
     for (field, wrong) in [
         ("online.cycle_s", LoopTimes { cycle: 0.0, ..times }),
@@ -474,4 +475,116 @@ fn the_script_prints_the_same() {
         let said: Value = serde_json::from_slice(&output.stderr).unwrap();
         assert!(!output.status.success() && said["code"] == "usage", "{said}");
     }
+}
+
+/// A band of the spectrum holds the mean square of the swings that lie in it, and all bands that of the series.
+#[test]
+fn bands_of_the_spectrum_hold_what_swings_there() {
+    let cycle = 0.004;
+    let slow = swing(0.5, cycle, 20.0);
+    let fast = swing(8.0, cycle, 20.0);
+    let series: Vec<_> = slow.iter().zip(&fast).map(|(a, b)| a + b * 0.3).collect();
+    let bands = amplitudes(&series, cycle);
+    let near = |frequency: f64| {
+        let within = bands.iter().filter(|(at, _)| (at / frequency - 1.0).abs() < 0.15);
+        within.map(|(_, rms)| rms * rms).sum::<f64>().sqrt()
+    };
+    // The root mean square of a swing is its amplitude by the square root of 2.
+    assert!((near(0.5) / (MS * 0.5_f64.sqrt()) - 1.0).abs() < 1e-6, "{}", near(0.5));
+    assert!((near(8.0) / (0.3 * MS * 0.5_f64.sqrt()) - 1.0).abs() < 1e-6, "{}", near(8.0));
+    let all: f64 = bands.iter().map(|(_, rms)| rms * rms).sum();
+    let mean = series.iter().map(Vector3::norm_squared).sum::<f64>() / series.len() as f64;
+    assert!((all / mean - 1.0).abs() < 1e-9, "Parseval");
+    assert!(bands.windows(2).all(|pair| pair[0].0 < pair[1].0));
+}
+
+/// The job's own section is the loop of the script, and its summary what the loop brings.
+#[test]
+fn a_job_may_have_a_loop() {
+    let text = |online: Value| job_text(&[("online", online), ("motion.sample_time_s", json!(0.004))]);
+    let own =
+        json!({"measures": "position", "cycle_s": 0.004, "dead_time_s": 0.05, "noise": 0.01, "gain": 0.03});
+    let job = Job::from_json(&text(own)).unwrap();
+    let report = armill::run(&job, &mut Progress::none()).unwrap();
+    let online = OnlineLoop {
+        measures: Measures::Position,
+        times: times([4.0, 50.0, 20.0, 0.0]),
+        sensor: Sensor { noise: 0.01 * MM, seed: 1, ..Sensor::IDEAL },
+        gain: Some(0.03),
+        plants: 60,
+    };
+    let compared = report.looped().with(&online).unwrap();
+    assert_eq!(report.online, Some((online, compared.clone())));
+    let summary = json!(report.summary());
+    for (key, of) in [("without", compared.without), ("offline", compared.offline)] {
+        assert_eq!(summary["online"][key]["p95"], json!(of.p95 / MM));
+    }
+    assert_eq!(summary["online"]["both"]["p50"], json!(compared.both.unwrap().p50 / MM));
+    assert_eq!(summary["online"]["stable"], true);
+    // Nothing else depends on it, and without one the summary has no such key.
+    let none = armill::run(&Job::from_json(&text(json!({}))).unwrap(), &mut Progress::none()).unwrap();
+    assert_eq!(none.fingerprint(), report.fingerprint());
+    assert!(none.online.is_none() && json!(none.summary()).get("online").is_none());
+    // It comes back from its own JSON.
+    assert_eq!(Job::from_json(&job.to_json()), Ok(job));
+    for (online, field) in [
+        (json!({"measures": "position", "cycle_s": 0}), "online.cycle_s"),
+        (json!({"measures": "position", "dead_time_s": -1}), "online.dead_time_s"),
+        (json!({"measures": "position", "gain": 0}), "online.gain"),
+        (json!({"measures": "warmth"}), "online.measures"),
+        (json!({"measures": "force", "delay": 1}), "online.delay"),
+    ] {
+        let refused = Job::from_json(&text(online)).and_then(|job| armill::run(&job, &mut Progress::none()));
+        assert_eq!(refused.unwrap_err().field(), Some(field));
+    }
+}
+
+/// Dead times together are the same as one by one, and what is left grows with them.
+#[test]
+fn dead_times_together_are_as_one_by_one() {
+    let report = armill::run(&Job::default(), &mut Progress::none()).unwrap();
+    for measures in [Measures::Force, Measures::Position, Measures::LoadSideAngle] {
+        let online = OnlineLoop { plants: 20, ..online(measures, times([4.0, 8.0, 20.0, 10.0])) };
+        let delays = [0.0, 0.02, 0.1];
+        let together = report.looped().by_dead_time(&online, &delays).unwrap();
+        for (dead_time, row) in delays.iter().zip(&together) {
+            let times = LoopTimes { dead_time: *dead_time, ..online.times };
+            assert_eq!(*row, report.looped().with(&OnlineLoop { times, ..online }).unwrap());
+        }
+        // A force that is late may by chance do less harm where it is misjudged.
+        let left = |row: &Comparison| row.online.unwrap().p95;
+        let grows = together.windows(2).all(|pair| left(&pair[0]) < left(&pair[1]));
+        assert!(grows || measures == Measures::Force, "{measures:?}");
+    }
+    assert!(
+        report
+            .looped()
+            .by_dead_time(&online(Measures::Force, times([4.0, 8.0, 20.0, 0.0])), &[])
+            .unwrap()
+            .is_empty()
+    );
+}
+
+/// A share of the assumed deflection that is fed forward leaves the rest, as slow as the error may be.
+#[test]
+fn a_gain_scales_what_a_force_takes_back() {
+    let forward = FeedForward::new(&times([4.0, 8.0, 20.0, 10.0]));
+    for gain in [0.5, 0.8, 1.0] {
+        assert!((forward.with_gain(gain).left(1.0, 1e-4) - (1.0 - gain)).abs() < 1e-4);
+        assert_eq!(forward.with_gain(gain).left(1.0, 1.0), forward.left(gain, 1.0));
+        assert_eq!(forward.with_gain(gain).noise_gain(), gain * forward.noise_gain());
+    }
+}
+
+/// An instrument's own delay comes on top of the controller's.
+#[test]
+fn an_instrument_adds_its_delay() {
+    for sensor in SENSORS {
+        let mut measured = online(Measures::Position, LoopPreset::named("abb-egm").unwrap().times);
+        SensorPreset::named(sensor.id).unwrap().put_on(&mut measured);
+        assert_eq!(measured.times.dead_time, 0.05 + sensor.dead_time);
+        assert_eq!(measured.sensor.noise, sensor.noise);
+        assert!(sensor.source.contains("assumed"));
+    }
+    assert!(SensorPreset::named("sonar").unwrap_err().to_string().contains("tracker"));
 }

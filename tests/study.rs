@@ -1,10 +1,11 @@
 //! Questions about a job: their answers against plain runs, one by one.
 
 use crate::common::job_text;
+use armill::at_once::at_once;
 use armill::placement::{PlacementMap, PlacementStatus, sought};
 use armill::study::{
     ErrorMeasure, EveryRobot, Holds, LargestAnswer, LargestQuestion, Outcome, PartPlace, Sweep, Taken,
-    ValueRange, Variation, VariedJob, at_once, choices, robots, sweep, tornado,
+    ValueRange, Variation, VariedJob, choices, robots, sweep, tornado,
 };
 use armill::units::{DEG, MM};
 use armill::{Error, Job, Progress};

@@ -2,8 +2,9 @@
 
 use std::hint::black_box;
 
+use armill::at_once::at_once;
 use armill::placement::PlacementMap;
-use armill::study::{ErrorMeasure, EveryRobot, LargestQuestion, PartPlace, Sweep, Variation, at_once};
+use armill::study::{ErrorMeasure, EveryRobot, LargestQuestion, PartPlace, Sweep, Variation};
 use armill::{Error, Job};
 
 use crate::Work;

@@ -4,6 +4,7 @@ use crate::chart::chart::{Chart, ChartOptions};
 use crate::chart::content::Content;
 use crate::chart::cut_in_stock::{ENGAGEMENT, REMOVAL, SURFACE};
 use crate::chart::figures::{BOTH, DEFLECTION, Figures, SHAPING};
+use crate::chart::loops::{DELAY, SPECTRUM};
 use crate::chart::over::Over;
 use crate::chart::unit::Units;
 use crate::column::Column;
@@ -46,7 +47,7 @@ const RUN: &str = "time";
 const SPIN: &str = "spin";
 
 /// All charts, in the order of the page.
-pub const CATALOG: [Entry; 31] = [
+pub const CATALOG: [Entry; 33] = [
     entry("before-after", "Contour error before and after compensation", "overview", "5.18", "time"),
     entry("actual-path", "Desired and actual path, deviation magnified", "overview", "5.7", "space"),
     entry("convergence", "Contour error left after each pass", "overview", "", "curve"),
@@ -73,6 +74,8 @@ pub const CATALOG: [Entry; 31] = [
     entry("after-shaping", "Shaping alone, before and after compensation", "error", "5.15", "time"),
     entry("after-both", "Both together, before and after compensation", "error", "5.18", "time"),
     entry(SURFACE, "Surface left, before and after compensation", "error", "", "time"),
+    entry(SPECTRUM, "How fast the error changes, and what the loop leaves of it", "error", "", "curve"),
+    entry(DELAY, "What a loop leaves, by its dead time", "error", "", "curve"),
     entry("axis-error", "Tool axis error before and after compensation", "error", "", "time"),
     entry("joints", "Joint commands for the desired path", "joints", "5.4", "time"),
     entry("joint-1", "Joint 1, original and shaped", "joints", "4.11", "time"),
@@ -91,6 +94,7 @@ pub fn charts_of(report: &Report) -> Vec<Entry> {
     let applies = |entry: &Entry| match entry.name {
         SPIN => report.roll.is_some(),
         ENGAGEMENT | REMOVAL | SURFACE => report.setup().contacts.is_some(),
+        SPECTRUM | DELAY => report.online.is_some(),
         _ => true,
     };
     let over =
@@ -158,6 +162,8 @@ fn content(report: &Report, name: &str, units: Units, over: Over) -> Result<Cont
         ENGAGEMENT => figures.engagement()?,
         REMOVAL => figures.removal()?,
         SURFACE => figures.surface()?,
+        SPECTRUM => figures.loop_spectrum()?,
+        DELAY => figures.loop_delay()?,
         "deflection" => figures.lengths("Deflection", &report.deflection),
         "error-deflection" => figures.errors(&[(DEFLECTION, &forces.contour_error)]),
         "error-shaping" => figures.errors(&[(SHAPING, &shaping.contour_error)]),

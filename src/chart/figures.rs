@@ -65,7 +65,7 @@ impl Figures<'_> {
         self.over_run_with(description, y, curves, vec![])
     }
 
-    fn tolerance(&self) -> (f64, Vec<Band>) {
+    pub(super) fn tolerance(&self) -> (f64, Vec<Band>) {
         let tolerance = self.report.setup().goal.tolerance;
         (tolerance, vec![Band { from: 0.0, to: tolerance / self.units.length.in_m(), label: "tolerance" }])
     }

@@ -25,6 +25,7 @@ mod content;
 mod cut_in_stock;
 mod figures;
 mod frame;
+mod loops;
 mod scale;
 mod trace;
 

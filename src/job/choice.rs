@@ -73,6 +73,20 @@ impl Keyword for ByTolerance {
     const WORD: &'static str = "tolerance";
 }
 
+/// `"chosen"`: the gain for which no error grows by more than 1.7 times.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ChosenGain;
+impl Keyword for ChosenGain {
+    const WORD: &'static str = "chosen";
+}
+
+/// `"unlimited"`: without a limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Unlimited;
+impl Keyword for Unlimited {
+    const WORD: &'static str = "unlimited";
+}
+
 /// Time at rest in a corner [s], or `"settle"`.
 pub type CornerDwell = Choice<Settle>;
 /// Feed per tooth [mm], or `"from_feed"`.
@@ -96,6 +110,10 @@ pub type LoadMass = Choice<Unknown>;
 pub type BlendingDistance = Choice<ByTolerance>;
 /// 95 % range to each side [%], or `"library"`.
 pub type SpreadPercent = Choice<Library>;
+/// Integral gain of a loop, or `"chosen"`.
+pub type LoopGain = Choice<ChosenGain>;
+/// Largest correction of a loop [mm], or `"unlimited"`.
+pub type LargestCorrection = Choice<Unlimited>;
 /// Chip thickness [mm], or `"mean"`.
 pub type ChipThickness = Choice<Mean>;
 

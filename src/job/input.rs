@@ -5,6 +5,7 @@ use crate::job::choice::choice;
 use crate::job::cutting::{Cutting, Material, Tool};
 use crate::job::json::{Node, Read, keys};
 use crate::job::motion::Motion;
+use crate::job::online::Online;
 use crate::job::path::{Path, PathKind};
 use crate::job::program::RobotProgram;
 use crate::job::source::Source;
@@ -57,6 +58,9 @@ pub struct Job {
     pub compensation: Compensation,
     /// How well the inputs are known.
     pub uncertainty: Uncertainty,
+    /// A loop on top of the path.
+    #[serde(skip_serializing_if = "Online::is_default")]
+    pub online: Online,
     /// What leaves.
     pub program: RobotProgram,
 }
@@ -92,6 +96,7 @@ impl Default for Job {
             }),
             compensation: Compensation::default(),
             uncertainty: Uncertainty::default(),
+            online: Online::default(),
             program: RobotProgram::default(),
         }
     }
@@ -375,6 +380,7 @@ keys!(Job {
     shaper,
     compensation,
     uncertainty,
+    online,
     program
 });
 keys!(new Robot {

@@ -10,6 +10,7 @@ mod source;
 mod spin;
 mod input;
 mod motion;
+mod online;
 mod cutting;
 mod path;
 mod program;
@@ -22,7 +23,7 @@ pub mod fields;
 
 pub use choice::{
     BlendingDistance, ChipLimit, ChipThickness, Choice, CornerDwell, CornerRadius, FeedPerTooth, HeldForce,
-    HolderDiameter, LoadMass, SpindlePower, SpindleTorque, SpreadPercent,
+    HolderDiameter, LargestCorrection, LoadMass, LoopGain, SpindlePower, SpindleTorque, SpreadPercent,
 };
 pub use cutting::{Coupling, Cutting, Engaged, HelixHand, Line, Material, Tool, ToolBending};
 pub use input::{
@@ -30,6 +31,7 @@ pub use input::{
     ShaperKind, ShaperSpec, Shoulder, Wrist,
 };
 pub use motion::{FeedRule, Motion};
+pub use online::{MeasuredOnline, Online};
 pub use path::{FeedUnit, Path, PathKind, ProgramDialect, Unit};
 pub use program::{ControllerWord, FrameValues, RobotProgram};
 pub use source::{Source, Sources};

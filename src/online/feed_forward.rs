@@ -12,6 +12,8 @@ pub struct FeedForward {
     pub(super) dead: (usize, f64),
     pub(super) filter: Lag,
     pub(super) arm: Lag,
+    /// Share of the assumed deflection that is taken back.
+    pub(super) gain: f64,
 }
 
 impl FeedForward {
@@ -24,7 +26,13 @@ impl FeedForward {
             dead: (cycles.floor() as usize, cycles.fract()),
             filter: Lag::straight(filter, cycle),
             arm: Lag::straight(arm_lag, cycle),
+            gain: 1.0,
         }
+    }
+
+    /// The same with another gain than 1: share of the assumed deflection that is taken back.
+    pub fn with_gain(self, gain: f64) -> Self {
+        Self { gain, ..self }
     }
 
     /// What is left of an error of one frequency [Hz], |1 - r H(z)|, with the ratio r of assumed to true compliance.
@@ -33,13 +41,14 @@ impl FeedForward {
         let z = ahead(frequency, self.cycle);
         let (whole, part) = self.dead;
         let dead = ahead(frequency, -(whole as f64) * self.cycle) * (z.inv() * part + (1.0 - part));
-        (Complex::from(1.0) - dead * self.filter.response(z) * self.arm.response(z) * ratio).norm()
+        (Complex::from(1.0) - dead * self.filter.response(z) * self.arm.response(z) * (ratio * self.gain))
+            .norm()
     }
 
     /// Standard deviation of the correction by that of what is measured, both as lengths: close to sqrt(Ts / 2 Tf) for a
     /// filter that is slow beside the cycle. The arm's lag, which smooths it further, is left out.
     pub fn noise_gain(&self) -> f64 {
-        self.filter.noise_gain()
+        self.filter.noise_gain() * self.gain
     }
 
     /// The frequency [Hz] below which it leaves less than there was; `None` if it helps at none.

@@ -4,7 +4,7 @@
 //! position is fed back ([`Feedback`]): what is left is summed up and taken back, as much in each cycle as stays
 //! stable. Both act late, by the cycle, by the dead time between measurement and motion, and by the lags of filter and
 //! arm ([`LoopTimes`]); so they help where the error is slow, and a loop with feedback makes fast errors larger. What
-//! they leave of an error is computed cycle by cycle ([`simulated`]); how much of it at one frequency, in closed form.
+//! they leave of an error is computed cycle by cycle ([`simulated`]); how much of it at one frequency, in closed form. The drawn plants are as many as the band has, or an even choice of them.
 //!
 //! Frequencies f in Hz enter as z = e^(j 2 pi f Ts), with the cycle Ts. Left out: the arm's own modes, which limit a loop at
 //! 8 to 25 Hz, jitter of the cycle, and lost measurements.
@@ -12,7 +12,6 @@
 pub mod compared;
 mod cycles;
 mod drawn_run;
-mod every;
 mod feed_forward;
 mod feedback;
 mod lag;
@@ -21,12 +20,11 @@ pub mod simulated;
 pub mod spectrum;
 mod summary;
 
-pub use compared::{Comparison, Measures, OnlineLoop, compare};
-pub use every::{EveryLoop, LoopRow};
+pub use compared::{Comparison, LoopSpectrum, LoopedRun, Measures, OnlineLoop};
 pub use feed_forward::FeedForward;
 pub use feedback::Feedback;
 pub use lag::Lag;
-pub use preset::{LoopPreset, PRESETS};
+pub use preset::{LoopPreset, PRESETS, SENSORS, SensorPreset};
 pub use simulated::Sensor;
 pub use summary::{LoopError, OnlineSummary};
 

@@ -77,7 +77,7 @@ pub fn fed_forward(
     let (mut moved, mut filtered) = ([Vector3::zeros(); 2], [Vector3::zeros(); 2]);
     let cycle = |(error, assumed): (&Vector3<f64>, &Vector3<f64>)| {
         let measured = forward.filter.next(&mut filtered, sensor.read(&mut random, assumed));
-        sent.push(sensor.limited(-measured));
+        sent.push(sensor.limited(-measured * forward.gain));
         let arriving = sent.arriving(1) * (1.0 - part) + sent.arriving(0) * part;
         error + forward.arm.next(&mut moved, arriving)
     };

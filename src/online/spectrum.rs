@@ -1,6 +1,6 @@
 //! How fast an error changes.
 
-use crate::math::{self, TAU};
+use crate::math::{self, TAU, pow};
 use nalgebra::{Complex, Vector3};
 
 /// Share of the mean square of a series, a value a cycle [s], at frequencies up to `frequency` [Hz], the mean included
@@ -13,10 +13,34 @@ pub fn share_below(series: &[Vector3<f64>], cycle: f64, frequency: f64) -> f64 {
     }
     let highest = count / 2;
     let most = ((frequency * cycle * count as f64 + 1e-9).floor() as usize).min(highest);
-    // Each line but the mean, and half the frequency of the cycles, stands twice in the whole spectrum.
-    let twice = |line: usize| if line == 0 || 2 * line == count { 1.0 } else { 2.0 };
-    let below: f64 = (0..=most).map(|line| twice(line) * line_square(series, line)).sum();
+    let below: f64 = (0..=most).map(|line| twice(line, count) * line_square(series, line)).sum();
     (below / (whole * count as f64)).min(1.0)
+}
+
+/// Bands of frequencies for a whole decade.
+const BANDS_PER_DECADE: f64 = 12.0;
+
+/// Frequencies [Hz] and the root mean square of a series, a value a cycle [s], in a band about each: a line of the spectrum
+/// by itself where lines are scarce, and bands of equal ratio where there are many. The mean is left out.
+pub fn amplitudes(series: &[Vector3<f64>], cycle: f64) -> Vec<(f64, f64)> {
+    let count = series.len();
+    let highest = count / 2;
+    let mut bands = Vec::new();
+    let mut line = 1;
+    while line <= highest {
+        let next = ((line as f64 * pow(10.0, 1.0 / BANDS_PER_DECADE)).ceil() as usize).max(line + 1);
+        let within = line..next.min(highest + 1);
+        let middle = 0.5 * (within.start + within.end - 1) as f64;
+        let square: f64 = within.map(|line| twice(line, count) * line_square(series, line)).sum();
+        bands.push((middle / (count as f64 * cycle), square.sqrt() / count as f64));
+        line = next;
+    }
+    bands
+}
+
+/// Each line but the mean, and half the frequency of the cycles, stands twice in the whole spectrum.
+fn twice(line: usize, count: usize) -> f64 {
+    if line == 0 || 2 * line == count { 1.0 } else { 2.0 }
 }
 
 /// Square of the modulus of one line of the discrete Fourier transform, all axes together.

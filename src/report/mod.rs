@@ -43,6 +43,7 @@ pub use warning::Warning;
 use crate::compensation::{Compensation, Question, compensate};
 use crate::deviation::{Deviation, Largest, Reference, Source, Sources};
 use crate::motion::shaper::Shaped;
+use crate::online::{Comparison, LoopedRun, OnlineLoop};
 use crate::plan::Plan;
 use crate::progress::Progress;
 use crate::robot::Joints;
@@ -90,6 +91,8 @@ pub struct Report {
     pub band: ErrorBand,
     /// The surface that is left, if the engagement follows a stock.
     pub surface: Option<Surface>,
+    /// The loop of the job on top of the path, and what it would bring.
+    pub online: Option<(OnlineLoop, Comparison)>,
     /// Conditions that are odd but workable.
     pub warnings: Vec<Warning>,
     /// See [`Report::alone`]; computed on first use.
@@ -134,6 +137,12 @@ impl Report {
             let question = Question { reference: &reference, q: &self.q, before: known, goal };
             compensate(&self.plan, &question, &mut Progress::none())
         })
+    }
+
+    /// The run, for a loop on top of it.
+    pub fn looped(&self) -> LoopedRun<'_> {
+        let Self { plan, band, .. } = self;
+        LoopedRun { plan, desired: &self.q, corrected: &self.compensation.q, band }
     }
 
     /// Joint commands after the shaper.

@@ -5,6 +5,7 @@ use crate::cutting::material::Material;
 use crate::deviation::contour::MeanMax;
 use crate::deviation::{Deviation, Largest};
 use crate::model::MODEL;
+use crate::online::{Comparison, OnlineSummary};
 use crate::path::gcode::GcodeDialect;
 use crate::path::{MovePace, Path, SourceProgram};
 use crate::report::expected::{ExpectedError, HowSure};
@@ -137,6 +138,9 @@ pub struct Summary {
     pub expected_mm: ExpectedError,
     /// How sure that is.
     pub how_sure: HowSure,
+    /// What the loop of the job would bring, if it has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub online: Option<OnlineSummary>,
     /// Summary of the program, if the path came from one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub program: Option<ProgramSummary>,
@@ -306,6 +310,7 @@ impl Report {
             verdict_state: self.verdict_state(),
             expected_mm: self.band.after.into(),
             how_sure: self.how_sure(),
+            online: self.online.as_ref().map(|(_, compared)| Comparison::summary(compared)),
             program: self.setup().program.as_ref().map(|source| ProgramSummary::of(source, &self.plan.path)),
             spin: self.roll.clone(),
             feed_rule: self.feed_rule.clone(),

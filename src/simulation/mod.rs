@@ -13,6 +13,7 @@ use crate::deviation::{
 };
 use crate::error::Error;
 use crate::job::Job;
+use crate::online::OnlineLoop;
 use crate::plan::Plan;
 use crate::report::{Report, singularity, warning};
 use crate::robot::Joints;
@@ -26,9 +27,13 @@ use std::sync::Arc;
 /// # Errors
 /// An [`Error`] with the invalid field of the job, or the place where its path is out of reach.
 pub fn run(job: &Job, progress: &mut Progress) -> Result<Report, Error> {
+    let online = OnlineLoop::of(job)?;
     let mut report = judged(job, progress)?;
     let runs = (&*report.before, &*report.after);
     report.surface = surface(&report.plan, runs, (&report.q, &report.compensation.q));
+    if let Some(online) = online {
+        report.online = Some((online, report.looped().with(&online)?));
+    }
     remedy::offer(job, &mut report);
     Ok(report)
 }
@@ -85,6 +90,7 @@ pub(crate) fn judged(job: &Job, progress: &mut Progress) -> Result<Report, Error
         after,
         band,
         surface: None,
+        online: None,
         warnings: singular,
         alone: Default::default(),
         fingerprint: Default::default(),

@@ -1,10 +1,11 @@
 //! What a programmer may choose without touching the part: climb or conventional, the direction of travel,
 //! the start point of a closed path, the turn of the tool about its axis. Which errs least?
 
+use crate::at_once::at_once;
 use crate::job::{Engaged, Job, Path, PathKind, SpinMode};
 use crate::math::within_half_turn;
 use crate::report::Remedy;
-use crate::study::{Outcome, at_once};
+use crate::study::Outcome;
 use serde::Serialize;
 use serde_json::{Value, json};
 

@@ -2,12 +2,13 @@
 //!
 //! The range is scanned, and each crossing between meeting and missing is narrowed, see the module `search`.
 
+use crate::at_once::at_once;
 use crate::error::Error;
 use crate::job::Job;
 use crate::progress::Progress;
 use crate::study::range::finite;
 use crate::study::search::{CrossingSearch, SCAN, Tried};
-use crate::study::{Outcome, ValueRange, VariedJob, at_once};
+use crate::study::{Outcome, ValueRange, VariedJob};
 use serde::Serialize;
 
 /// Ratio of the ends from which on the scan is in equal ratios.

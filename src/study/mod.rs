@@ -4,9 +4,9 @@
 //! changed job, so it equals that run bit for bit, whatever the number of threads. A run that fails
 //! is a point of the answer, not its end.
 
-mod at_once;
 mod choices;
 mod largest;
+mod loops;
 mod outcome;
 mod range;
 mod robots;
@@ -16,9 +16,9 @@ mod tornado;
 mod variation;
 mod varied;
 
-pub use at_once::at_once;
 pub use choices::{ChoiceRow, EveryChoice, choices};
 pub use largest::{ErrorMeasure, Holds, LargestAnswer, LargestQuestion};
+pub use loops::{EveryLoop, LoopRow};
 pub use outcome::Outcome;
 pub use range::ValueRange;
 pub use robots::{EveryRobot, PartPlace, RobotRow, robots};

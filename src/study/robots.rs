@@ -1,5 +1,6 @@
 //! The same job on every arm of the library.
 
+use crate::at_once::at_once;
 use crate::error::Error;
 use crate::job::Job;
 use crate::math;
@@ -7,7 +8,7 @@ use crate::placement;
 use crate::progress::Progress;
 use crate::report::Report;
 use crate::robot::library::{self, Preset};
-use crate::study::{Outcome, VariedJob, at_once};
+use crate::study::{Outcome, VariedJob};
 use crate::units::DEG;
 use serde::Serialize;
 use serde_json::json;

@@ -1,8 +1,9 @@
 //! A job over the values of one of its numbers or choices, or of two.
 
+use crate::at_once::at_once;
 use crate::error::Error;
 use crate::job::Job;
-use crate::study::{Outcome, Taken, Variation, VariedJob, at_once};
+use crate::study::{Outcome, Taken, Variation, VariedJob};
 use serde::Serialize;
 
 /// Most runs of a sweep.

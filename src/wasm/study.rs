@@ -1,8 +1,7 @@
 //! Questions about a job. Ranges and questions are texts, the same as on the script's command line.
 
-use crate::online::EveryLoop;
 use crate::study::{
-    self, ErrorMeasure, EveryChoice, EveryRobot, LargestQuestion, PartPlace, Sweep, Variation,
+    self, ErrorMeasure, EveryChoice, EveryLoop, EveryRobot, LargestQuestion, PartPlace, Sweep, Variation,
 };
 use crate::wasm::error::thrown;
 use crate::wasm::object;

@@ -201,8 +201,11 @@ describe("edits", () => {
     assert.ok(Math.abs(job.get(rad) - omega) <= 1e-11 * omega);
   });
 
-  test("fewer samples are all that a preview changes", () => {
+  test("a preview has fewer samples and no loop, all else stays", () => {
     const job = fresh();
+    job.load({ ...core.job, online: { measures: "position" } });
+    assert.equal("online" in JSON.parse(job.sampledEvery(0.004)), false);
+    job.load(core.job);
     const preview = JSON.parse(job.sampledEvery(0.004));
     assert.equal(preview.motion.sample_time_s, 0.004);
     preview.motion.sample_time_s = job.sampleTime;

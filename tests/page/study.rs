@@ -3,7 +3,7 @@
 use crate::browser::{DESKTOP, PHONE, Page, Result, THESIS, visit};
 use crate::common::job_text;
 use crate::{current, narrow, number, text};
-use armill::online::EveryLoop;
+use armill::study::EveryLoop;
 use armill::study::{
     ErrorMeasure, EveryRobot, LargestQuestion, PartPlace, Variation, choices, sweep, tornado,
 };
@@ -176,6 +176,31 @@ fn a_link_asks_again_and_other_questions_are_the_script_s() -> Result {
         let first = column(page, 4).await?.into_iter().find_map(|(_, error)| error);
         assert!(!least.is_finite() || first == Some(least), "{first:?} and {least}");
         narrow(page, "choices").await
+    })
+}
+
+/// A sensor among the inputs: the charts of the error say what it would bring.
+#[test]
+fn a_sensor_among_the_inputs_has_its_charts() -> Result {
+    visit(&format!("{THESIS}&view=error"), DESKTOP, async |page| {
+        coarse(page).await?;
+        let shown = "[...document.querySelectorAll('#panel-error h3')].filter(head => head.checkVisibility()).map(head => head.textContent)";
+        let delay = "What a loop leaves, by its dead time";
+        let charts = page.js(&format!("return {shown}")).await?;
+        assert!(!charts.to_string().contains(delay), "{charts}");
+        page.js("document.getElementById('group-online').open = true").await?;
+        page.choose("#online-measures", "position").await?;
+        current(page).await?;
+        page.wait_for(&format!("{shown}.includes({})", json!(delay)), 20.0).await?;
+        let changes = [
+            ("motion.sample_time_s", json!(COARSE.parse::<f64>()?)),
+            ("online", json!({"measures": "position"})),
+        ];
+        let report = armill::run(&Job::from_json(&job_text(&changes))?, &mut Progress::none())?;
+        let verdict = report.summary().online.map(|online| online.verdict).unwrap_or_default();
+        let said = format!("document.getElementById('panel-error').textContent.includes({})", json!(verdict));
+        page.wait_for(&said, 20.0).await?;
+        narrow(page, "a sensor").await
     })
 }
 

@@ -21,6 +21,7 @@ const TITLES = {
   shaper: "Vibration",
   compensation: "Compensation",
   uncertainty: "How sure",
+  online: "Sensor",
   program: "Program",
 };
 const OPEN = ["path", "motion"]; // the groups that most visits change

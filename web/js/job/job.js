@@ -68,11 +68,12 @@ export class Job {
   }
 
   /**
-   * Its text with another time between samples [s].
+   * Its text with another time between samples [s], for a preview: what a sensor would bring comes with the whole result.
    * @param {number} seconds
    */
   sampledEvery(seconds) {
-    return textOf({ ...this.#data, motion: { ...this.#data.motion, sample_time_s: seconds } });
+    const { online, ...rest } = this.#data;
+    return textOf({ ...rest, motion: { ...this.#data.motion, sample_time_s: seconds } });
   }
 
   /**

@@ -2,16 +2,14 @@
 
 use crate::error::Error;
 use crate::job::Job;
-use crate::online::{Measures, OnlineLoop, OnlineSummary, PRESETS, Sensor, compare};
+use crate::online::compared::EVEN_PLANTS;
+use crate::online::{Measures, OnlineLoop, OnlineSummary, PRESETS, Sensor};
 use crate::progress::Progress;
 use crate::report::Report;
 use serde::Serialize;
 
 /// What may be measured, the tip first.
 const MEASURED: [Measures; 3] = [Measures::Position, Measures::LoadSideAngle, Measures::Force];
-
-/// Plants that are simulated with each.
-const PLANTS: usize = 60;
 
 /// What one of them would bring.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -56,14 +54,19 @@ impl EveryLoop {
     /// [`Error::Invalid`] if the run has too many cycles.
     pub fn row(&self, index: usize) -> Result<LoopRow, Error> {
         let (measures, preset) = (MEASURED[index / PRESETS.len()], PRESETS[index % PRESETS.len()]);
-        let online =
-            OnlineLoop { measures, times: preset.times, sensor: Sensor::IDEAL, gain: None, plants: PLANTS };
+        let online = OnlineLoop {
+            measures,
+            times: preset.times,
+            sensor: Sensor::IDEAL,
+            gain: None,
+            plants: EVEN_PLANTS,
+        };
         Ok(LoopRow {
             measures,
             preset: preset.id,
             name: preset.name,
             cannot_run: self.report.impossible().map(|warning| warning.message.clone()),
-            outcome: compare(&self.report, &online)?.summary(),
+            outcome: self.report.looped().with(&online)?.summary(),
         })
     }
 }
