@@ -141,7 +141,7 @@ fn next_correction(plan: &Plan, reference: &Reference, best: &Compensation) -> (
 }
 
 /// Joint commands for the desired path with a correction [m] and tool axes, from near `start` [rad].
-fn commands(
+pub(crate) fn commands(
     plan: &Plan,
     start: &Joints,
     (correction, axis): (&[Vector3<f64>], &Axes),

@@ -59,6 +59,7 @@ pub mod placement;
 pub mod simulation;
 pub mod study;
 pub mod identify;
+pub mod learn;
 pub mod chart;
 pub mod export;
 pub mod verification;

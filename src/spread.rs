@@ -2,7 +2,7 @@
 //! 101:2008, 6.4).
 
 use crate::math;
-use nalgebra::Matrix6;
+use nalgebra::{Matrix6, SMatrix};
 
 /// Standard normal quantile of 97.5 %: half a 95 % range in standard deviations.
 pub const COVERAGE: f64 = 1.959_963_984_540_054;
@@ -161,9 +161,9 @@ const ROUNDING: f64 = 1e-9;
 
 /// Lower triangular L with L L^T = `matrix`, which may have rows of zeros; `None` if it is not
 /// positive semidefinite.
-fn cholesky(matrix: &Matrix6<f64>) -> Option<Matrix6<f64>> {
-    let mut factor = Matrix6::zeros();
-    for j in 0..6 {
+pub(crate) fn cholesky<const N: usize>(matrix: &SMatrix<f64, N, N>) -> Option<SMatrix<f64, N, N>> {
+    let mut factor = SMatrix::<f64, N, N>::zeros();
+    for j in 0..N {
         let pivot = matrix[(j, j)] - (0..j).map(|k| factor[(j, k)] * factor[(j, k)]).sum::<f64>();
         let slack = ROUNDING * matrix[(j, j)].abs();
         if !pivot.is_finite() || pivot < -slack {
@@ -171,7 +171,7 @@ fn cholesky(matrix: &Matrix6<f64>) -> Option<Matrix6<f64>> {
         }
         let root = if pivot > slack { pivot.sqrt() } else { 0.0 };
         factor[(j, j)] = root;
-        for i in j + 1..6 {
+        for i in j + 1..N {
             let rest = matrix[(i, j)] - (0..j).map(|k| factor[(i, k)] * factor[(j, k)]).sum::<f64>();
             if !rest.is_finite()
                 || (root == 0.0 && rest * rest > ROUNDING * matrix[(i, i)].abs() * matrix[(j, j)].abs())
@@ -182,6 +182,40 @@ fn cholesky(matrix: &Matrix6<f64>) -> Option<Matrix6<f64>> {
         }
     }
     Some(factor)
+}
+
+/// Factors on six joint compliances, on the cutting force, and on its radial and axial ratio, which a measurement ties to
+/// each other: their logarithms are normal about 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointSpread {
+    covariance: SMatrix<f64, 9, 9>,
+    /// Lower triangular factor of it.
+    factor: SMatrix<f64, 9, 9>,
+}
+
+impl JointSpread {
+    /// With the covariance of the logarithms; `None` if it is none.
+    pub fn of(covariance: &[[f64; 9]; 9]) -> Option<Self> {
+        let covariance = SMatrix::<f64, 9, 9>::from_fn(|i, j| covariance[i][j]);
+        Some(Self { covariance, factor: cholesky(&covariance)? })
+    }
+
+    /// The factors at nine standard normal deviates.
+    pub fn at(&self, z: &[f64; 9]) -> [f64; 9] {
+        std::array::from_fn(|i| math::exp((0..=i).map(|j| self.factor[(i, j)] * z[j]).sum()))
+    }
+
+    /// The compliances alone.
+    fn stiffness(&self) -> Option<Stiffness> {
+        let covariance = self.covariance.fixed_view::<6, 6>(0, 0).into_owned();
+        let factor = cholesky(&covariance)?;
+        // Their medians are 1.
+        Some(Stiffness::Together(Box::new((factor, [0.0; 6]))))
+    }
+
+    fn deviation(&self, index: usize) -> f64 {
+        self.covariance[(index, index)].sqrt()
+    }
 }
 
 /// The spreads of a job's inputs, and how they are drawn.
@@ -199,13 +233,45 @@ pub struct Spreads {
     pub draws: usize,
     /// Seed of the draws.
     pub seed: u64,
+    /// Of compliances and cutting force together, if a measurement has tied them; the three above are then what is unknown
+    /// of each by itself.
+    pub together: Option<Box<JointSpread>>,
 }
 
 impl Spreads {
+    /// The same with what a measurement has left of compliances and cutting force.
+    pub fn learned(self, together: JointSpread) -> Self {
+        let stiffness = together.stiffness().unwrap_or(self.stiffness);
+        let cutting = InputSpread::Lognormal(together.deviation(6));
+        let ratios = InputSpread::Lognormal(together.deviation(7).max(together.deviation(8)));
+        Self { stiffness, cutting, ratios, together: Some(Box::new(together)), ..self }
+    }
+
+    /// Covariance of the factors, to first order: six compliances, cutting force, radial and axial ratio.
+    pub fn covariance(&self) -> SMatrix<f64, 9, 9> {
+        if let Some(together) = &self.together {
+            return together.covariance;
+        }
+        let mut covariance = SMatrix::<f64, 9, 9>::zeros();
+        covariance.fixed_view_mut::<6, 6>(0, 0).copy_from(&self.stiffness.covariance());
+        for (index, spread) in [(6, self.cutting), (7, self.ratios), (8, self.ratios)] {
+            covariance[(index, index)] = spread.deviation() * spread.deviation();
+        }
+        covariance
+    }
+
     /// How many times as large as assumed the deflection of an arm with these compliances may be, at
     /// 95 %: its softest joint's, under the largest force. A bound, because not all of the deflection
     /// comes from that joint.
     pub fn margin(&self, compliance: &[f64; 6]) -> f64 {
+        if let Some(together) = &self.together {
+            let grown = |i: usize| {
+                let covariance = &together.covariance;
+                (covariance[(i, i)] + 2.0 * covariance[(i, 6)] + covariance[(6, 6)]).max(0.0).sqrt()
+            };
+            let soft = (0..6).filter(|i| compliance[*i] > 0.0);
+            return soft.map(|i| math::exp(ONE_SIDED * grown(i))).fold(1.0, f64::max);
+        }
         self.stiffness.softest(compliance) * self.cutting.at(ONE_SIDED)
     }
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 /// The modules from left to right. The job is read first, but its fields and its setup name things
 /// that the stages offer (robots, materials, shapes), so these stand to its left. `column` is the
 /// currency of report, charts and files.
-const ORDER: [&str; 29] = [
+const ORDER: [&str; 30] = [
     "math",
     "units",
     "spread",
@@ -33,6 +33,7 @@ const ORDER: [&str; 29] = [
     "simulation",
     "study",
     "identify",
+    "learn",
     "chart",
     "export",
     "verification",

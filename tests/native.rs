@@ -43,6 +43,7 @@ mod job;
 mod judged;
 mod kinematics;
 mod laws;
+mod learn;
 mod layers;
 mod library;
 mod numerical;

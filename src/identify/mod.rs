@@ -11,7 +11,7 @@ pub mod response;
 pub mod student;
 pub mod summary;
 mod eigen;
-mod table;
+pub(crate) mod table;
 
 pub use measurement::{Convention, Measurement};
 pub use response::Mode;

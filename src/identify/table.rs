@@ -8,23 +8,23 @@ use crate::path::csv::cell::{is_passed_over, number, position, separate};
 const MOST_ROWS: usize = 4_000_000;
 
 /// A text of numbers, all rows as wide as the first.
-pub(super) struct Table<'a> {
+pub(crate) struct Table<'a> {
     text: &'a str,
     field: &'static str,
     /// The names of the columns in lower case, split into words; empty without a header.
-    pub(super) names: Vec<Vec<String>>,
+    pub(crate) names: Vec<Vec<String>>,
     header_line: usize,
     /// Number of cells in a row.
-    pub(super) width: usize,
+    pub(crate) width: usize,
     /// The numbers row by row; NaN for an empty cell.
     numbers: Vec<f64>,
     /// Line of each row, from 1.
-    pub(super) lines: Vec<usize>,
+    pub(crate) lines: Vec<usize>,
 }
 
 impl<'a> Table<'a> {
     /// Reads a text; `#` starts a comment.
-    pub(super) fn read(text: &'a str, field: &'static str) -> Result<Self, Error> {
+    pub(crate) fn read(text: &'a str, field: &'static str) -> Result<Self, Error> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut table =
             Self { text, field, names: vec![], header_line: 0, width: 0, numbers: vec![], lines: vec![] };
@@ -77,22 +77,22 @@ impl<'a> Table<'a> {
     }
 
     /// The numbers of a row.
-    pub(super) fn row(&self, row: usize) -> &[f64] {
+    pub(crate) fn row(&self, row: usize) -> &[f64] {
         &self.numbers[row * self.width..(row + 1) * self.width]
     }
 
     /// Number of rows.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.lines.len()
     }
 
     /// The error of a cell.
-    pub(super) fn cell_error(&self, row: usize, cell: usize, expected: &str) -> Error {
+    pub(crate) fn cell_error(&self, row: usize, cell: usize, expected: &str) -> Error {
         self.line_error(self.lines[row], cell, expected)
     }
 
     /// The error of a name in the header.
-    pub(super) fn name_error(&self, name: usize, expected: &str) -> Error {
+    pub(crate) fn name_error(&self, name: usize, expected: &str) -> Error {
         self.line_error(self.header_line, name, expected)
     }
 
@@ -107,7 +107,7 @@ impl<'a> Table<'a> {
     }
 
     /// The error of the text as a whole, at its end.
-    pub(super) fn end_error(&self, found: &str, expected: &str) -> Error {
+    pub(crate) fn end_error(&self, found: &str, expected: &str) -> Error {
         self.error((self.text.lines().count().max(1), 1), found, expected)
     }
 

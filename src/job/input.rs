@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::job::choice::choice;
 use crate::job::cutting::{Cutting, Material, Tool};
 use crate::job::json::{Node, Read, keys};
+use crate::job::learned::Learned;
 use crate::job::motion::Motion;
 use crate::job::online::Online;
 use crate::job::path::{Path, PathKind};
@@ -58,6 +59,9 @@ pub struct Job {
     pub compensation: Compensation,
     /// How well the inputs are known.
     pub uncertainty: Uncertainty,
+    /// What a measured pass taught of arm and cut.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub learned: Option<Learned>,
     /// A loop on top of the path.
     #[serde(skip_serializing_if = "Online::is_default")]
     pub online: Online,
@@ -96,6 +100,7 @@ impl Default for Job {
             }),
             compensation: Compensation::default(),
             uncertainty: Uncertainty::default(),
+            learned: None,
             online: Online::default(),
             program: RobotProgram::default(),
         }
@@ -380,6 +385,7 @@ keys!(Job {
     shaper,
     compensation,
     uncertainty,
+    learned,
     online,
     program
 });

@@ -9,6 +9,7 @@ mod choice;
 mod source;
 mod spin;
 mod input;
+mod learned;
 mod motion;
 mod online;
 mod cutting;
@@ -30,6 +31,7 @@ pub use input::{
     Branch, CompensateAt, Compensation, DhRow, Elbow, Frame, Job, Joint3, Opw, Robot, SagZero, Shaper,
     ShaperKind, ShaperSpec, Shoulder, Wrist,
 };
+pub use learned::Learned;
 pub use motion::{FeedRule, Motion};
 pub use online::{MeasuredOnline, Online};
 pub use path::{FeedUnit, Path, PathKind, ProgramDialect, Unit};

@@ -109,17 +109,20 @@ impl Report {
             Some(_) => "The arm cannot run this. If it could, expect",
             None => "Expect",
         };
-        format!(
-            "{expect} {} (stiffness {}, cutting forces {}).",
-            self.expected_text(),
-            self.stiffness_known(),
-            self.setup().spreads.cutting.words()
-        )
+        let expected = self.expected_text();
+        if self.setup().spreads.together.is_some() {
+            return format!("{expect} {expected} (arm and cut as a measured pass has them).");
+        }
+        let cutting = self.setup().spreads.cutting.words();
+        format!("{expect} {expected} (stiffness {}, cutting forces {cutting}).", self.stiffness_known())
     }
 
     /// How well stiffness is known, in words; a rigid joint has none.
     fn stiffness_known(&self) -> String {
         let compliance = self.plan.robot.compliance();
+        if self.setup().spreads.together.is_some() {
+            return "from a measured pass".to_owned();
+        }
         match &self.setup().spreads.stiffness {
             Stiffness::Together(_) => "from the covariance of an identification".to_owned(),
             Stiffness::Each(spreads) => {

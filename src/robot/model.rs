@@ -178,6 +178,12 @@ impl Robot {
         self
     }
 
+    /// This arm with compliances that are these factors times its own.
+    pub fn softened(mut self, factors: &[f64; 6]) -> Self {
+        self.compliance.component_mul_assign(&Joints::from(*factors));
+        self
+    }
+
     /// This arm with joint 3 measured from elsewhere.
     ///
     /// # Errors

@@ -48,6 +48,12 @@ impl Spring {
         Ok(Self { points })
     }
 
+    /// The spring that turns `factor` times as far.
+    pub fn softened(mut self, factor: f64) -> Self {
+        self.points.iter_mut().for_each(|(_, turn)| *turn *= factor);
+        self
+    }
+
     /// Rotation of the joint [rad] under a torque [N m].
     pub fn turn(&self, torque: f64) -> f64 {
         let load = torque.abs();

@@ -4,6 +4,7 @@ use crate::cutting::material::{self, Material, Model};
 use crate::cutting::{Bending, ChipLoad, Coefficients, Cut, Engagement, Hand, Kienzle, Loading};
 use crate::error::Error;
 use crate::job::{self, Choice, Coupling, Engaged, HelixHand, Job, Line, ToolBending};
+use crate::setup::learned;
 use crate::stock::{Contacts, Cutter, Holder};
 use crate::units::{DEG, GPA, MM, RPM};
 use std::f64::consts::PI;
@@ -110,6 +111,10 @@ pub(super) fn cut(job: &Job, contacts: Option<&Contacts>) -> Result<(Cut, Resolv
             let speed = PI * cut.diameter * job.cutting.spindle_rpm * RPM;
             orthogonal.linear(h0, speed, rake, cut.helix)
         }
+    };
+    let coefficients = match &job.learned {
+        Some(learned) => learned::coefficients(&coefficients, &learned.force_factors),
+        None => coefficients,
     };
     Ok((Cut { coefficients, ..cut }, ResolvedMaterial { material, model, chip }))
 }

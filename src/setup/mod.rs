@@ -6,6 +6,7 @@ mod cutting;
 mod statics;
 mod stock;
 mod feed_rule;
+mod learned;
 mod motion;
 mod uncertainty;
 mod reserved;
@@ -167,9 +168,17 @@ impl Setup {
             stiffness_assumed,
             spread,
         } = robot::arm(&job.robot)?;
-        let robot = robot.with_tool(frame(&job.tool_frame));
+        if let Some(learned) = &job.learned {
+            learned::checked(learned)?;
+        }
+        let stiffness_note = match &job.learned {
+            Some(_) => format!("{stiffness_note} Corrected by factors that a measured pass taught."),
+            None => stiffness_note,
+        };
+        let softer = job.learned.as_ref().map_or([1.0; 6], |learned| learned.compliance_factors);
+        let robot = robot.softened(&softer).with_tool(frame(&job.tool_frame));
         let base = frame(&job.base_frame);
-        let statics = statics::of(&job.robot, robot.compliance(), &base)?;
+        let statics = statics::of(&job.robot, (robot.compliance(), &softer), &base)?;
         let robot = statics.into_iter().fold(robot, Robot::with_statics);
         let workpiece = base.inverse().compose(&frame(&job.workpiece_frame));
         // A stock takes about as long to follow as its program to read.
@@ -216,6 +225,10 @@ impl Setup {
         let sources = sources(&job.compensation.sources)?;
         let compliance = (*robot.compliance()).into();
         let spreads = uncertainty::spreads(&job.uncertainty, &compliance, spread, &material)?;
+        let spreads = match &job.learned {
+            Some(learned) => spreads.learned(learned::spread(learned)?),
+            None => spreads,
+        };
         let goal = Goal {
             margin: spreads.margin(&compliance),
             tolerance: job.compensation.tolerance_mm * MM,

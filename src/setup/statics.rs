@@ -12,13 +12,13 @@ use nalgebra::Vector3;
 const HEAVIEST: f64 = 1e5;
 
 /// Springs and loads of the arm with its base at `base` in the cell; `None` if the joints only have
-/// a compliance.
+/// a compliance. A table of a spring is turned further by the factor in `softer`.
 ///
 /// # Errors
 /// The first invalid row, with its field.
 pub(super) fn of(
     robot: &job::Robot,
-    compliance: &Joints,
+    (compliance, softer): (&Joints, &[f64; 6]),
     base: &Pose,
 ) -> Result<Option<JointStatics>, Error> {
     let points = robot.joint_springs_nm_arcmin.as_deref().unwrap_or_default();
@@ -35,8 +35,9 @@ pub(super) fn of(
         tables[joint].push((torque, turn * ARCMIN));
     }
     let mut springs = [0, 1, 2, 3, 4, 5].map(|joint| Spring::linear(compliance[joint]));
-    for (spring, table) in springs.iter_mut().zip(tables).filter(|(_, table)| !table.is_empty()) {
-        *spring = Spring::through(field, table)?;
+    let tabled = springs.iter_mut().zip(tables).zip(softer).filter(|((_, table), _)| !table.is_empty());
+    for ((spring, table), factor) in tabled {
+        *spring = Spring::through(field, table)?.softened(*factor);
     }
     let mut loads = Vec::with_capacity(rows.len());
     for (index, &[link, mass, x, y, z]) in rows.iter().enumerate() {

@@ -51,6 +51,7 @@ pub(super) fn spreads(
         frequency: InputSpread::percent(given.frequency_percent),
         draws: given.draws as usize,
         seed: u64::from(given.seed),
+        together: None,
     })
 }
 

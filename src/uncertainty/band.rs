@@ -198,11 +198,12 @@ fn estimate(NominalErrors { after, deflection, .. }: &NominalErrors, reach: f64)
 /// The part of the deflection by which a plant at the end of the 95 % ranges differs, to first order.
 fn reach(plan: &Plan) -> f64 {
     let spreads = &plan.setup.spreads;
-    let variance = spreads.stiffness.covariance().diagonal();
+    let covariance = spreads.covariance();
     // A rigid joint adds nothing, however little is known of it.
-    let soft = variance.iter().zip(plan.robot.compliance()).filter(|(_, compliance)| **compliance > 0.0);
-    let stiffness = soft.map(|(variance, _)| *variance).fold(0.0, f64::max);
-    COVERAGE * (stiffness + spreads.cutting.deviation() * spreads.cutting.deviation()).sqrt()
+    let soft = (0..6).filter(|joint| plan.robot.compliance()[*joint] > 0.0);
+    let tied = |joint: usize| covariance[(joint, joint)] + 2.0 * covariance[(joint, 6)];
+    let stiffness = soft.map(tied).reduce(f64::max).unwrap_or(0.0).max(-covariance[(6, 6)]);
+    COVERAGE * (stiffness + covariance[(6, 6)]).sqrt()
 }
 
 /// The places with the largest values, the largest first, and as many all along the path: with
@@ -255,13 +256,6 @@ fn shares(outcomes: &Outcomes, widest: usize) -> Vec<Share> {
     let tangent = plan.path.tangent(place.arc_length);
     let across = |v: Vector3<f64>| v - tangent * tangent.dot(&v);
     let joints = place.by_joint(plan).map(across);
-    let covariance = spreads.stiffness.covariance();
-    let mut squares: Vec<(String, f64)> = (0..6)
-        .map(|i| {
-            let square = (0..6).map(|j| covariance[(i, j)] * joints[i].dot(&joints[j])).sum();
-            (format!("joint-{}", i + 1), square)
-        })
-        .collect();
     // A step small enough to be a derivative, even with springs that are not linear.
     let step = 1e-3;
     let moved = |force: [f64; 3], frequency: f64| {
@@ -275,16 +269,16 @@ fn shares(outcomes: &Outcomes, widest: usize) -> Vec<Share> {
         };
         across(at(1.0) - at(-1.0)) / (2.0 * step)
     };
-    for (input, force, frequency, spread) in [
-        ("cutting", [1.0, 1.0, 1.0], 0.0, spreads.cutting),
-        ("radial-ratio", [0.0, 1.0, 0.0], 0.0, spreads.ratios),
-        ("axial-ratio", [0.0, 0.0, 1.0], 0.0, spreads.ratios),
-        ("frequency", [0.0; 3], 1.0, spreads.frequency),
-    ] {
-        let deviation = spread.deviation();
-        let size = if deviation > 0.0 { moved(force, frequency).norm() * deviation } else { 0.0 };
-        squares.push((input.to_owned(), size * size));
-    }
+    let covariance = spreads.covariance();
+    let forces = [[1.0, 1.0, 1.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let grown: Vec<Vector3<f64>> = joints.into_iter().chain(forces.map(|force| -moved(force, 0.0))).collect();
+    let square = |i: usize| (0..9).map(|j| covariance[(i, j)] * grown[i].dot(&grown[j])).sum();
+    let names = ["cutting", "radial-ratio", "axial-ratio"].map(str::to_owned);
+    let names = (1..=6).map(|joint| format!("joint-{joint}")).chain(names);
+    let mut squares: Vec<(String, f64)> = names.enumerate().map(|(i, name)| (name, square(i))).collect();
+    let deviation = spreads.frequency.deviation();
+    let size = if deviation > 0.0 { moved([0.0; 3], 1.0).norm() * deviation } else { 0.0 };
+    squares.push(("frequency".to_owned(), size * size));
     let total: f64 = squares.iter().map(|(_, square)| square).sum();
     let share = |square: f64| if total > 0.0 { square / total } else { 0.0 };
     squares.into_iter().map(|(input, square)| Share { input, share: share(square) }).collect()
@@ -301,14 +295,16 @@ fn measures(
     let narrowed = |known: InputSpread, better: InputSpread| {
         if known.deviation() > better.deviation() { better } else { known }
     };
+    // What a measured pass has tied is not measured again by itself.
     let with_stiffness = match &spreads.stiffness {
         Stiffness::Each(each) => Stiffness::Each(each.map(|known| narrowed(known, stiffness))),
         fitted => fitted.clone(),
     };
-    let cut = narrowed(spreads.cutting, cutting);
+    let cut = if spreads.together.is_some() { spreads.cutting } else { narrowed(spreads.cutting, cutting) };
+    let ratios = if spreads.together.is_some() { spreads.ratios } else { cut };
     let tried = [
         ("stiffness", MEASURED[0], Spreads { stiffness: with_stiffness, ..spreads.clone() }),
-        ("cutting", MEASURED[1], Spreads { cutting: cut, ratios: cut, ..spreads.clone() }),
+        ("cutting", MEASURED[1], Spreads { cutting: cut, ratios, ..spreads.clone() }),
         (
             "frequency",
             MEASURED[2],

@@ -28,13 +28,14 @@ impl Draw {
     /// The plant at given deviates.
     pub fn at(spreads: &Spreads, z: &Deviates) -> Self {
         let [joints @ .., cutting, radial, axial, frequency] = z;
+        let frequency = spreads.frequency.at(*frequency);
+        if let Some(together) = &spreads.together {
+            let [compliance @ .., cutting, radial, axial] = together.at(&std::array::from_fn(|i| z[i]));
+            return Self { compliance, force: [cutting, cutting * radial, cutting * axial], frequency };
+        }
         let cutting = spreads.cutting.at(*cutting);
         let [radial, axial] = [radial, axial].map(|z| cutting * spreads.ratios.at(*z));
-        Self {
-            compliance: spreads.stiffness.at(joints),
-            force: [cutting, radial, axial],
-            frequency: spreads.frequency.at(*frequency),
-        }
+        Self { compliance: spreads.stiffness.at(joints), force: [cutting, radial, axial], frequency }
     }
 }
 
