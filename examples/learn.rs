@@ -13,15 +13,27 @@ use armill::learn::{
     Commanded, LearnSummary, LearnedCorrection, LearningGain, Log, MeasuredPass, NextPass, PassOptions,
     dynamometer,
 };
-use armill::units::{DEG, MM};
+use armill::units::MM;
+use armill::verification::Programs;
 use armill::{Error, Job, Progress, Report};
 use serde_json::{Value, json};
-use std::fmt::Write;
+use std::path::Path;
 use std::process::ExitCode;
 
 const USAGE: &str = "learn job.json log.csv [--commanded corrected|desired] [--learned learned.json] [--frame workpiece|base|world] \
-                     [--shift s or mm] [--corner hz] [--gain number] [--save learned.json] [--command next.csv]\n\
+                     [--shift s or mm] [--corner hz] [--gain number] [--save learned.json] [--command next.csv] [--program folder]\n\
                      learn job.json --cuts cuts.csv";
+
+/// The files that the job's controller loads, in a folder.
+fn write_program(report: &Report, folder: &str) -> Result<(), Failure> {
+    let failed = |error: std::io::Error| Failure::Usage(format!("{folder}: {error}"));
+    for file in Programs::default().package(report, None)?.files {
+        let path = Path::new(folder).join(&file.path);
+        std::fs::create_dir_all(path.parent().unwrap_or(Path::new(folder))).map_err(failed)?;
+        std::fs::write(path, &file.text).map_err(failed)?;
+    }
+    Ok(())
+}
 
 /// Why nothing is printed: the command line, or the error of the job or the log.
 enum Failure {
@@ -48,6 +60,7 @@ struct Asked {
     gain: Option<f64>,
     save: Option<String>,
     command: Option<String>,
+    program: Option<String>,
 }
 
 fn read(mut arguments: impl Iterator<Item = String>) -> Result<Asked, String> {
@@ -87,6 +100,7 @@ fn read(mut arguments: impl Iterator<Item = String>) -> Result<Asked, String> {
             "--cuts" => asked.cuts = Some(value),
             "--save" => asked.save = Some(value),
             "--command" => asked.command = Some(value),
+            "--program" => asked.program = Some(value),
             other => return Err(format!("unknown option {other}")),
         }
     }
@@ -133,8 +147,11 @@ fn answer(asked: &Asked) -> Result<Value, Failure> {
         if let Some(path) = &asked.save {
             write(path, &json!(LearnedCorrection::of(&report, &kept)).to_string())?;
         }
+        if let Some(path) = &asked.program {
+            write_program(&next.report(&report), path)?;
+        }
         if let Some(path) = &asked.command {
-            write(path, &commands(&report, next))?;
+            write(path, &next.table(&report))?;
         }
     }
     // The band of the job that has learned, beside what it was.
@@ -143,24 +160,6 @@ fn answer(asked: &Asked) -> Result<Value, Failure> {
     let mut answer = json!(summary);
     answer["expected_mm"] = json!({ "before": report.summary().expected_mm, "with_factors": expected });
     Ok(answer)
-}
-
-/// The commands of the next pass: one row for each sample.
-fn commands(report: &Report, next: &NextPass) -> String {
-    let trajectory = &report.plan.trajectory;
-    let into = report.setup().workpiece.inverse();
-    let mut text = String::from(
-        "time_s,s_mm,x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n",
-    );
-    for (k, q) in next.q.iter().enumerate() {
-        let point = into.point(&(trajectory.position[k] + next.correction[k])) / MM;
-        let shift = into.direction(&next.correction[k]) / MM;
-        let (time, s) = (k as f64 * trajectory.sample_time, trajectory.timing.arc_length[k] / MM);
-        let cells = point.iter().chain(shift.iter()).map(|v| format!("{v:.5}"));
-        let cells = cells.chain(q.iter().map(|q| format!("{:.6}", q / DEG)));
-        let _ = writeln!(text, "{time},{s:.5},{}", cells.collect::<Vec<_>>().join(","));
-    }
-    text
 }
 
 fn main() -> ExitCode {

@@ -208,7 +208,7 @@ fn a_log_finds_its_place() {
     let wrong = PassOptions { shift: Some(0.8), ..options(DESIRED) };
     let measured = MeasuredPass::of(&report, &log, &wrong).unwrap();
     assert!(measured.alignment.unwrap().is_doubtful());
-    let said = measured.remarks.iter().find(|remark| remark.contains("alignment looks wrong")).unwrap();
+    let said = measured.said.odd.iter().find(|remark| remark.contains("alignment looks wrong")).unwrap();
     assert!(said.contains("0.800 s") && (said.contains("1.299") || said.contains("1.300")), "{said}");
     // Another part of the cell is refused, with how far off it is.
     let far = log.position.as_ref().map(|(rows, unit)| {
@@ -245,7 +245,7 @@ fn what_is_turned_round_is_recognised() {
         let middle = report.samples() / 2;
         let force = measured.force[middle].unwrap() / 1.15;
         assert!((force - report.force[middle]).norm() < 0.04 * force.norm(), "{force}");
-        let remarks = measured.remarks.join("\n");
+        let remarks = measured.said.odd.join("\n");
         assert_eq!(remarks.contains("desired less actual"), sign < 0.0, "{remarks}");
         assert!(remarks.contains("on the workpiece"), "{remarks}");
         // The force says how hard the material is, and then the deflection how soft the arm.
@@ -336,7 +336,7 @@ fn angles_behind_the_gears_say_how_far_joints_bend() {
     assert!(
         (bent - deflection * 1.4).norm() < 0.05 * deflection.norm(),
         "{bent} {deflection} {:?}",
-        measured.remarks
+        measured.said
     );
     let factors = estimate(&report, &measured);
     let product = exp(factors.logarithm[2] + factors.logarithm[6]);

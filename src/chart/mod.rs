@@ -15,6 +15,7 @@ pub mod catalog;
 pub mod error_grid;
 pub mod identified;
 pub mod intervals;
+pub mod learned;
 pub mod over;
 pub mod plot;
 pub mod space;

@@ -7,7 +7,7 @@ use crate::export::style::Junctions;
 use crate::job::CompensateAt;
 use crate::math::Pose;
 use crate::model;
-use crate::report::{Report, VerdictState, millimetres};
+use crate::report::{Report, VerdictState, Warning, millimetres};
 use crate::units::{DEG, MM};
 
 /// The lines of the header, plain ASCII without brackets, for any language's comments. No date: the
@@ -29,14 +29,23 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
     let mut lines = vec![
         model::stamp(&report.fingerprint()),
         format!("Path {sources}{brought}, robot model {}", ascii(report.plan.robot.name())),
-        format!("Verdict, simulated: {}", plain(&report.verdict())),
-        format!(
-            "Tolerance {} mm, largest contour error {} mm if every number is exact, {} mm without compensation",
-            millimetres(setup.goal.tolerance),
-            millimetres(report.after_max()),
-            millimetres(report.before.statistics.max)
-        ),
     ];
+    match &report.taught {
+        Some(taught) => {
+            let cannot = |warning: &Warning| format!("The arm cannot run this: {}", plain(&warning.message));
+            lines.extend(report.impossible().map(cannot));
+            lines.push(taught.sentence());
+        }
+        None => lines.extend([
+            format!("Verdict, simulated: {}", plain(&report.verdict())),
+            format!(
+                "Tolerance {} mm, largest contour error {} mm if every number is exact, {} mm without compensation",
+                millimetres(setup.goal.tolerance),
+                millimetres(report.after_max()),
+                millimetres(report.before.statistics.max)
+            ),
+        ]),
+    }
     if let Some(by_force) = &setup.feed_rule {
         let ConstantForceFeed { force, least, most } = by_force.rule;
         lines.push(format!(
@@ -58,7 +67,8 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
             "These commands are meant for an input shaper, {frequency} rad/s, damping {damping}: the controller must apply it"
         ));
     }
-    if let Some((command, run)) = command.and_then(|command| Some((command, command.run?))) {
+    let run = command.filter(|_| report.taught.is_none()).and_then(|command| Some((command, command.run?)));
+    if let Some((command, run)) = run {
         lines.extend(rehearsed(report, command, &run));
     }
     lines.push(match command {

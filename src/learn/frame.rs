@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::learn::alignment::{Alignment, Sampled};
 use crate::learn::log::{Clock, FIELD, Log};
-use crate::learn::measured::{LoggedRows, PassOptions, RanPass, compared_by, millimetres};
+use crate::learn::measured::{LoggedRows, PassOptions, RanPass, Said, compared_by, millimetres};
 use crate::math::Pose;
 use crate::report::Report;
 use crate::robot::Joints;
@@ -58,18 +58,18 @@ pub(super) fn read(
     pass: &RanPass,
     log: &Log,
     options: &PassOptions,
-    remarks: &mut Vec<String>,
+    said: &mut Said,
 ) -> Result<ReadLog, Error> {
     let candidates: Vec<&'static str> = options.frame.map_or(FRAMES.to_vec(), |name| vec![name]);
     let mut read = if let Some(position) = &log.position {
-        positions(pass, log, (&position.0, position.1), &candidates, options, remarks)?
+        positions(pass, log, (&position.0, position.1), &candidates, options, said)?
     } else if let Some((deviation, stated)) = &log.deviation {
         if !stated {
-            remarks.push("the unit of dx, dy, dz is not stated and taken to be mm".into());
+            said.recognised.push("the unit of dx, dy, dz is not stated and taken to be mm".into());
         }
-        deviations(pass, log, deviation, &candidates, options, remarks)?
+        deviations(pass, log, deviation, &candidates, options, said)?
     } else if let (Some(motor), Some(load)) = (&log.motor, &log.load) {
-        joints(pass, log, (motor, load), options, remarks)?
+        joints(pass, log, (motor, load), options, said)?
     } else {
         ReadLog {
             errors: LoggedRows::default(),
@@ -81,29 +81,29 @@ pub(super) fn read(
         }
     };
     if let Some(force) = &log.force {
-        forces(pass, log, force, &candidates, options, (&mut read, remarks))?;
+        forces(pass, log, force, &candidates, options, (&mut read, said))?;
     }
     if let Some(alignment) = &read.alignment {
-        doubts(alignment, &log.clock, remarks);
+        doubts(alignment, &log.clock, said);
     }
     Ok(read)
 }
 
 /// What is odd about where a log lies.
-fn doubts(alignment: &Alignment, clock: &Clock, remarks: &mut Vec<String>) {
+fn doubts(alignment: &Alignment, clock: &Clock, said: &mut Said) {
     let shift = |shift: f64| match clock {
         Clock::Time(_) => format!("{shift:.3} s"),
         _ => millimetres(shift),
     };
     if alignment.is_doubtful() {
-        remarks.push(format!(
+        said.odd.push(format!(
             "the alignment looks wrong: the run is taken to begin {} after the first row, but {} fits better",
             shift(alignment.shift),
             shift(alignment.best)
         ));
     }
     if alignment.is_unlike() {
-        remarks.push(format!(
+        said.odd.push(format!(
             "the log hardly follows what the model expects (correlation {:.2}), so where it lies on the run is unsure",
             alignment.agreement
         ));
@@ -130,7 +130,7 @@ fn positions(
     (values, unit): (&[Option<Vector3<f64>>], Option<f64>),
     frames: &[&'static str],
     options: &PassOptions,
-    remarks: &mut Vec<String>,
+    said: &mut Said,
 ) -> Result<ReadLog, Error> {
     let units: Vec<(f64, &str)> = match unit {
         Some(_) => vec![(1.0, "the stated unit")],
@@ -176,10 +176,10 @@ fn positions(
         return Err(Error::invalid(FIELD, "positions away from the path", expected));
     }
     if options.frame.is_none() {
-        remarks.push(format!("positions fit the path in the frame of the {name}"));
+        said.recognised.push(format!("positions fit the path in the frame of the {name}"));
     }
     if values.iter().flatten().count() > 0 && units.len() > 1 {
-        remarks.push(format!("the unit of positions is not stated; {} fits", unit.1));
+        said.recognised.push(format!("the unit of positions is not stated; {} fits", unit.1));
     }
     let frame = frame(pass.report, name);
     let tips: Vec<Option<Vector3<f64>>> =
@@ -288,7 +288,7 @@ fn deviations(
     values: &[Option<Vector3<f64>>],
     frames: &[&'static str],
     options: &PassOptions,
-    remarks: &mut Vec<String>,
+    said: &mut Said,
 ) -> Result<ReadLog, Error> {
     let pattern = pass.pattern();
     let found = likest(pass, &log.clock, values, &pattern, frames, options.shift).ok_or_else(not_over)?;
@@ -297,13 +297,13 @@ fn deviations(
     let is_opposite =
         !options.commanded.corrected && options.commanded.learned.is_empty() && alignment.agreement < -0.5;
     if is_opposite {
-        remarks.push(
+        said.odd.push(
             "the deviations are opposite to what a force does, so they are read as desired less actual"
                 .into(),
         );
     }
     if options.frame.is_none() {
-        remarks.push(format!("deviations are taken to be in the frame of the {name}"));
+        said.recognised.push(format!("deviations are taken to be in the frame of the {name}"));
     }
     let sign = if is_opposite { -1.0 } else { 1.0 };
     let errors = values.iter().map(|value| value.map(|value| turn * value * sign)).collect();
@@ -323,7 +323,7 @@ fn joints(
     log: &Log,
     (motor, load): (&[Joints], &[Joints]),
     options: &PassOptions,
-    remarks: &mut Vec<String>,
+    said: &mut Said,
 ) -> Result<ReadLog, Error> {
     let shaped = pass.report.shaped(&pass.q);
     let first = |q: &Joints| Vector3::new(q[0], q[1], q[2]);
@@ -335,7 +335,7 @@ fn joints(
     let alignment =
         Alignment::of(log_of_motors, run, compared_by(true), options.shift).ok_or_else(not_over)?;
     if -alignment.agreement > OTHER_RUN {
-        remarks.push(format!(
+        said.odd.push(format!(
             "the motors' angles are {:.1} deg off the commands of this run, on average: is it another run's log?",
             -alignment.agreement / DEG
         ));
@@ -352,10 +352,10 @@ fn joints(
     let free: Vec<Joints> =
         at.iter().zip(&turned).filter(|(own, _)| is_free(**own)).map(|(_, turned)| *turned).collect();
     let zero = if free.len() >= 3 {
-        remarks.push("the encoders' zeros are set where the tool does not cut".into());
+        said.recognised.push("the encoders' zeros are set where the tool does not cut".into());
         free.iter().sum::<Joints>() / free.len() as f64
     } else {
-        remarks.push(
+        said.odd.push(
             "the tool cuts all along, so an offset between the encoders of a joint counts as deflection"
                 .into(),
         );
@@ -379,14 +379,14 @@ fn forces(
     values: &[Option<Vector3<f64>>],
     frames: &[&'static str],
     options: &PassOptions,
-    (read, remarks): (&mut ReadLog, &mut Vec<String>),
+    (read, said): (&mut ReadLog, &mut Said),
 ) -> Result<(), Error> {
     let shift = read.alignment.map(|alignment| alignment.shift).or(options.shift);
     let found = likest(pass, &log.clock, values, &pass.report.force, frames, shift).ok_or_else(not_over)?;
     let (name, turn, alignment) = found;
     let is_opposite = alignment.agreement < 0.0;
     if is_opposite {
-        remarks.push(
+        said.odd.push(
             "the forces are opposite to those on the tool, so they are read as those on the workpiece".into(),
         );
     }
@@ -394,7 +394,7 @@ fn forces(
         read.alignment = Some(alignment);
         read.frame = name;
     } else if alignment.is_unlike() {
-        remarks
+        said.odd
             .push(format!("the forces hardly follow the model's (correlation {:.2})", alignment.agreement));
     }
     let sign = if is_opposite { -1.0 } else { 1.0 };

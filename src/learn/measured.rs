@@ -81,7 +81,16 @@ pub struct MeasuredPass {
     /// Share of the run's samples at which something was measured.
     pub covered: f64,
     /// What was recognised, and what is odd.
-    pub remarks: Vec<String>,
+    pub said: Said,
+}
+
+/// What a log leaves open.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Said {
+    /// What was recognised.
+    pub recognised: Vec<String>,
+    /// What is odd.
+    pub odd: Vec<String>,
 }
 
 /// Corners of the low pass [Hz]; the highest that keeps the noise small is taken.
@@ -100,8 +109,8 @@ impl MeasuredPass {
     /// [`Error::Invalid`] if it does not lie over the run, or the commands that ran are out of reach.
     pub fn of(report: &Report, log: &Log, options: &PassOptions) -> Result<Self, Error> {
         let pass = RanPass::of(report, &options.commanded)?;
-        let mut remarks = Vec::new();
-        let mut read = frame::read(&pass, log, options, &mut remarks)?;
+        let mut said = Said::default();
+        let mut read = frame::read(&pass, log, options, &mut said)?;
         let places = pass.places(&log.clock, read.alignment.as_ref(), &mut read.errors);
         let step = report.plan.trajectory.sample_time;
         let error = pass.by_sample(&places, &read.errors);
@@ -129,7 +138,7 @@ impl MeasuredPass {
             return Err(Error::invalid(FIELD, found, "a log that covers at least 5 % of the run"));
         }
         if covered < 0.95 {
-            remarks.push(format!(
+            said.odd.push(format!(
                 "{:.0} % of the run has no measurement; nothing is learned there",
                 100.0 * (1.0 - covered)
             ));
@@ -152,7 +161,7 @@ impl MeasuredPass {
             corner,
             noise,
             covered,
-            remarks,
+            said,
         })
     }
 }

@@ -7,14 +7,16 @@
 //! n of each pass leaves an error of a g sd(n) / sqrt(1 - (1 - a g)^2). The correction by the model stays as it is, sharp where
 //! the cut begins; only what was learned goes through Q.
 
-use crate::compensation::commands;
+use crate::compensation::{Compensation, commands};
 use crate::deviation::contour::MeanMax;
+use crate::deviation::{Reference, Sources, simulate};
 use crate::error::Error;
 use crate::learn::{MeasuredPass, low_pass};
 use crate::motion::Trajectory;
 use crate::progress::Progress;
-use crate::report::Report;
+use crate::report::{Report, Taught};
 use crate::robot::Joints;
+use crate::units::{DEG, MM};
 use nalgebra::Vector3;
 use std::sync::Arc;
 
@@ -72,6 +74,8 @@ pub struct NextPass {
     pub before: MeanMax,
     /// What would be left of it if it comes back and corrections move the tip as they are commanded [m].
     pub after: MeanMax,
+    /// That, at the samples that were measured [m].
+    pub left: Vec<Vector3<f64>>,
 }
 
 /// What was learned after a pass: `learned` [m] before it, its `error` (actual less desired [m], zero where none was measured), the
@@ -123,6 +127,57 @@ impl NextPass {
         let known = || measured.smooth.iter().enumerate().filter_map(|(k, error)| Some((k, (*error)?)));
         let seen: Vec<_> = known().map(|(_, error)| error).collect();
         let left: Vec<_> = known().map(|(k, error)| error + measured.seen.part(k, &moved[k])).collect();
-        Ok(Self { learned, correction, q, before: MeanMax::of(&seen), after: MeanMax::of(&left) })
+        Ok(Self { learned, correction, q, before: MeanMax::of(&seen), after: MeanMax::of(&left), left })
+    }
+
+    /// The run with these commands, to be written as programs. Its figures are the model's, which does not know why the
+    /// commands are as they are; [`Taught`] has those that count.
+    pub fn report(&self, report: &Report) -> Report {
+        let reference = Reference::along(&report.plan, Sources::ALL);
+        let result = Arc::new(simulate(&report.plan, &reference, &self.q, &mut Progress::none()));
+        let compensation = Compensation {
+            correction: self.correction.clone(),
+            q: self.q.clone(),
+            result: result.clone(),
+            ..report.compensation.clone()
+        };
+        drop(reference);
+        Report {
+            compensation,
+            after: result,
+            taught: Some(Taught { measured: self.before, expected: self.after }),
+            alone: Default::default(),
+            fingerprint: Default::default(),
+            ..report.clone()
+        }
+    }
+
+    /// The commands as a table, one row for each sample: time, arc length, position and correction in the frame of the workpiece,
+    /// joint angles.
+    pub fn table(&self, report: &Report) -> String {
+        let trajectory = &report.plan.trajectory;
+        let into = report.setup().workpiece.inverse();
+        let mut text = String::from(
+            "time_s,s_mm,x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n",
+        );
+        for (k, q) in self.q.iter().enumerate() {
+            let point = into.point(&(trajectory.position[k] + self.correction[k])) / MM;
+            let shift = into.direction(&self.correction[k]) / MM;
+            let first = [k as f64 * trajectory.sample_time, trajectory.timing.arc_length[k] / MM];
+            let lengths = first.iter().chain(point.iter()).chain(shift.iter()).map(|v| number(*v, 5));
+            let cells: Vec<String> = lengths.chain(q.iter().map(|q| number(q / DEG, 6))).collect();
+            text.push_str(&cells.join(","));
+            text.push('\n');
+        }
+        text
+    }
+}
+
+/// A number with at most so many decimals, without zeros at its end.
+fn number(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.trim_end_matches('0').trim_end_matches('.') {
+        "-0" => "0".to_owned(),
+        short => short.to_owned(),
     }
 }

@@ -37,7 +37,9 @@ pub struct ReadSummary {
     pub noise_mm: f64,
     /// Share of the run at which something was measured [%].
     pub covered_percent: f64,
-    /// What was recognised, and what is odd.
+    /// What was recognised.
+    pub recognised: Vec<String>,
+    /// What is odd.
     pub remarks: Vec<String>,
 }
 
@@ -140,7 +142,8 @@ fn read(measured: &MeasuredPass) -> ReadSummary {
         corner_hz: measured.corner,
         noise_mm: measured.noise / MM,
         covered_percent: 100.0 * measured.covered,
-        remarks: measured.remarks.clone(),
+        recognised: measured.said.recognised.clone(),
+        remarks: measured.said.odd.clone(),
     }
 }
 

@@ -24,6 +24,7 @@ mod verdict;
 mod expected;
 mod in_stock;
 mod surface;
+mod taught;
 
 pub use budget::{Budget, Parts};
 pub use cut::{CutFigures, WallFigures};
@@ -36,6 +37,7 @@ pub use span::MOST_SPANS;
 pub use stops::Stops;
 pub use summary::{Statistics, Summary, WorstPlace};
 pub use surface::{PartKind, SurfaceFigures, SurfaceSpot};
+pub use taught::Taught;
 pub use verdict::VerdictState;
 pub(crate) use verdict::decapitalised;
 pub use warning::Warning;
@@ -91,6 +93,8 @@ pub struct Report {
     pub band: ErrorBand,
     /// The surface that is left, if the engagement follows a stock.
     pub surface: Option<Surface>,
+    /// What a measured pass has changed of the commands, if one did.
+    pub taught: Option<Taught>,
     /// The loop of the job on top of the path, and what it would bring.
     pub online: Option<(OnlineLoop, Comparison)>,
     /// Conditions that are odd but workable.

@@ -90,6 +90,7 @@ pub(crate) fn judged(job: &Job, progress: &mut Progress) -> Result<Report, Error
         after,
         band,
         surface: None,
+        taught: None,
         online: None,
         warnings: singular,
         alone: Default::default(),

@@ -111,7 +111,9 @@ fn blended(report: &Report, thinning: Option<f64>, style: PostStyle, blend: f64)
     };
     let mut best = attempt(CommandedPath::of(report))?;
     let goal = report.setup().goal;
-    let passes = if report.compensation.passes > 0 { goal.max_passes } else { 0 };
+    // What a measured pass has taught is no error that the model should take back.
+    let corrects = report.compensation.passes > 0 && report.taught.is_none();
+    let passes = if corrects { goal.max_passes } else { 0 };
     for _ in 0..passes {
         let (commanded_path, _, outcome) = &best;
         let least = outcome.judged();

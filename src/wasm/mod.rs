@@ -12,6 +12,7 @@ mod run;
 mod chart;
 mod export;
 mod identify;
+mod learn;
 mod placement;
 mod part;
 mod scene;
@@ -26,6 +27,7 @@ pub use job::{
     arm, check, default_job, fields, formats, opening_job, place_in_front, presets, proposed_cutting,
     proposed_stock,
 };
+pub use learn::{LearnedPass, fit_cuts, learn_pass};
 pub use placement::Survey;
 pub use run::{Run, run};
 pub use study::{Study, largest, tornado};

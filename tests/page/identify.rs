@@ -2,7 +2,7 @@
 //! into the job and undone.
 
 use crate::browser::{DESKTOP, PHONE, Page, Result, THESIS, visit};
-use crate::current;
+use crate::{current, narrow};
 use armill::identify::{Convention, measurement, response, stiffness};
 use armill::{Job, Report};
 use serde_json::Value;
@@ -138,7 +138,11 @@ fn what_is_wrong_is_said_with_its_line_and_the_last_result_stays() -> Result {
         page.wait_for("document.querySelector('#identify .wrong p')", 10.0).await?;
         let said = page.text("#identify .wrong p").await?;
         assert!(said.starts_with(&format!("Line {line}, column ")) && said.contains("a number"), "{said}");
-        assert_eq!(page.js("return document.querySelector('#identify .result').hidden").await?, false);
+        assert_eq!(
+            page.js("return document.querySelector('[aria-labelledby=identify-stiffness] .result').hidden")
+                .await?,
+            false
+        );
         click(page, "#identify .wrong button").await?;
         let chosen = page
             .js("const a = document.getElementById('identify-loads'); \
@@ -150,11 +154,12 @@ fn what_is_wrong_is_said_with_its_line_and_the_last_result_stays() -> Result {
         // own.
         paste(page, "#identify-loads", LOADS).await?;
         page.wait_for("!document.querySelector('#identify .wrong p')", 10.0).await?;
-        click(page, "#identify .whose button").await?;
+        click(page, "[aria-labelledby=identify-stiffness] .whose button").await?;
         page.wait_for("document.querySelector('#use-compliance')?.textContent.startsWith('Use these')", 10.0)
             .await?;
         paste(page, "#identify-loads", "").await?;
-        page.wait_for("document.querySelector('#identify .result').hidden", 10.0).await
+        page.wait_for("document.querySelector('[aria-labelledby=identify-stiffness] .result').hidden", 10.0)
+            .await
     })
 }
 
@@ -174,5 +179,83 @@ fn it_fits_a_phone() -> Result {
         page.screenshot("identify-phone.png").await?;
         assert_eq!(page.wider().await?, Value::Null);
         Ok(())
+    })
+}
+
+/// A log of a measured pass: the factors that the core finds natively, one click into the job and back, and three files.
+#[test]
+fn a_measured_pass_teaches_factors_and_the_next_program() -> Result {
+    use armill::learn::{Commanded, LearnSummary, LearningGain, Log, MeasuredPass, NextPass, PassOptions};
+    use armill::{Job, Progress};
+    visit(&format!("{THESIS}&view=identify"), DESKTOP, async |page| {
+        current(page).await?;
+        page.click("#learn-log-example").await?;
+        page.wait_for("document.querySelector('#learned tbody tr')", 30.0).await?;
+        let job = Job::from_json(include_str!("../../web/examples/learn-pass.json"))?;
+        let log = Log::read(include_str!("../../web/examples/learn-pass.csv"))?;
+        let report = armill::run(&job, &mut Progress::none())?;
+        let commanded = Commanded { corrected: true, learned: vec![] };
+        let options = PassOptions { commanded, frame: None, shift: None, corner: None };
+        let measured = MeasuredPass::of(&report, &log, &options)?;
+        let next = NextPass::of(&report, &measured, LearningGain::USUAL)?;
+        let summary = LearnSummary::of(&report, None, &measured, Some((&next, LearningGain::USUAL)));
+        let rows = page
+            .js("return [...document.querySelectorAll('#learned tbody tr')].map(row => row.cells[1].textContent)")
+            .await?;
+        let shown: Vec<String> = serde_json::from_value(rows)?;
+        assert_eq!(shown.len(), summary.factors.factors.len());
+        for (shown, factor) in shown.iter().zip(&summary.factors.factors) {
+            assert!((shown.parse::<f64>()? / factor.value - 1.0).abs() < 5e-3, "{shown} {}", factor.value);
+        }
+        let said = page.js("return document.querySelector('section.identify').innerText").await?.to_string();
+        for words in &summary.unexplained {
+            assert!(said.contains(words.as_str()), "{words}");
+        }
+        // A wrong delay is noticed.
+        page.type_into("#learn-shift", "2\n").await?;
+        let noticed =
+            "document.querySelector('section.identify').innerText.includes('alignment looks wrong')";
+        page.wait_for(noticed, 30.0).await?;
+        page.type_into("#learn-shift", "\u{e003}\n").await?;
+        page.wait_for(&format!("!({noticed})"), 30.0).await?;
+        narrow(page, "a measured pass").await?;
+        // Into the job with its band, and back.
+        page.click("#use-factors").await?;
+        current(page).await?;
+        let known = "document.body.textContent.includes('arm and cut as a measured pass has them')";
+        page.wait_for(known, 30.0).await?;
+        page.click("#undo").await?;
+        current(page).await?;
+        page.wait_for(&format!("!({known})"), 30.0).await
+    })
+}
+
+/// Means of five slots: the coefficients that the core fits natively, one click into the job.
+#[test]
+fn mean_forces_become_the_material() -> Result {
+    use armill::learn::dynamometer;
+    use armill::setup::Setup;
+    visit(&format!("{THESIS}&view=identify"), DESKTOP, async |page| {
+        current(page).await?;
+        click(page, "#learn-cuts-example").await?;
+        page.wait_for("document.querySelectorAll('#fitted-cuts tbody tr').length === 6", 30.0).await?;
+        let of = Job::from_json(include_str!("../../web/examples/learn-cuts.json"))?;
+        let cuts = dynamometer::read(include_str!("../../web/examples/learn-cuts.csv"))?;
+        let fit = dynamometer::fit(&Setup::of(&of, &mut armill::Progress::none())?.cut, &cuts)?;
+        click(page, "#use-coefficients").await?;
+        current(page).await?;
+        let material = &job(page).await?["material"];
+        for coefficient in &fit.coefficients {
+            let shown = material[coefficient.key].as_f64().unwrap_or_default();
+            assert!((shown / coefficient.value - 1.0).abs() < 1e-3, "{}: {shown}", coefficient.key);
+        }
+        // The series was made from 959, 251 and 146 N/mm2, 15.8, 19.4 and 18.2 N/mm.
+        for (coefficient, truth) in fit.coefficients.iter().zip([959.0, 251.0, 146.0, 15.8, 19.4, 18.2]) {
+            assert!(
+                coefficient.interval.is_some_and(|[low, high]| low < truth && truth < high),
+                "{coefficient:?}"
+            );
+        }
+        narrow(page, "cutting coefficients").await
     })
 }

@@ -28,8 +28,8 @@ const ROWS = 20_000; // of a file written at a time
 let armill; // the core
 /** @type {any} */
 let run = null;
-/** @type {Record<string, Armill.Identified>} */
-const identified = {}; // what was identified last, `stiffness` and `response`
+/** @type {Record<string, any>} */
+const identified = {}; // what was identified last: `stiffness`, `response`, `pass`
 /** @type {{ json: string, survey: Armill.Survey } | undefined} */
 let surveyed; // of the map of places
 
@@ -79,7 +79,8 @@ const answers = {
   release,
   thesis: () => armill.thesis_recomputed(),
   identify(kind, ...args) {
-    const identify = kind === "stiffness" ? armill.identify_stiffness : armill.identify_response;
+    const { identify_stiffness, identify_response, learn_pass } = armill;
+    const identify = kind === "stiffness" ? identify_stiffness : kind === "pass" ? learn_pass : identify_response;
     const fresh = Reflect.apply(identify, armill, args);
     identified[kind]?.free();
     identified[kind] = fresh;
@@ -87,6 +88,8 @@ const answers = {
   },
   identified_chart: (kind, options) => identified[kind].chart(options),
   identified_data: (kind, units) => identified[kind].chart_data(units),
+  learned_file: (kind) => identified.pass[kind](),
+  fit_cuts: (job, cuts) => armill.fit_cuts(job, cuts),
   extent: (json) => surveyOf(json).extent(),
   around: (json) => ({ part: surveyOf(json).part(), base: surveyOf(json).base() }),
   turns: (json, place, spins) => surveyOf(json).turns(place, spins),

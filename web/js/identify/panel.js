@@ -1,7 +1,9 @@
-// The view Identify: joint compliances from measured loads, frequency and damping from a measured
-// response.
+// The view Measure: what a measured pass teaches, joint compliances from measured loads, frequency and damping from a
+// measured response.
 
 import * as core from "../core/client.js";
+import { makeCuts } from "./cuts.js";
+import { makePass } from "./pass.js";
 import { makeResponse } from "./response.js";
 import { makeStiffness } from "./stiffness.js";
 
@@ -41,11 +43,12 @@ async function ask(kind, ...args) {
  * @param {Present} present
  */
 export function makeIdentify(node, { job, use }) {
-  const parts = [makeStiffness({ ask, job, use }), makeResponse({ ask, job, use })];
+  const parts = [makePass, makeStiffness, makeResponse, makeCuts].map((make) => make({ ask, job, use }));
   node.append(...parts.map((part) => part.node));
   return {
     look() {
-      if (!node.closest("[hidden]")) for (const part of parts) part.look();
+      // A link may open this view before there is a job.
+      if (job() && !node.closest("[hidden]")) for (const part of parts) part.look();
     },
   };
 }

@@ -11,11 +11,13 @@ import { onSetting } from "../page/settings.js";
  * @import { Ask } from "./panel.js"
  */
 
+/** @typedef {"stiffness" | "response" | "pass"} Kind */
+
 /** @template Found what the core finds */
 export class Outcome {
   /** @type {Ask} */
   #ask;
-  /** @type {"stiffness" | "response"} */
+  /** @type {Kind} */
   #kind;
   /** @type {Source} */
   #source;
@@ -32,7 +34,7 @@ export class Outcome {
   /**
    * `source` is the text, `show(found)` gives the nodes of a result; `chart` is { name, title }.
    * @param {{
-   *   ask: Ask, kind: "stiffness" | "response", source: Source,
+   *   ask: Ask, kind: Kind, source: Source,
    *   chart: { name: string, title: string }, show(found: Found): Node[],
    * }} options
    */
@@ -97,7 +99,8 @@ export class Outcome {
    * @param {unknown[]} args
    */
   #order(text, args) {
-    return this.#kind === "stiffness" ? [args[0], text, args[1]] : [text, ...args];
+    const [job, ...rest] = args;
+    return this.#kind === "response" ? [text, ...args] : [job, text, ...rest];
   }
 
   #fill() {

@@ -188,7 +188,7 @@ function tableOf(joints) {
     make("th", { scope: "col" }, text, unit ? make("span", { className: "unit" }, ` ${unit}`) : "");
   return make(
     "table",
-    { id: "identified" },
+    { id: "identified", className: "identified" },
     make("caption", {}, "Joint compliances ", make("span", { className: "unit" }, "10⁻⁶ rad/(N m)")),
     make(
       "thead",

@@ -23,10 +23,10 @@ pub(crate) const BENCH: &str = "armill-bench";
 pub(crate) const MODULE: &str = "armill_bg.wasm";
 
 /// Size limits of the core in bytes, as it is and compressed by gzip: every visit fetches it. With the
-/// coupling, the feed rule, the surface left, the questions with their charts, the part on the map and the loop of a job it has
-/// 2,249,000 and 921,000; these are 1 % more.
+/// coupling, the feed rule, the surface left, the questions with their charts, the part on the map, the loop of a job and learning
+/// from a pass it has 2,523,000 and 1,018,000; these are 1 % more.
 /// Raise them only with a reason in CHANGELOG.md.
-pub(super) const LIMITS: [usize; 2] = [2_271_000, 930_000];
+pub(super) const LIMITS: [usize; 2] = [2_548_000, 1_028_000];
 
 /// Makes the core in `package` from the sources in `root`: `folder` gets the module, its JavaScript
 /// side and their types.
