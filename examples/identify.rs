@@ -5,14 +5,16 @@
 //! cargo run --release --example identify -- \
 //!     data.csv [--robot preset|job.json] [--joints table|coupled-j3]
 //! cargo run --release --example identify -- data.csv --response [--from seconds]
+//! cargo run --release --example identify -- data.csv --gear [--predict other.csv]
 //! ```
 
-use armill::identify::{Convention, measurement, response, stiffness, summary};
+use armill::identify::{Convention, gear, measurement, response, stiffness, summary};
 use armill::{Error, Job};
 use std::process::ExitCode;
 
 const USAGE: &str = "identify data.csv [--robot preset|job.json] [--joints table|coupled-j3], \
-     or identify data.csv --response [--from seconds]";
+     or identify data.csv --response [--from seconds], \
+     or identify data.csv --gear [--predict other.csv]";
 
 /// Why there is no result to print.
 enum Refusal {
@@ -49,6 +51,7 @@ fn identify() -> Result<serde_json::Value, Refusal> {
     let mut arguments = std::env::args().skip(1);
     let (mut data, mut robot, mut convention) = (None, None, Convention::Table);
     let (mut is_response, mut from) = (false, None);
+    let (mut is_gear, mut other) = (false, None);
     while let Some(argument) = arguments.next() {
         let mut value =
             || arguments.next().ok_or_else(|| Refusal::Usage(format!("{argument} needs a value")));
@@ -56,6 +59,8 @@ fn identify() -> Result<serde_json::Value, Refusal> {
             "--robot" => robot = Some(value()?),
             "--joints" => convention = Convention::of(&value()?)?,
             "--response" => is_response = true,
+            "--gear" => is_gear = true,
+            "--predict" => other = Some(value()?),
             "--from" => {
                 let text = value()?;
                 let seconds = text.parse::<f64>().ok().filter(|seconds| seconds.is_finite());
@@ -72,6 +77,14 @@ fn identify() -> Result<serde_json::Value, Refusal> {
     if is_response {
         let mode = response::mode(&response::Signal::read(&text)?, from)?;
         return Ok(serde_json::json!(summary::response(&mode)));
+    }
+    if is_gear {
+        let others = other.map(|file| Ok::<_, Refusal>(gear::read(&read(&file)?)?)).transpose()?;
+        let fitted = gear::read(&text)?.into_iter().map(|log| {
+            let other = others.iter().flatten().find(|other| other.joint == log.joint);
+            Ok(log.fit()?.summary(other))
+        });
+        return Ok(serde_json::json!({ "joints": fitted.collect::<Result<Vec<_>, Error>>()? }));
     }
     let job = match robot.as_deref() {
         None => Job::default(),

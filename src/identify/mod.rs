@@ -4,12 +4,14 @@
 //! least squares ([`nnls`]); [`response`] fits frequency and damping to a measured step or impact
 //! response. Both state how far to trust their results.
 
+pub mod gear;
 pub mod measurement;
 pub mod nnls;
 pub mod stiffness;
 pub mod response;
 pub mod student;
 pub mod summary;
+pub mod trials;
 mod eigen;
 pub(crate) mod table;
 

@@ -32,6 +32,21 @@ const FEW_SAMPLES: (f64, f64) = (10.0, 4.0);
 /// of the first mode's residual that it explains.
 const SECOND: (f64, f64) = (0.03, 0.5);
 
+/// A fit that explains more, with one mode, is not tried about a baseline that drifts.
+const STEADY: f64 = 0.9999;
+/// A baseline drifts if to know that leaves at most this share of what was left.
+const LESS: f64 = 0.8;
+/// Share of a signal's range from which on a drift is large.
+const DRIFTS: f64 = 0.1;
+/// Passes in which the slope of a baseline settles.
+const DRIFT_PASSES: usize = 12;
+/// A damping ratio this close to zero is none.
+const UNDAMPED: f64 = 1e-4;
+/// Equal extremes in a row that show a clipped signal, and how many such rows.
+const CLIPPED: (usize, usize) = (3, 3);
+/// Samples that are so far apart [s], without a unit, are hardly in seconds.
+const FAR_APART: f64 = 0.2;
+
 /// A signal over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Signal {
@@ -39,6 +54,17 @@ pub struct Signal {
     pub time: Vec<f64>,
     /// The signal; its unit does not matter.
     pub value: Vec<f64>,
+    /// Whether the text states the unit of time.
+    pub states_unit: bool,
+}
+
+impl Mode {
+    /// Whether the extrema say the same as the fit: the frequency within 5 %, the damping within a factor of 1.5.
+    pub fn decrement_agrees(&self) -> bool {
+        let (frequency, damping) = self.decrement;
+        let ratio = damping / self.damping.value;
+        (frequency / self.frequency.value - 1.0).abs() < 0.05 && (1.0 / 1.5..1.5).contains(&ratio)
+    }
 }
 
 impl Signal {
@@ -56,7 +82,9 @@ impl Signal {
             return Err(table.cell_error(0, table.width.min(2), "a row is two numbers: time [s] and signal"));
         }
         let mut unit = 1.0;
+        let mut states_unit = false;
         if let Some(words) = table.names.first() {
+            states_unit = words.len() > 1;
             unit = match words.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
                 ["t" | "time"] | ["t" | "time", "s" | "sec" | "seconds"] => 1.0,
                 ["t" | "time", "ms"] => 1e-3,
@@ -76,7 +104,7 @@ impl Signal {
             time.push(numbers[0] * unit);
             value.push(numbers[1]);
         }
-        Ok(Self { time, value })
+        Ok(Self { time, value, states_unit })
     }
 }
 
@@ -133,6 +161,66 @@ pub struct Mode {
 /// # Errors
 /// [`Error::Invalid`] if the vibration is too short, sampled too slowly, or does not decay.
 pub fn mode(signal: &Signal, from: Option<f64>) -> Result<Mode, Error> {
+    if from.is_none() && drifts(signal) {
+        // Where the vibration begins cannot be seen before the drift is out.
+        return without_drift(signal, from).map_or_else(|| about_baseline(signal, from, 0.0), Ok);
+    }
+    let plain = about_baseline(signal, from, 0.0);
+    let steady = plain.as_ref().is_ok_and(|mode| mode.explained > STEADY && mode.other.is_none());
+    if steady {
+        return plain;
+    }
+    // A baseline that drifts is taken out, if that explains more.
+    match without_drift(signal, from) {
+        Some(mode)
+            if plain.as_ref().is_ok_and(|plain| 1.0 - mode.explained > LESS * (1.0 - plain.explained)) =>
+        {
+            plain
+        }
+        Some(mode) if plain.is_ok() || mode.explained > 0.5 => Ok(mode),
+        _ => plain,
+    }
+}
+
+/// Slope of a signal's second half [1/s], where most has died down.
+fn late_slope(signal: &Signal) -> f64 {
+    let half = signal.time.len() / 2;
+    extrema::slope(&signal.time[half..], &signal.value[half..])
+}
+
+/// Whether a baseline drifts by more than a tenth of all that the signal does.
+fn drifts(signal: &Signal) -> bool {
+    let ends =
+        |of: &[f64]| of.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(*v), b.max(*v)]);
+    let [[from, to], [least, most]] = [ends(&signal.time), ends(&signal.value)];
+    late_slope(signal).abs() * (to - from) > DRIFTS * (most - least)
+}
+
+/// The same about a baseline that drifts: its slope is that of the second half at first, then that of what is left.
+fn without_drift(signal: &Signal, from: Option<f64>) -> Option<Mode> {
+    let mut slope = late_slope(signal);
+    let mut found = None;
+    for _ in 0..DRIFT_PASSES {
+        let Ok(mode) = about_baseline(signal, from, slope) else { return found };
+        let fitted = || mode.fitted.iter().enumerate().filter(|(_, fitted)| fitted.is_finite());
+        let times: Vec<f64> = fitted().map(|(k, _)| signal.time[k]).collect();
+        // What the vibration leaves, with the baseline that was taken out.
+        let rest: Vec<f64> =
+            fitted().map(|(k, fitted)| signal.value[k] - fitted + slope * signal.time[k]).collect();
+        let next = extrema::slope(&times, &rest);
+        let rested = (next - slope).abs() <= 1e-9 * slope.abs();
+        (slope, found) = (next, Some(mode));
+        if rested {
+            break;
+        }
+    }
+    found
+}
+
+/// The mode of a signal less a straight line of this slope [1/s].
+fn about_baseline(signal: &Signal, from: Option<f64>, slope: f64) -> Result<Mode, Error> {
+    let level: Vec<f64> = signal.time.iter().zip(&signal.value).map(|(t, v)| v - slope * t).collect();
+    let signal = &Signal { value: level, ..signal.clone() };
     let all = Samples { time: &signal.time, value: &signal.value };
     let start = match from {
         Some(from) => signal.time.partition_point(|&t| t < from),
@@ -152,7 +240,10 @@ pub fn mode(signal: &Signal, from: Option<f64>) -> Result<Mode, Error> {
     }
     if decay.rate <= 0.0 {
         let expected = "a free decay that starts at the step or impact";
-        return Err(Error::invalid(FIELD, "a vibration that grows", expected));
+        let (_, damping) = decay.undamped();
+        let found =
+            if damping < -UNDAMPED { "a vibration that grows" } else { "a vibration that does not decay" };
+        return Err(Error::invalid(FIELD, found, expected));
     }
     let left: f64 = rest.iter().map(|r| r * r).sum();
     let freedom = part.len().saturating_sub(if other.is_some() { 10 } else { 5 });
@@ -174,9 +265,10 @@ pub fn mode(signal: &Signal, from: Option<f64>) -> Result<Mode, Error> {
         remarks: vec![],
     };
     for (k, rest) in rest.iter().enumerate() {
-        mode.fitted[start + k] = part.value[k] - rest;
+        mode.fitted[start + k] = part.value[k] - rest + slope * part.time[k];
     }
     mode.remarks = remarks(&mode, &rest, explained_by_one);
+    mode.remarks.extend(oddities(signal, &part));
     Ok(mode)
 }
 
@@ -250,11 +342,10 @@ fn second_mode(part: &Samples<'_>, rest: &[f64], first: &Decay) -> Option<Decay>
     let left: f64 = rest.minus(&second).iter().map(|r| r * r).sum();
     let explains = 1.0 - left / rest.variance();
     let distinct = (second.damped / first.damped - 1.0).abs() > 0.02;
-    (distinct
-        && second.damped > 0.0
-        && explains > SECOND.1
-        && second.amplitude() > SECOND.0 * first.amplitude())
-    .then_some(second)
+    // What does not turn once within the part is a drift.
+    let turns = second.damped * part.span() > math::TAU;
+    (distinct && turns && explains > SECOND.1 && second.amplitude() > SECOND.0 * first.amplitude())
+        .then_some(second)
 }
 
 fn remarks(mode: &Mode, rest: &[f64], explained_by_one: f64) -> Vec<(&'static str, String)> {
@@ -298,6 +389,38 @@ fn remarks(mode: &Mode, rest: &[f64], explained_by_one: f64) -> Vec<(&'static st
     }
     if !mode.passes.1 {
         remark("not-converged", format!("the fit did not converge in {} passes", mode.passes.0));
+    }
+    remarks
+}
+
+/// Oddities of the signal itself.
+fn oddities(signal: &Signal, part: &Samples<'_>) -> Vec<(&'static str, String)> {
+    let mut remarks = Vec::new();
+    let flat = |extreme: f64| {
+        let runs = part.value.chunk_by(|a, b| a == b);
+        runs.filter(|run| run[0] == extreme && run.len() >= CLIPPED.0).count()
+    };
+    let most = part.value.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let least = part.value.iter().copied().fold(f64::INFINITY, f64::min);
+    if most > least && flat(most) + flat(least) >= CLIPPED.1 {
+        remarks.push((
+            "clipped",
+            format!(
+                "the signal stays at {least:.4} or {most:.4} for several samples in a row: it is clipped, and the damping is wrong. \
+                 Start where the peaks are whole, or measure with a wider range"
+            ),
+        ));
+    }
+    let steps = signal.time.windows(2).map(|pair| pair[1] - pair[0]);
+    let steps = math::rising(steps, |step| *step);
+    let step = steps.get(steps.len() / 2).copied().unwrap_or_default();
+    if !signal.states_unit && step > FAR_APART {
+        remarks.push((
+            "time-unit",
+            format!(
+                "times are taken to be in seconds, so samples are {step:.3} s apart: if they are milliseconds, name the column time_ms in a first line"
+            ),
+        ));
     }
     remarks
 }

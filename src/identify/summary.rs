@@ -5,6 +5,7 @@
 use crate::identify::measurement::Measurements;
 use crate::identify::response::{Measured, Mode, Other};
 use crate::identify::stiffness::{Fit, Joint, Residual, Verdict};
+use crate::identify::trials;
 use crate::robot::Robot;
 use crate::spread::Stiffness;
 use crate::units::{HZ, MM};
@@ -112,8 +113,10 @@ pub struct ResponseSummary {
     pub damping: f64,
     /// Its 95 % confidence interval; an end is none where it is unbounded.
     pub damping_interval: [Option<f64>; 2],
-    /// Frequency and damping by logarithmic decrement, as a cross-check.
-    pub decrement: DecrementSummary,
+    /// Frequency and damping by logarithmic decrement, as a cross-check; absent where it disagrees with the fit, because noise,
+    /// drift or a second mode disturbs the peaks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decrement: Option<DecrementSummary>,
     /// A second mode, if the signal shows one.
     pub other: Option<OtherSummary>,
     /// Start of the part of the signal that was fitted [s].
@@ -185,7 +188,7 @@ pub fn stiffness(robot: &Robot, measurements: &Measurements, fit: &Fit) -> Stiff
         residuals: fit.rows.iter().map(ResidualSummary::of).collect(),
         worst_lines: fit.worst().iter().take(WORST).map(|row| row.line).collect(),
         sentence: explanation(fit, relative, left_out),
-        remarks: measurements.remarks.clone(),
+        remarks: [measurements.remarks.clone(), trials::remarks(robot, &measurements.rows, fit)].concat(),
     }
 }
 
@@ -297,7 +300,7 @@ pub fn response(mode: &Mode) -> ResponseSummary {
         frequency_interval_hz: interval(mode.frequency, HZ),
         damping: mode.damping.value,
         damping_interval: interval(mode.damping, 1.0),
-        decrement: DecrementSummary { frequency_rad_s, damping },
+        decrement: mode.decrement_agrees().then_some(DecrementSummary { frequency_rad_s, damping }),
         other: mode.other.map(other),
         from_s: mode.window.0,
         to_s: mode.window.1,

@@ -30,7 +30,7 @@ const COUNT: usize = 12;
 type Unknowns = SVector<f64, COUNT>;
 type Square = SMatrix<f64, COUNT, COUNT>;
 /// What the model says of a block.
-type Model<'a> = Box<dyn Fn(usize, &Unknowns) -> Vector3<f64> + 'a>;
+type BlockModel<'a> = Box<dyn Fn(usize, &Unknowns) -> Vector3<f64> + 'a>;
 
 /// Most blocks.
 const BLOCKS: usize = 80;
@@ -140,7 +140,7 @@ fn blocks(values: &[Option<Vector3<f64>>]) -> Vec<BlockMean> {
 struct Measurand<'a> {
     blocks: Vec<BlockMean>,
     /// What the model says of a block.
-    model: Model<'a>,
+    model: BlockModel<'a>,
     /// Directions in which it was measured.
     directions: usize,
     /// Least noise of a block.

@@ -29,7 +29,7 @@ export interface ResponseSummary {
   frequency_rad_s: number; frequency_interval_rad_s: [number | null, number | null];
   frequency_hz: number; frequency_interval_hz: [number | null, number | null];
   damping: number; damping_interval: [number | null, number | null];
-  decrement: { frequency_rad_s: number; damping: number };
+  decrement?: { frequency_rad_s: number; damping: number };
   other: { frequency_hz: number; damping: number; amplitude_share: number } | null;
   from_s: number; to_s: number; cycles: number; samples_per_cycle: number; explained: number; passes: number;
   sentence: string; remarks: { code: string; message: string }[];

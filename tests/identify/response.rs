@@ -16,7 +16,7 @@ fn ringing(w: f64, z: f64, rate: f64, span: f64, noise: f64, random: &mut fastra
         free + 0.2 + noise * ((0..12).map(|_| random.f64()).sum::<f64>() - 6.0)
     });
     let value = value.collect();
-    Signal { time, value }
+    Signal { time, value, states_unit: true }
 }
 
 fn plain(w: f64, z: f64, rate: f64, span: f64) -> Mode {
@@ -128,7 +128,7 @@ fn what_makes_a_result_doubtful_is_said() {
 
 #[test]
 fn what_does_not_ring_is_refused() {
-    let quiet = Signal { time: (0..500).map(f64::from).collect(), value: vec![1.0; 500] };
+    let quiet = Signal { time: (0..500).map(f64::from).collect(), value: vec![1.0; 500], states_unit: true };
     assert!(mode(&quiet, None).unwrap_err().to_string().contains("nothing vibrates"));
     let signal = ringing(20.0, 0.05, 1000.0, 2.0, 0.0, &mut fastrand::Rng::with_seed(0));
     assert!(mode(&signal, Some(9.0)).unwrap_err().to_string().contains("0 samples"));
@@ -137,13 +137,15 @@ fn what_does_not_ring_is_refused() {
     let grows = Signal {
         value: signal.time.iter().map(|t| (2.0 * t).exp() * (40.0 * t).sin()).collect(),
         time: signal.time.clone(),
+        states_unit: true,
     };
     assert!(mode(&grows, Some(0.0)).unwrap_err().to_string().contains("grows"));
     let mut random = fastrand::Rng::with_seed(1);
     for length in [0, 1, 2, 3, 10, 40] {
         let time: Vec<f64> = (0..length).map(f64::from).collect();
         let value = time.iter().map(|_| between(&mut random, -1.0, 1.0)).collect();
-        let _ = mode(&Signal { time, value }, None).map(|found| assert!(found.frequency.value.is_finite()));
+        let _ = mode(&Signal { time, value, states_unit: true }, None)
+            .map(|found| assert!(found.frequency.value.is_finite()));
     }
 }
 
@@ -165,4 +167,71 @@ fn texts_are_read_and_refused_in_place() {
         assert_eq!((error.place(), error.field()), (Some(place), Some("response")), "{error}");
         assert!(error.to_string().contains(part), "{error}");
     }
+}
+
+/// A decay at 9.3 Hz with a damping of 0.03, 0.2 % of noise, and a baseline that drifts.
+fn drifting(slope: f64) -> Signal {
+    let mut signal = ringing(TAU * 9.3, 0.03, 500.0, 2.0, 0.006, &mut fastrand::Rng::with_seed(6));
+    for (time, value) in signal.time.iter().zip(&mut signal.value) {
+        *value += 3.0 * slope * time;
+    }
+    signal
+}
+
+#[test]
+fn a_drifting_baseline_is_taken_out() {
+    for slope in [0.0, 0.02, -0.1, 0.5, 2.0] {
+        let found = mode(&drifting(slope), None).unwrap();
+        assert!((found.frequency.value / TAU / 9.3 - 1.0).abs() < 2e-3, "{slope}: {:?}", found.frequency);
+        assert!((found.damping.value - 0.03).abs() < 1e-3, "{slope}: {:?}", found.damping);
+        assert!(found.other.is_none() && codes(&found).is_empty(), "{slope}: {:?}", found.remarks);
+        let near = |k: usize| (found.fitted[k] - drifting(slope).value[k]).abs() < 0.05;
+        assert!((100..900).all(near), "the fit lies on the signal, baseline and all");
+    }
+}
+
+/// Peaks that are cut off make the damping too small: equal ones in a row are told from whole ones.
+#[test]
+fn a_clipped_signal_is_noticed() {
+    let whole = ringing(TAU * 9.3, 0.03, 500.0, 2.0, 0.0, &mut fastrand::Rng::with_seed(0));
+    assert!(!codes(&mode(&whole, None).unwrap()).contains(&"clipped"));
+    let value = whole.value.iter().map(|v| v.clamp(-0.7, 1.1)).collect();
+    let cut = mode(&Signal { value, ..whole }, Some(0.05)).unwrap();
+    assert!(codes(&cut).contains(&"clipped"), "{:?}", cut.remarks);
+    assert!((cut.damping.value - 0.03).abs() > 0.003, "as it is said: {:?}", cut.damping);
+}
+
+#[test]
+fn times_without_a_unit_may_be_milliseconds() {
+    let signal = ringing(TAU * 9.3, 0.03, 500.0, 2.0, 0.0, &mut fastrand::Rng::with_seed(0));
+    let rows: String =
+        signal.time.iter().zip(&signal.value).map(|(t, v)| format!("{},{v}\n", 1000.0 * t)).collect();
+    let found = mode(&Signal::read(&rows).unwrap(), None).unwrap();
+    assert!(codes(&found).contains(&"time-unit"), "{:?}", found.remarks);
+    let named = mode(&Signal::read(&format!("time_ms,a\n{rows}")).unwrap(), None).unwrap();
+    assert!(codes(&named).is_empty() && (named.frequency.value / TAU / 9.3 - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn what_does_not_decay_does_not_grow() {
+    let mut signal = ringing(40.0, 0.0, 1000.0, 2.0, 0.0, &mut fastrand::Rng::with_seed(0));
+    signal.value = signal.time.iter().map(|t| (40.0 * t).sin()).collect();
+    match mode(&signal, Some(0.0)) {
+        Ok(found) => assert!(found.damping.value < 1e-6, "{:?}", found.damping),
+        Err(error) => assert!(error.to_string().contains("does not decay"), "{error}"),
+    }
+}
+
+/// Where the peaks say something else than the fit, only the fit is shown.
+#[test]
+fn peaks_that_disagree_are_left_out() {
+    let summary = |mode: &Mode| serde_json::json!(armill::identify::summary::response(mode));
+    assert!(summary(&plain(18.0, 0.1, 500.0, 4.0)).get("decrement").is_some());
+    let mut random = fastrand::Rng::with_seed(12);
+    let noisy = mode(&ringing(TAU * 8.0, 0.05, 500.0, 1.0, 0.3, &mut random), Some(0.05)).unwrap();
+    let (frequency, damping) = noisy.decrement;
+    let agrees = (frequency / noisy.frequency.value - 1.0).abs() < 0.05
+        && (1.0 / 1.5..1.5).contains(&(damping / noisy.damping.value));
+    assert_eq!(summary(&noisy).get("decrement").is_some(), agrees);
+    assert!(!agrees, "{frequency} {damping} {:?} {:?}", noisy.frequency, noisy.damping);
 }

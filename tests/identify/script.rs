@@ -57,3 +57,27 @@ fn a_response_is_identified_and_errors_are_one_json_object() {
         assert_eq!(error["code"], code, "{arguments:?}");
     }
 }
+
+/// The docs' figures are the script's.
+#[test]
+fn a_gear_is_identified_and_the_other_run_predicted() {
+    let file = |run: &str| format!("web/examples/gear-kuka-kr300-{run}.csv");
+    let a = printed(&[&file("a"), "--gear", "--predict", &file("b")]);
+    let b = printed(&[&file("b"), "--gear"]);
+    let page = include_str!("../../docs/identify.md").replace('\n', " ");
+    let text = |found: &Value| {
+        let joint = &found["joints"][0];
+        let [low, high] =
+            [0, 1].map(|end| joint["stiffness_interval_nm_per_rad"][end].as_f64().unwrap() / 1e6);
+        format!("{:.2}e6", joint["stiffness_nm_per_rad"].as_f64().unwrap() / 1e6)
+            + if joint["predicted"].is_null() { " (" } else { " N m/rad (" }
+            + &format!("{low:.2} to {high:.2})")
+    };
+    for found in [&a, &b] {
+        assert!(page.contains(&text(found)), "{}", text(found));
+        let rest = format!("{:.0} urad", found["joints"][0]["rest_urad"].as_f64().unwrap());
+        assert!(page.contains(&rest), "{rest}");
+    }
+    let predicted = 100.0 * a["joints"][0]["predicted"]["explained"].as_f64().unwrap();
+    assert!(page.contains(&format!("predicts {predicted:.1} % of B")), "{predicted}");
+}

@@ -330,3 +330,61 @@ fn too_little_is_refused() {
     assert!(fit(&robot, &idle).is_err());
     assert_eq!(Convention::CoupledJ3.joints(Joints::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0))[2], 5.0);
 }
+
+/// 25 rows of exact springs with 5 um of noise, and each obvious mistake: it is named, with what springs explain without it.
+#[test]
+fn obvious_mistakes_are_tried_and_named() {
+    let robot = fanuc();
+    let mut random = fastrand::Rng::with_seed(31);
+    let compliance = [1.2e-6, 4e-7, 6e-7, 4e-6, 3e-6, 8e-6];
+    let exact: Vec<Measurement> = (0..25)
+        .map(|line| {
+            let q = Joints::from_fn(|_, _| between(&mut random, -1.2, 1.2));
+            let wrench =
+                Vector6::from_fn(|i, _| if i < 3 { between(&mut random, -2000.0, 2000.0) } else { 0.0 });
+            let row = Measurement { line, q, wrench, displacement: [Some(0.0); 3] };
+            let parts = equations(&robot, &row);
+            let moved = |(a, _): &(Vector6<f64>, f64)| a.dot(&Vector6::from(compliance));
+            let displacement =
+                std::array::from_fn(|axis| Some(moved(&parts[axis]) + between(&mut random, -8e-6, 8e-6)));
+            Measurement { displacement, ..row }
+        })
+        .collect();
+    let said = |change: &dyn Fn(&mut Measurement)| {
+        let mut rows = exact.clone();
+        rows.iter_mut().for_each(change);
+        let found = fit(&robot, &rows).unwrap();
+        let measurements = Measurements { rows, remarks: vec![] };
+        armill::identify::summary::stiffness(&robot, &measurements, &found).remarks.join("\n")
+    };
+    assert_eq!(said(&|_| ()), "");
+    let turned = said(&|row| row.wrench = -row.wrench);
+    assert!(
+        turned.contains("poor fit") && turned.contains("with forces turned round, springs explain"),
+        "{turned}"
+    );
+    let swapped =
+        said(&|row| row.q = Joints::new(row.q[0], row.q[1], row.q[2], row.q[5], row.q[4], row.q[3]));
+    assert!(swapped.contains("with joints 4 and 6 swapped"), "{swapped}");
+    let radians = said(&|row| row.q *= std::f64::consts::PI / 180.0);
+    assert!(radians.contains("with joint angles in radians"), "{radians}");
+    let signs = said(&|row| {
+        row.q[1] = -row.q[1];
+        row.q[4] = -row.q[4];
+    });
+    assert!(signs.contains("with joints 2, 5 counted the other way"), "{signs}");
+    let flange = said(&|row| {
+        let turn = armill::robot::forward::frames(&robot, &row.q)[5].rotation.transpose();
+        let force = turn * row.wrench.fixed_rows::<3>(0);
+        row.wrench.fixed_rows_mut::<3>(0).copy_from(&force);
+        let moved = turn * nalgebra::Vector3::from(row.displacement.map(|v| v.unwrap()));
+        row.displacement = [Some(moved.x), Some(moved.y), Some(moved.z)];
+    });
+    assert!(flange.contains("with forces and displacements in the flange frame"), "{flange}");
+    let metres = said(&|row| row.displacement = row.displacement.map(|v| v.map(|v| v * 1e-3)));
+    assert!(metres.contains("stiffer than those of any arm"), "{metres}");
+    // Real data keep their own remarks only.
+    let measured = measured();
+    let found = fit(&robot, &measured.rows).unwrap();
+    assert_eq!(armill::identify::summary::stiffness(&robot, &measured, &found).remarks, measured.remarks);
+}

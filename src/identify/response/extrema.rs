@@ -57,3 +57,12 @@ fn beyond(samples: &Samples<'_>, mean: f64, least: f64) -> Vec<(f64, f64)> {
     }
     extrema
 }
+
+/// Slope of the straight line through values by least squares [1/s].
+pub(super) fn slope(time: &[f64], value: &[f64]) -> f64 {
+    let count = time.len().max(1) as f64;
+    let (mean_time, mean) = (time.iter().sum::<f64>() / count, value.iter().sum::<f64>() / count);
+    let both: f64 = time.iter().zip(value).map(|(t, v)| (t - mean_time) * (v - mean)).sum();
+    let square: f64 = time.iter().map(|t| (t - mean_time) * (t - mean_time)).sum();
+    if square > 0.0 { both / square } else { 0.0 }
+}

@@ -103,8 +103,11 @@ export function makeResponse({ ask, job, use }) {
       make(
         "p",
         { className: "found" },
-        `${found.sentence} By the peaks alone (logarithmic decrement): ` +
-          `${formatNumber(found.decrement.frequency_rad_s)} rad/s and ${formatNumber(found.decrement.damping)}.`,
+        found.sentence +
+          (found.decrement
+            ? ` By the peaks alone (logarithmic decrement): ${formatNumber(found.decrement.frequency_rad_s)} rad/s and ` +
+              `${formatNumber(found.decrement.damping)}.`
+            : " The peaks alone say something else, so they are disturbed."),
       ),
       ...remarks(found.remarks.map(({ message }) => sentence(message))),
       make(
