@@ -218,6 +218,28 @@ fn a_log_finds_its_place() {
     assert!(refused.to_string().contains("mm off it at best"), "{refused}");
 }
 
+/// A clock without a unit is in that with which the log is as long as the run.
+#[test]
+fn a_clock_without_a_unit_is_recognised() {
+    let report = placed(&[]);
+    let seconds = position_log(&report, &report.q, &softer(1.2, 1.0), (2, 0.002 * MM, 0.5), 3);
+    let Clock::Time(at) = &seconds.clock else { panic!("a log over time") };
+    for (unit, name) in [(1.0, ""), (1e-3, "ms fits"), (1e-6, "us fits")] {
+        let clock = Clock::Time(at.iter().map(|at| at / unit).collect());
+        let log = Log { clock, clock_is_stated: false, ..seconds.clone() };
+        let measured = MeasuredPass::of(&report, &log, &options(DESIRED)).unwrap();
+        assert!((measured.alignment.unwrap().shift - 0.5).abs() < 0.004, "{:?}", measured.alignment);
+        assert_eq!(
+            measured.said.recognised.iter().any(|text| text.contains("fits") && text.contains("axis")),
+            unit != 1.0
+        );
+        assert!(measured.said.recognised.join(" ").contains(name));
+    }
+    // A unit that is stated is not doubted: such a log is not of this run.
+    let clock = Clock::Time(at.iter().map(|at| at * 1e3).collect());
+    assert!(MeasuredPass::of(&report, &Log { clock, ..seconds }, &options(DESIRED)).is_err());
+}
+
 /// Deviations that count the other way, and forces on the workpiece, are recognised where the model says which way an arm
 /// gives way.
 #[test]

@@ -290,6 +290,11 @@ fn prior(report: &Report) -> Square {
     prior
 }
 
+/// The samples at which the model is evaluated.
+fn places_of(blocks: &[BlockMean]) -> Vec<usize> {
+    blocks.iter().flat_map(|block| block.at.iter().copied()).collect()
+}
+
 /// Where the tip was.
 fn tip_series<'a>(report: &'a Report, measured: &'a MeasuredPass) -> Option<Measurand<'a>> {
     let seen = |(k, error): (usize, &Option<Vector3<f64>>)| Some(measured.seen.part(k, &(*error)?));
@@ -301,7 +306,7 @@ fn tip_series<'a>(report: &'a Report, measured: &'a MeasuredPass) -> Option<Meas
     let plan = &report.plan;
     let timing = plan.timing(Sources::ALL);
     let parts = PartForces::of(&plan.setup.cut, plan.setup.contacts.as_ref());
-    let at: Vec<usize> = blocks.iter().flat_map(|block| block.at.iter().copied()).collect();
+    let at = places_of(&blocks);
     let drawn = places(plan, (&timing, &parts), (&measured.q as &[Joints], &at), 0.0);
     let mut from = 0;
     let of_block: Vec<Vec<(usize, DrawnPlace)>> = blocks
@@ -343,7 +348,7 @@ fn force_series<'a>(report: &'a Report, measured: &'a MeasuredPass) -> Option<Me
     let plan = &report.plan;
     let timing = plan.timing(Sources::ALL);
     let parts = PartForces::of(&plan.setup.cut, plan.setup.contacts.as_ref());
-    let at: Vec<usize> = blocks.iter().flat_map(|block| block.at.iter().copied()).collect();
+    let at = places_of(&blocks);
     let cuts = along::parts(&plan.path, &timing, &parts, &plan.setup.loading, &at);
     // Where the force follows the deflection, it differs from the planned one as the nominal arm's does.
     let beyond = |sample: usize| report.force[sample] - report.planned_force[sample];

@@ -9,8 +9,9 @@ use crate::learn::{frame, low_pass};
 use crate::progress::Progress;
 use crate::report::Report;
 use crate::robot::{Joints, forward, jacobian};
-use crate::units::MM;
+use crate::units::{INCH, MM};
 use nalgebra::Vector3;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Which commands the pass ran.
@@ -110,6 +111,7 @@ impl MeasuredPass {
     pub fn of(report: &Report, log: &Log, options: &PassOptions) -> Result<Self, Error> {
         let pass = RanPass::of(report, &options.commanded)?;
         let mut said = Said::default();
+        let log = &*pass.clocked(log, &mut said);
         let mut read = frame::read(&pass, log, options, &mut said)?;
         let places = pass.places(&log.clock, read.alignment.as_ref(), &mut read.errors);
         let step = report.plan.trajectory.sample_time;
@@ -199,6 +201,27 @@ impl<'a> RanPass<'a> {
         let step = plan.trajectory.sample_time;
         let times = (0..report.samples()).map(|k| k as f64 * step).collect();
         Ok(Self { report, reference, q, correction, result, times })
+    }
+
+    /// The log with its clock in s or m: a unit that is not stated is that with which it is most nearly as long as the run.
+    fn clocked<'l>(&self, log: &'l Log, said: &mut Said) -> Cow<'l, Log> {
+        let (at, units): (&[f64], &[(f64, &str)]) = match &log.clock {
+            Clock::Time(at) => (at, &[(1.0, "s"), (1e-3, "ms"), (1e-6, "us")]),
+            // Read as if they were mm.
+            Clock::Length(at) => (at, &[(1.0, "mm"), (1.0 / MM, "m"), (INCH / MM, "in")]),
+            Clock::None => return Cow::Borrowed(log),
+        };
+        let own = |of: &[f64]| of.last().zip(of.first()).map_or(0.0, |(last, first)| last - first);
+        let ratio = own(at) / own(self.clock(&log.clock));
+        let misses = |unit: f64| if ratio > 0.0 { crate::math::ln(ratio * unit).abs() } else { 0.0 };
+        let likest = units.iter().min_by(|a, b| misses(a.0).total_cmp(&misses(b.0)));
+        let Some((unit, name)) = likest.filter(|(unit, _)| !log.clock_is_stated && *unit != 1.0) else {
+            return Cow::Borrowed(log);
+        };
+        said.recognised.push(format!("the unit of the first axis is not stated; {name} fits"));
+        let at = at.iter().map(|at| at * unit).collect();
+        let clock = if matches!(log.clock, Clock::Time(_)) { Clock::Time(at) } else { Clock::Length(at) };
+        Cow::Owned(Log { clock, ..log.clone() })
     }
 
     /// Times [s] or arc lengths [m] of the samples, as the log's clock counts.
