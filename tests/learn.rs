@@ -218,6 +218,38 @@ fn a_log_finds_its_place() {
     assert!(refused.to_string().contains("mm off it at best"), "{refused}");
 }
 
+/// Arc lengths of a log are those of the path, even where nothing in it says so; another run's positions are noticed.
+#[test]
+fn arc_lengths_count_from_the_beginning_of_the_path() {
+    let report = placed(&[]);
+    let length = report.plan.path.length();
+    let at: Vec<f64> = (0..100).map(|k| length * (0.2 + 0.006 * f64::from(k))).collect();
+    let rows = vec![Some(Vector3::new(0.3, 0.0, -0.1) * MM); at.len()];
+    let log = log_of(Clock::Length(at.clone()), None, Some((rows, true)), None);
+    let measured = MeasuredPass::of(&report, &log, &options(NEVER)).unwrap();
+    assert!((measured.alignment.unwrap().shift + at[0]).abs() < 1e-12);
+    for (k, error) in measured.error.iter().enumerate() {
+        let s = measured_at(&report, k);
+        let known = s > at[0] && s < at[at.len() - 1];
+        assert_eq!(
+            error.is_some(),
+            known || (error.is_some() && (s - at[0]).abs().min((s - at[99]).abs()) < 2.0 * MM),
+            "{s}"
+        );
+    }
+    assert!(!measured.said.odd.join("").contains("alignment looks wrong"), "{:?}", measured.said);
+    // A tip that stands on the path all the while was no pass of it.
+    let still = vec![Some(report.plan.trajectory.position[900]); 1000];
+    let at = (0..1000).map(|k| 0.02 * f64::from(k)).collect();
+    let log = log_of(Clock::Time(at), Some((still, Some(1.0))), None, None);
+    let measured = MeasuredPass::of(&report, &log, &options(DESIRED)).unwrap();
+    assert!(measured.said.odd.join("").contains("another run's log"), "{:?}", measured.said);
+}
+
+fn measured_at(report: &Report, sample: usize) -> f64 {
+    report.plan.timing(Sources::ALL).arc_length[sample]
+}
+
 /// A clock without a unit is in that with which the log is as long as the run.
 #[test]
 fn a_clock_without_a_unit_is_recognised() {

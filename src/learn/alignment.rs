@@ -2,6 +2,10 @@
 
 use nalgebra::Vector3;
 
+/// Correlation from which on two courses are alike.
+const ALIKE: f64 = 0.5;
+/// Positions that are so far from where they are expected are another run's [m]: a controller lags by less.
+const FAR: f64 = 5e-3;
 /// Shifts that are looked at before the best is closed in on.
 const SHIFTS: usize = 1500;
 /// Rows by which a shift is judged while it is searched.
@@ -112,13 +116,19 @@ impl Alignment {
     pub fn is_doubtful(&self) -> bool {
         match self.by {
             ComparedBy::Distance => -self.agreement > 1.5 * -self.best_agreement + 1e-5,
-            ComparedBy::Likeness => self.agreement.abs() < self.best_agreement.abs() - 0.05,
+            ComparedBy::Likeness => {
+                let best = self.best_agreement.abs();
+                best > ALIKE && self.agreement.abs() < best - 0.05
+            }
         }
     }
 
     /// Whether the log hardly follows the run at all.
     pub fn is_unlike(&self) -> bool {
-        self.by == ComparedBy::Likeness && self.agreement.abs() < 0.5
+        match self.by {
+            ComparedBy::Distance => -self.agreement > FAR,
+            ComparedBy::Likeness => self.agreement.abs() < ALIKE,
+        }
     }
 }
 

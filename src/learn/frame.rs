@@ -1,7 +1,7 @@
 //! In which frame, unit and sense a log was measured: what its names do not say is found by what fits the run.
 
 use crate::error::Error;
-use crate::learn::alignment::{Alignment, Sampled};
+use crate::learn::alignment::{Alignment, ComparedBy, Sampled};
 use crate::learn::log::{Clock, FIELD, Log};
 use crate::learn::measured::{LoggedRows, PassOptions, RanPass, Said, compared_by, millimetres};
 use crate::math::Pose;
@@ -60,6 +60,12 @@ pub(super) fn read(
     options: &PassOptions,
     said: &mut Said,
 ) -> Result<ReadLog, Error> {
+    // Arc lengths count from the beginning of the path, unless another shift is asked for.
+    let shift = options.shift.or(match &log.clock {
+        Clock::Length(at) => at.first().map(|first| -first),
+        _ => None,
+    });
+    let options = &PassOptions { shift, ..options.clone() };
     let candidates: Vec<&'static str> = options.frame.map_or(FRAMES.to_vec(), |name| vec![name]);
     let mut read = if let Some(position) = &log.position {
         positions(pass, log, (&position.0, position.1), &candidates, options, said)?
@@ -84,13 +90,14 @@ pub(super) fn read(
         forces(pass, log, force, &candidates, options, (&mut read, said))?;
     }
     if let Some(alignment) = &read.alignment {
-        doubts(alignment, &log.clock, said);
+        doubts(alignment, log, said);
     }
     Ok(read)
 }
 
 /// What is odd about where a log lies.
-fn doubts(alignment: &Alignment, clock: &Clock, said: &mut Said) {
+fn doubts(alignment: &Alignment, log: &Log, said: &mut Said) {
+    let clock = &log.clock;
     let shift = |shift: f64| match clock {
         Clock::Time(_) => format!("{shift:.3} s"),
         _ => millimetres(shift),
@@ -102,11 +109,22 @@ fn doubts(alignment: &Alignment, clock: &Clock, said: &mut Said) {
             shift(alignment.best)
         ));
     }
-    if alignment.is_unlike() {
-        said.odd.push(format!(
-            "the log hardly follows what the model expects (correlation {:.2}), so where it lies on the run is unsure",
-            alignment.agreement
-        ));
+    // Angles were compared as angles.
+    if alignment.is_unlike() && log.load.is_none() {
+        said.odd.push(match (alignment.by, clock) {
+            (ComparedBy::Distance, _) => format!(
+                "positions lie {} from where they should be at their times, root mean square: is it another run's log?",
+                millimetres(-alignment.agreement)
+            ),
+            (ComparedBy::Likeness, Clock::Time(_)) => format!(
+                "the log hardly follows what the model expects (correlation {:.2}), so where it lies on the run is unsure",
+                alignment.agreement
+            ),
+            (ComparedBy::Likeness, _) => format!(
+                "the log hardly follows what the model expects (correlation {:.2})",
+                alignment.agreement
+            ),
+        });
     }
 }
 
