@@ -39,7 +39,7 @@ pub struct Online {
     pub resolution: f64,
     /// Largest correction.
     pub largest_correction_mm: LargestCorrection,
-    /// Integral gain for each cycle; a force is fed forward with the gain 1.
+    /// Integral gain for each cycle; of a force, the share of the deflection that is taken back.
     pub gain: LoopGain,
 }
 
