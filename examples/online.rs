@@ -5,7 +5,8 @@
 //! ```sh
 //! cargo run --release --example online -- [job.json] --measures force|position|load-side-angle --preset kuka-rsi-4
 //! cargo run --release --example online -- [job.json] --measures position --cycle 0.004 --dead-time 0.03 --arm-lag 0.02
-//!     [--sensor tracker|camera] [--delays 0:0.2:9] [--filter 0.01] [--gain 0.1] [--noise-mm 0.01] [--resolution-mm 0.01] [--largest-correction-mm 5] [--seed 1]
+//!     [--sensor tracker|camera] [--delays 0:0.2:9]
+//!     [--filter 0.01] [--gain 0.1] [--noise-mm 0.01] [--resolution-mm 0.01] [--largest-correction-mm 5] [--seed 1]
 //! ```
 
 use armill::online::{Comparison, LoopPreset, Measures, OnlineLoop, OnlineSummary, Sensor, SensorPreset};
@@ -15,9 +16,9 @@ use armill::{Error, Job, Progress};
 use serde_json::{Value, json};
 use std::process::ExitCode;
 
-const USAGE: &str = "online [job.json] --measures force|position|load-side-angle [--preset kuka-rsi-4|kuka-rsi-12|abb-egm|staubli-4] [--sensor tracker|camera] \
-                     [--cycle s] [--dead-time s] [--arm-lag s] [--filter s] [--delays from:to:count] [--gain number] [--noise-mm mm] \
-                     [--resolution-mm mm] [--largest-correction-mm mm] [--seed number]";
+const USAGE: &str = "online [job.json] --measures force|position|load-side-angle [--preset kuka-rsi-4|kuka-rsi-12|abb-egm|staubli-4] \
+                     [--sensor tracker|camera] [--cycle s] [--dead-time s] [--arm-lag s] [--filter s] [--delays from:to:count] \
+                     [--gain number] [--noise-mm mm] [--resolution-mm mm] [--largest-correction-mm mm] [--seed number]";
 
 /// What is asked on the command line: the loop, changed option by option from that of the job, and dead times to compare.
 struct Asked {

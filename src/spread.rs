@@ -205,12 +205,9 @@ impl JointSpread {
         std::array::from_fn(|i| math::exp((0..=i).map(|j| self.factor[(i, j)] * z[j]).sum()))
     }
 
-    /// The compliances alone.
-    fn stiffness(&self) -> Option<Stiffness> {
-        let covariance = self.covariance.fixed_view::<6, 6>(0, 0).into_owned();
-        let factor = cholesky(&covariance)?;
-        // Their medians are 1.
-        Some(Stiffness::Together(Box::new((factor, [0.0; 6]))))
+    /// The compliances alone: their factor is the leading part of the whole one. Their medians are 1.
+    fn stiffness(&self) -> Stiffness {
+        Stiffness::Together(Box::new((self.factor.fixed_view::<6, 6>(0, 0).into_owned(), [0.0; 6])))
     }
 
     fn deviation(&self, index: usize) -> f64 {
@@ -241,7 +238,7 @@ pub struct Spreads {
 impl Spreads {
     /// The same with what a measurement has left of compliances and cutting force.
     pub fn learned(self, together: JointSpread) -> Self {
-        let stiffness = together.stiffness().unwrap_or(self.stiffness);
+        let stiffness = together.stiffness();
         let cutting = InputSpread::Lognormal(together.deviation(6));
         let ratios = InputSpread::Lognormal(together.deviation(7).max(together.deviation(8)));
         Self { stiffness, cutting, ratios, together: Some(Box::new(together)), ..self }

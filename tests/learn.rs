@@ -706,8 +706,9 @@ fn shifts_are_found_by_likeness() {
     );
 }
 
-/// The slot's means in closed form (Altintas, Manufacturing Automation, 2nd ed. 2012, eq. 2.52 for a full immersion, in {T}), for the coefficients that a
-/// straight line through the means of a published feed series gave: two flutes, 3 mm deep, feeds of 0.025 to 0.125 mm.
+/// The slot's means in closed form (Altintas, Manufacturing Automation, 2nd ed. 2012, eq. 2.52 for a full immersion, in {T}),
+/// for the coefficients that a straight line through the means of a published feed series gave: two flutes, 3 mm deep, feeds
+/// of 0.025 to 0.125 mm.
 #[test]
 fn a_feed_series_gives_its_coefficients() {
     let (flutes, depth) = (2.0, 3.0);

@@ -12,10 +12,11 @@
 //! Biometrika 43 (1956), 353, the jackknife; H. Kuensch, Ann. Statist. 17 (1989), 1217, for blocks).
 
 use crate::error::Error;
+use crate::identify::least_squares::LeastSquares;
 use crate::identify::student::quantile_975;
 use crate::identify::table::Table;
 use crate::units::DEG;
-use nalgebra::{Matrix4, Vector4};
+use nalgebra::Vector4;
 
 /// JSON path of the text, for errors.
 const FIELD: &str = "gear";
@@ -183,14 +184,14 @@ impl GearLog {
             let value = format!("joint {} at rest, or under a steady load", self.joint + 1);
             Error::invalid(FIELD, value, "a joint that moves both ways while its load changes")
         };
-        let values = least_squares(rows.iter()).ok_or_else(vague)?;
+        let values = LeastSquares::of(rows.iter().copied()).ok_or_else(vague)?.values;
         let begins = self.time[0];
         let of = |k: usize| ((self.time[k] - begins) / BLOCK) as usize;
         let blocks = of(self.time.len() - 1) + 1;
         let mut without = Vec::with_capacity(blocks);
         for block in 0..blocks {
-            let kept = rows.iter().enumerate().filter(|(k, _)| of(*k) != block).map(|(_, row)| row);
-            without.push(least_squares(kept).ok_or_else(vague)?);
+            let kept = rows.iter().enumerate().filter(|(k, _)| of(*k) != block).map(|(_, row)| *row);
+            without.push(LeastSquares::of(kept).ok_or_else(vague)?.values);
         }
         let mean = without.iter().sum::<Vector4<f64>>() / blocks as f64;
         let squares = without.iter().map(|value| (value - mean).component_mul(&(value - mean)));
@@ -222,25 +223,6 @@ impl Gear {
     pub fn predicts(&self, other: &GearLog) -> (f64, f64) {
         judged(&other.rows(), &self.values, true)
     }
-}
-
-/// Least squares; `None` where the columns are not independent.
-fn least_squares<'r>(rows: impl Iterator<Item = &'r (Vector4<f64>, f64)>) -> Option<Vector4<f64>> {
-    let (mut square, mut side) = (Matrix4::zeros(), Vector4::zeros());
-    for (row, value) in rows {
-        square += row * row.transpose();
-        side += row * *value;
-    }
-    let scale = square.diagonal().map(f64::sqrt);
-    if scale.iter().any(|scale| *scale <= 0.0) {
-        return None;
-    }
-    let scaled = Matrix4::from_fn(|i, j| square[(i, j)] / (scale[i] * scale[j]));
-    let factor = scaled.cholesky()?;
-    if (0..4).any(|i| factor.l_dirty()[(i, i)] < 1e-4) {
-        return None;
-    }
-    Some(factor.solve(&side.component_div(&scale)).component_div(&scale))
 }
 
 /// Share of the variance that values explain, and root mean square of the rest.

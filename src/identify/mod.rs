@@ -12,6 +12,7 @@ pub mod response;
 pub mod student;
 pub mod summary;
 pub mod trials;
+pub(crate) mod least_squares;
 mod eigen;
 pub(crate) mod table;
 

@@ -418,7 +418,8 @@ fn oddities(signal: &Signal, part: &Samples<'_>) -> Vec<(&'static str, String)> 
         remarks.push((
             "time-unit",
             format!(
-                "times are taken to be in seconds, so samples are {step:.3} s apart: if they are milliseconds, name the column time_ms in a first line"
+                "times are taken to be in seconds, so samples are {step:.3} s apart: \
+                 if they are milliseconds, name the column time_ms in a first line"
             ),
         ));
     }

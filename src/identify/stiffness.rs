@@ -163,6 +163,68 @@ pub fn equations(robot: &Robot, row: &Measurement) -> Vec<(Vector6<f64>, f64)> {
     [0, 1, 2].into_iter().filter_map(component).collect()
 }
 
+/// The system A c = b of some rows, its normal equations, and their solution.
+struct Solved {
+    equations: Vec<Vec<(Vector6<f64>, f64)>>,
+    g: Matrix6<f64>,
+    h: Vector6<f64>,
+    /// Sum of the squared displacements [m^2].
+    square: f64,
+    solution: nnls::NnlsSolution,
+}
+
+impl Solved {
+    fn of(robot: &Robot, rows: &[Measurement]) -> Result<Self, Error> {
+        let equations: Vec<_> = rows.iter().map(|row| equations(robot, row)).collect();
+        let count: usize = equations.iter().map(Vec::len).sum();
+        if count <= 6 {
+            return Err(Error::invalid(
+                FIELD,
+                format!("{} rows with {count} displacements", rows.len()),
+                "six compliances and their uncertainty need at least seven measured displacements, preferably 60",
+            ));
+        }
+        let (mut g, mut h, mut square) = (Matrix6::zeros(), Vector6::zeros(), 0.0);
+        for (a, b) in equations.iter().flatten() {
+            g += a * a.transpose();
+            h += a * *b;
+            square += b * b;
+        }
+        let longest = (0..6).map(|i| g[(i, i)].sqrt()).fold(0.0, f64::max);
+        if !(longest > 0.0 && square > 0.0) {
+            let value = "without load or without displacement";
+            return Err(Error::invalid(FIELD, value, "loads that move the TCP"));
+        }
+        // Columns of rounding error only are cleared.
+        for i in (0..6).filter(|&i| g[(i, i)].sqrt() <= UNLOADED * longest).collect::<Vec<_>>() {
+            g.set_row(i, &Matrix6::zeros().row(0));
+            g.set_column(i, &Matrix6::zeros().column(0));
+            h[i] = 0.0;
+        }
+        let solution = nnls::solve(&g, &h);
+        Ok(Self { equations, g, h, square, solution })
+    }
+}
+
+/// What compliances leave of a row [m^2].
+fn left_by(row: &[(Vector6<f64>, f64)], c: &Vector6<f64>) -> f64 {
+    row.iter().map(|(a, b)| (b - a.dot(c)) * (b - a.dot(c))).sum()
+}
+
+/// What they leave of all rows [m^2].
+fn left(equations: &[Vec<(Vector6<f64>, f64)>], c: &Vector6<f64>) -> f64 {
+    equations.iter().map(|row| left_by(row, c)).sum()
+}
+
+/// Share of the squared displacements of rows that a fit explains, without the rest of it.
+///
+/// # Errors
+/// See [`fit`].
+pub(super) fn explained(robot: &Robot, rows: &[Measurement]) -> Result<f64, Error> {
+    let Solved { equations, square, solution, .. } = Solved::of(robot, rows)?;
+    Ok(1.0 - left(&equations, &solution.x) / square)
+}
+
 /// Fits the joint compliances to the rows. The robot's own compliances are not used; its tool is,
 /// since loads and displacements are given at the TCP.
 ///
@@ -173,37 +235,9 @@ pub fn equations(robot: &Robot, row: &Measurement) -> Vec<(Vector6<f64>, f64)> {
 /// # Errors
 /// [`Error::Invalid`] if there are too few measured components, or if nothing is loaded.
 pub fn fit(robot: &Robot, rows: &[Measurement]) -> Result<Fit, Error> {
-    let equations: Vec<_> = rows.iter().map(|row| equations(robot, row)).collect();
+    let Solved { equations, g, h, square, solution } = Solved::of(robot, rows)?;
     let count: usize = equations.iter().map(Vec::len).sum();
-    if count <= 6 {
-        return Err(Error::invalid(
-            FIELD,
-            format!("{} rows with {count} displacements", rows.len()),
-            "six compliances and their uncertainty need at least seven measured displacements, preferably 60",
-        ));
-    }
-    let (mut g, mut h, mut square) = (Matrix6::zeros(), Vector6::zeros(), 0.0);
-    for (a, b) in equations.iter().flatten() {
-        g += a * a.transpose();
-        h += a * *b;
-        square += b * b;
-    }
-    let longest = (0..6).map(|i| g[(i, i)].sqrt()).fold(0.0, f64::max);
-    if !(longest > 0.0 && square > 0.0) {
-        let value = "without load or without displacement";
-        return Err(Error::invalid(FIELD, value, "loads that move the TCP"));
-    }
-    // Columns of rounding error only are cleared.
-    for i in (0..6).filter(|&i| g[(i, i)].sqrt() <= UNLOADED * longest).collect::<Vec<_>>() {
-        g.set_row(i, &Matrix6::zeros().row(0));
-        g.set_column(i, &Matrix6::zeros().column(0));
-        h[i] = 0.0;
-    }
-    let solution = nnls::solve(&g, &h);
-    let residuals = |row: &[(Vector6<f64>, f64)], c: &Vector6<f64>| {
-        row.iter().map(|(a, b)| (b - a.dot(c)) * (b - a.dot(c))).sum::<f64>()
-    };
-    let left: f64 = equations.iter().map(|row| residuals(row, &solution.x)).sum();
+    let left = left(&equations, &solution.x);
     let freedom = count - solution.free.iter().filter(|free| **free).count();
     let deviation = (left / freedom as f64).sqrt();
     let outcomes = rows.iter().zip(&equations).map(|(row, own)| {
@@ -217,8 +251,8 @@ pub fn fit(robot: &Robot, rows: &[Measurement]) -> Result<Fit, Error> {
             line: row.line,
             measured: own.iter().map(|(_, b)| b * b).sum::<f64>().sqrt(),
             fitted: own.iter().map(|(a, _)| a.dot(&solution.x) * a.dot(&solution.x)).sum::<f64>().sqrt(),
-            residual: residuals(own, &solution.x).sqrt(),
-            left_out: residuals(own, &others).sqrt(),
+            residual: left_by(own, &solution.x).sqrt(),
+            left_out: left_by(own, &others).sqrt(),
         }
     });
     let rows = outcomes.collect();

@@ -1,7 +1,7 @@
 //! What would make a bad fit of joint compliances a good one: the obvious mistakes, tried one by one.
 
 use crate::identify::measurement::Measurement;
-use crate::identify::stiffness::{Fit, fit};
+use crate::identify::stiffness::{Fit, explained};
 use crate::robot::{Joints, Robot, forward};
 use crate::units::DEG;
 use nalgebra::Vector3;
@@ -62,7 +62,7 @@ fn best(robot: &Robot, rows: &[Measurement], found: &Fit) -> Option<(String, f64
     }
     let few: Vec<Measurement> = rows.iter().step_by(rows.len().div_ceil(FEW)).cloned().collect();
     let tried = trials(robot, &few).into_iter().filter_map(|(name, rows)| {
-        let explained = fit(robot, &rows).ok()?.explained;
+        let explained = explained(robot, &rows).ok()?;
         (explained > POOR && 1.0 - explained < BETTER * left).then_some((name, explained))
     });
     tried.reduce(|best, other| if other.1 > best.1 + 1e-9 { other } else { best })

@@ -7,10 +7,11 @@
 
 use crate::cutting::{Coefficients, Cut};
 use crate::error::Error;
+use crate::identify::least_squares::LeastSquares;
 use crate::identify::student::quantile_975;
 use crate::identify::table::Table;
 use crate::units::{MM, N_PER_MM, N_PER_MM2};
-use nalgebra::{SMatrix, SVector, Vector3};
+use nalgebra::{SVector, Vector3};
 
 /// JSON path of the text, for errors.
 const FIELD: &str = "cuts";
@@ -193,42 +194,21 @@ fn least_squares<const N: usize>(
     which: [usize; N],
     axes: &[usize],
 ) -> Option<([f64; N], [f64; N])> {
-    let (mut square, mut side) = (SMatrix::<f64, N, N>::zeros(), SVector::<f64, N>::zeros());
-    // Coefficients of an area and of a length differ by orders of magnitude.
-    let scale = which.map(|k| rows.iter().map(|(grown, _)| grown[k].norm()).fold(0.0, f64::max));
-    if scale.contains(&0.0) {
-        return None;
-    }
-    let each = || rows.iter().flat_map(|(grown, force)| axes.iter().map(move |axis| (grown, force, *axis)));
-    for (grown, force, axis) in each() {
-        for i in 0..N {
-            let own = grown[which[i]][axis] / scale[i];
-            side[i] += own * force[axis];
-            for j in 0..N {
-                square[(i, j)] += own * grown[which[j]][axis] / scale[j];
-            }
-        }
-    }
-    let factor = crate::spread::cholesky(&square)?;
-    if (0..N).any(|i| factor[(i, i)] == 0.0) {
-        return None;
-    }
-    let inverse = square.try_inverse()?;
-    let solved = inverse * side;
-    let rest: f64 = each()
-        .map(|(grown, force, axis)| {
-            let fitted: f64 = (0..N).map(|i| grown[which[i]][axis] / scale[i] * solved[i]).sum();
-            (force[axis] - fitted).powi(2)
-        })
-        .sum();
+    let each = || {
+        let of = |(grown, force): &([Vector3<f64>; 6], Vector3<f64>), axis: usize| {
+            (SVector::<f64, N>::from_fn(|i, _| grown[which[i]][axis]), force[axis])
+        };
+        rows.iter().flat_map(move |row| axes.iter().map(move |axis| of(row, *axis)))
+    };
+    let LeastSquares { values, inverse } = LeastSquares::of(each())?;
+    let rest: f64 = each().map(|(grown, force)| (force - grown.dot(&values)).powi(2)).sum();
     let freedom = (rows.len() * axes.len()).saturating_sub(N);
     let deviation = (rest / freedom.max(1) as f64).sqrt();
-    let value = |i: usize| solved[i] / scale[i];
     let half = |i: usize| match freedom {
         0 => f64::INFINITY,
-        freedom => quantile_975(freedom) * deviation * inverse[(i, i)].max(0.0).sqrt() / scale[i],
+        freedom => quantile_975(freedom) * deviation * inverse[(i, i)].max(0.0).sqrt(),
     };
-    Some((std::array::from_fn(value), std::array::from_fn(half)))
+    Some((values.into(), std::array::from_fn(half)))
 }
 
 fn peaks(cut: &Cut, coefficients: &Coefficients, cuts: &[MeasuredCut]) -> Option<PeakCheck> {

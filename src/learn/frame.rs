@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::learn::alignment::{Alignment, ComparedBy, Sampled};
 use crate::learn::log::{Clock, FIELD, Log};
-use crate::learn::measured::{LoggedRows, PassOptions, RanPass, Said, compared_by, millimetres};
+use crate::learn::measured::{LoggedRows, PassOptions, RanPass, Said, millimetres};
 use crate::math::Pose;
 use crate::report::Report;
 use crate::robot::Joints;
@@ -188,7 +188,8 @@ fn positions(
     let extent = tips.iter().map(|tip| (tip - tips[0]).norm()).fold(0.0, f64::max);
     if median > (OFF.0 * extent).max(OFF.1) {
         let expected = format!(
-            "positions along the path, in the frame of the workpiece, the base or the controller's world: they lie {} off it at best, in that of the {name}",
+            "positions along the path, in the frame of the workpiece, the base or the controller's world: \
+             they lie {} off it at best, in that of the {name}",
             millimetres(median)
         );
         return Err(Error::invalid(FIELD, "positions away from the path", expected));
@@ -212,7 +213,7 @@ fn positions(
     let (at, values) = known(&log.clock, &tips);
     let run = pass.sampled(&log.clock, &pass.result.actual);
     let alignment =
-        Alignment::of(Sampled { at: &at, values: &values }, run, compared_by(true), options.shift);
+        Alignment::of(Sampled { at: &at, values: &values }, run, ComparedBy::Distance, options.shift);
     let alignment = alignment.ok_or_else(not_over)?;
     let (Clock::Time(at) | Clock::Length(at)) = &log.clock else { return Err(not_over()) };
     let on = pass.clock(&log.clock);
@@ -290,7 +291,7 @@ fn likest(
         let turn = frame(pass.report, name).rotation;
         let turned: Vec<_> = values.iter().map(|value| turn * value).collect();
         let log = Sampled { at: &at, values: &turned };
-        let Some(found) = Alignment::of(log, pass.sampled(clock, run), compared_by(false), shift) else {
+        let Some(found) = Alignment::of(log, pass.sampled(clock, run), ComparedBy::Likeness, shift) else {
             continue;
         };
         if best.as_ref().is_none_or(|(_, _, best)| found.agreement.abs() > best.agreement.abs() + SAME) {
@@ -351,7 +352,7 @@ fn joints(
     let log_of_motors = Sampled { at: &at, values: &values };
     let run = pass.sampled(&log.clock, &commands);
     let alignment =
-        Alignment::of(log_of_motors, run, compared_by(true), options.shift).ok_or_else(not_over)?;
+        Alignment::of(log_of_motors, run, ComparedBy::Distance, options.shift).ok_or_else(not_over)?;
     if -alignment.agreement > OTHER_RUN {
         said.odd.push(format!(
             "the motors' angles are {:.1} deg off the commands of this run, on average: is it another run's log?",

@@ -3,7 +3,7 @@
 use crate::compensation::commands;
 use crate::deviation::{Deviation, Reference, Sources, contour, simulate};
 use crate::error::Error;
-use crate::learn::alignment::{Alignment, ComparedBy, Sampled, place};
+use crate::learn::alignment::{Alignment, Sampled, place};
 use crate::learn::log::{Clock, FIELD, Log};
 use crate::learn::{frame, low_pass};
 use crate::progress::Progress;
@@ -346,11 +346,6 @@ fn noise(rows: &LoggedRows) -> f64 {
 pub(super) fn root_mean_square<'v>(values: impl Iterator<Item = &'v Vector3<f64>>) -> f64 {
     let (sum, count) = values.fold((0.0, 0usize), |(sum, count), v| (sum + v.norm_squared(), count + 1));
     (sum / count.max(1) as f64).sqrt()
-}
-
-/// By how much two series agree.
-pub(super) fn compared_by(is_position: bool) -> ComparedBy {
-    if is_position { ComparedBy::Distance } else { ComparedBy::Likeness }
 }
 
 /// A length as text.

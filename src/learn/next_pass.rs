@@ -141,7 +141,6 @@ impl NextPass {
             result: result.clone(),
             ..report.compensation.clone()
         };
-        drop(reference);
         Report {
             compensation,
             after: result,

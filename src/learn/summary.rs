@@ -3,7 +3,7 @@
 use crate::deviation::contour::MeanMax;
 use crate::job;
 use crate::learn::factors::{FactorInterval, estimate};
-use crate::learn::measured::root_mean_square;
+use crate::learn::measured::{millimetres, root_mean_square};
 use crate::learn::{Commanded, LearnedFactors, LearningGain, MeasuredPass, NextPass};
 use crate::report::{Report, Statistics};
 use crate::units::MM;
@@ -179,7 +179,8 @@ fn factors_summary(factors: &LearnedFactors, before: Option<&job::Learned>) -> F
     FactorsSummary {
         factors: rows,
         estimator: format!(
-            "largest posterior probability (Gauss-Newton), the job's own ranges as the prior, noise from what is left in {} blocks of the run; 95 % intervals",
+            "largest posterior probability (Gauss-Newton), the job's own ranges as the prior, \
+             noise from what is left in {} blocks of the run; 95 % intervals",
             factors.blocks
         ),
         explained_percent: factors.explained.map(|shares| shares.map(|share| 100.0 * share)),
@@ -206,7 +207,6 @@ const SEEN: f64 = 0.01 * MM;
 /// What the model does not explain, in words.
 fn unexplained(report: &Report, measured: &MeasuredPass, factors: &LearnedFactors) -> Vec<String> {
     let mut words = Vec::new();
-    let mm = |length: f64| format!("{:.3} mm", length / MM);
     if let Some([before, now]) = factors.explained {
         let percent = |share: f64| format!("{:.0} %", 100.0 * share.max(0.0));
         words.push(format!(
@@ -215,7 +215,11 @@ fn unexplained(report: &Report, measured: &MeasuredPass, factors: &LearnedFactor
             percent(before)
         ));
         if now < 0.5 {
-            words.push("Most of it has another cause than deflection under the cutting force: calibration, following, friction, heat. The next pass's command takes it back if it comes back; factors do not.".into());
+            words.push(
+                "Most of it has another cause than deflection under the cutting force: calibration, following, friction, \
+                 heat. The next pass's command takes it back if it comes back; factors do not."
+                    .into(),
+            );
         }
     }
     let rest: Vec<Vector3<f64>> = factors.rest.iter().map(|(_, rest)| *rest).collect();
@@ -223,8 +227,8 @@ fn unexplained(report: &Report, measured: &MeasuredPass, factors: &LearnedFactor
         let MeanMax { mean, .. } = MeanMax::of(&rest);
         words.push(format!(
             "{} is left on average, {} at most, {:.0} mm along the path.",
-            mm(mean),
-            mm(worst.norm()),
+            millimetres(mean),
+            millimetres(worst.norm()),
             s / MM
         ));
     }
@@ -247,7 +251,7 @@ fn unexplained(report: &Report, measured: &MeasuredPass, factors: &LearnedFactor
         if drift.norm() > (CLEAR * spread).max(2.0 * measured.noise).max(SEEN) {
             words.push(format!(
                 "What is left drifts by {} from the first to the last third of the run: heat, or slip.",
-                mm(drift.norm())
+                millimetres(drift.norm())
             ));
         }
     }
@@ -280,7 +284,11 @@ fn not_told_apart(report: &Report, factors: &LearnedFactors) -> Vec<String> {
         both > 0.0 && covariance[joint][6] < TIED * both
     });
     if tied {
-        words.push("A deflection says how much force times compliance is, not which of them: for another material, measure the force as well.".into());
+        words.push(
+            "A deflection says how much force times compliance is, not which of them: \
+             for another material, measure the force as well."
+                .into(),
+        );
     }
     words
 }

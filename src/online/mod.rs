@@ -4,7 +4,8 @@
 //! position is fed back ([`Feedback`]): what is left is summed up and taken back, as much in each cycle as stays
 //! stable. Both act late, by the cycle, by the dead time between measurement and motion, and by the lags of filter and
 //! arm ([`LoopTimes`]); so they help where the error is slow, and a loop with feedback makes fast errors larger. What
-//! they leave of an error is computed cycle by cycle ([`simulated`]); how much of it at one frequency, in closed form. The drawn plants are as many as the band has, or an even choice of them.
+//! they leave of an error is computed cycle by cycle ([`simulated`]); how much of it at one frequency, in closed form. The
+//! drawn plants are as many as the band has, or an even choice of them.
 //!
 //! Frequencies f in Hz enter as z = e^(j 2 pi f Ts), with the cycle Ts. Left out: the arm's own modes, which limit a loop at
 //! 8 to 25 Hz, jitter of the cycle, and lost measurements.

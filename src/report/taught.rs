@@ -16,7 +16,8 @@ impl Taught {
     /// In words, without full stop: plain ASCII without brackets, for programs.
     pub fn sentence(&self) -> String {
         format!(
-            "Commands corrected after a measured pass: up to {} mm and {} mm on average were measured, {} mm and {} mm are to be expected if that comes back",
+            "Commands corrected after a measured pass: up to {} mm and {} mm on average were measured, \
+             {} mm and {} mm are to be expected if that comes back",
             millimetres(self.measured.max),
             millimetres(self.measured.mean),
             millimetres(self.expected.max),

@@ -11,6 +11,7 @@ use crate::learn::{
 };
 use crate::report::Report;
 use crate::setup::Setup;
+use crate::simulation::judged;
 use crate::units::MM;
 use crate::verification::Programs;
 use crate::wasm::error::thrown;
@@ -85,7 +86,7 @@ pub fn learn_pass(
             let known = FRAMES.into_iter().find(|known| *known == name);
             known.ok_or_else(|| Error::unknown_name("frame", &name, "the frames are", FRAMES))
         });
-        let report = crate::run(&job, &mut Progress::none())?;
+        let report = judged(&job, &mut Progress::none())?;
         let commanded = match (learned, commanded.as_deref()) {
             (Some(text), _) => LearnedCorrection::from_json(&text)?.commanded(&report),
             (None, None | Some("corrected")) => Commanded { corrected: true, learned: vec![] },

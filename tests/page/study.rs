@@ -184,7 +184,8 @@ fn a_link_asks_again_and_other_questions_are_the_script_s() -> Result {
 fn a_sensor_among_the_inputs_has_its_charts() -> Result {
     visit(&format!("{THESIS}&view=error"), DESKTOP, async |page| {
         coarse(page).await?;
-        let shown = "[...document.querySelectorAll('#panel-error h3')].filter(head => head.checkVisibility()).map(head => head.textContent)";
+        let shown = "[...document.querySelectorAll('#panel-error h3')].filter(head => head.checkVisibility())\
+                     .map(head => head.textContent)";
         let delay = "What a loop leaves, by its dead time";
         let charts = page.js(&format!("return {shown}")).await?;
         assert!(!charts.to_string().contains(delay), "{charts}");
