@@ -60,6 +60,7 @@ pub mod simulation;
 pub mod study;
 pub mod identify;
 pub mod learn;
+pub mod evidence;
 pub mod chart;
 pub mod export;
 pub mod verification;

@@ -6,7 +6,7 @@ use std::path::Path;
 /// The modules from left to right. The job is read first, but its fields and its setup name things
 /// that the stages offer (robots, materials, shapes), so these stand to its left. `column` is the
 /// currency of report, charts and files.
-const ORDER: [&str; 30] = [
+const ORDER: [&str; 31] = [
     "math",
     "units",
     "spread",
@@ -34,6 +34,7 @@ const ORDER: [&str; 30] = [
     "study",
     "identify",
     "learn",
+    "evidence",
     "chart",
     "export",
     "verification",

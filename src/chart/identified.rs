@@ -5,6 +5,7 @@ use crate::chart::content::{Content, Curve, Shape, TIME};
 use crate::chart::unit::Units;
 use crate::column::Column;
 use crate::error::Error;
+use crate::identify::gear::{Gear, GearLog};
 use crate::identify::response::{Mode, Signal};
 use crate::identify::stiffness::{Fit, Residual};
 
@@ -15,6 +16,17 @@ pub enum Fitted<'a> {
     Stiffness(&'a Fit),
     /// Signal and fitted vibration over time.
     Response(&'a Signal, &'a Mode),
+    /// What a gear gives way over time, in the run that it was found in or in another.
+    Gear(&'a Gear, &'a GearLog, GearRun),
+}
+
+/// Which run of a joint is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GearRun {
+    /// The one that the gear was found in.
+    Fitted,
+    /// Another.
+    Predicted,
 }
 
 impl Fitted<'_> {
@@ -26,6 +38,10 @@ impl Fitted<'_> {
         let (name, title) = match self {
             Fitted::Stiffness(_) => ("stiffness", "Displacement of each row, and its residual"),
             Fitted::Response(..) => ("response", "Measured response and fitted vibration"),
+            Fitted::Gear(_, _, GearRun::Fitted) => ("gear", "What the gear gives way, measured and fitted"),
+            Fitted::Gear(_, _, GearRun::Predicted) => {
+                ("gear", "What the gear gives way in the other run, measured and predicted")
+            }
         };
         self.content(options.units).draw(name, title, options)
     }
@@ -39,6 +55,7 @@ impl Fitted<'_> {
         match self {
             Fitted::Stiffness(fit) => stiffness(fit, units),
             Fitted::Response(signal, mode) => response(signal, mode),
+            Fitted::Gear(gear, log, run) => gives_way(gear, log, *run),
         }
     }
 }
@@ -85,4 +102,22 @@ fn response(signal: &Signal, mode: &Mode) -> Content {
     let description = format!("The fit runs from {:.3} s to {:.3} s.", mode.window.0, mode.window.1);
     let shape = Shape::Curves { x: TIME, y, curves, markers: false, bands: vec![] };
     Content { description, at: signal.time.clone(), shape }
+}
+
+/// Milliradians.
+const MILLI: f64 = 1e-3;
+
+fn gives_way(gear: &Gear, log: &GearLog, run: GearRun) -> Content {
+    let beside = gear.beside(log);
+    let values = |of: fn(&[f64; 2]) -> f64| beside.iter().map(|pair| of(pair) / MILLI).collect();
+    let label = if run == GearRun::Fitted { "Fitted" } else { "Predicted" };
+    let curves = vec![
+        Curve { key: "measured", label: "Measured", class: "desired", values: values(|pair| pair[0]) },
+        Curve { key: "gear", label, class: "before", values: values(|pair| pair[1]) },
+        Curve { key: "rest", label: "Rest", class: "shaping", values: values(|pair| pair[0] - pair[1]) },
+    ];
+    let y = Axis { label: "Motor less load angle", unit: "mrad", ..Axis::default() };
+    let description = format!("Joint {}, without the offset of its encoders.", gear.joint + 1);
+    let shape = Shape::Curves { x: TIME, y, curves, markers: false, bands: vec![] };
+    Content { description, at: log.time.clone(), shape }
 }

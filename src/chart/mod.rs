@@ -13,6 +13,7 @@ pub mod chart;
 pub mod cases;
 pub mod catalog;
 pub mod error_grid;
+pub mod evidence;
 pub mod identified;
 pub mod intervals;
 pub mod learned;

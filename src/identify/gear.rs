@@ -15,6 +15,8 @@ use crate::error::Error;
 use crate::identify::least_squares::LeastSquares;
 use crate::identify::student::quantile_975;
 use crate::identify::table::Table;
+use crate::math;
+use crate::spread::{COVERAGE, Stiffness};
 use crate::units::DEG;
 use nalgebra::Vector4;
 
@@ -80,7 +82,15 @@ fn named(words: &[String]) -> Option<GearColumn> {
 /// # Errors
 /// [`Error::Text`] with line and column of what cannot be read.
 pub fn read(text: &str) -> Result<Vec<GearLog>, Error> {
-    let table = Table::read(text, FIELD)?;
+    read_as(text, FIELD)
+}
+
+/// The same for the text of a field of another name.
+///
+/// # Errors
+/// See [`read`].
+pub fn read_as(text: &str, field: &'static str) -> Result<Vec<GearLog>, Error> {
+    let table = Table::read(text, field)?;
     if table.names.is_empty() {
         return Err(table.end_error("a text without a header", KNOWN));
     }
@@ -223,6 +233,16 @@ impl Gear {
     pub fn predicts(&self, other: &GearLog) -> (f64, f64) {
         judged(&other.rows(), &self.values, true)
     }
+
+    /// The difference of a log's angles at each instant, measured and by what was found, both without the log's own offset
+    /// [rad].
+    pub fn beside(&self, log: &GearLog) -> Vec<[f64; 2]> {
+        let rows = log.rows();
+        let by_gear: Vec<f64> = rows.iter().map(|(row, _)| row.dot(&self.values) - self.values[0]).collect();
+        let offset =
+            rows.iter().zip(&by_gear).map(|((_, value), own)| value - own).sum::<f64>() / rows.len() as f64;
+        rows.iter().zip(by_gear).map(|((_, value), own)| [value - offset, own]).collect()
+    }
 }
 
 /// Share of the variance that values explain, and root mean square of the rest.
@@ -234,6 +254,35 @@ fn judged(rows: &[(Vector4<f64>, f64)], values: &Vector4<f64>, own_offset: bool)
     let whole: f64 = rows.iter().map(|(_, value)| (value - mean).powi(2)).sum();
     let left: f64 = rests.iter().map(|rest| (rest - offset).powi(2)).sum();
     (1.0 - left / whole, (left / count).sqrt())
+}
+
+/// Compliances of an arm one of whose gears was measured.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct MeasuredJoint {
+    /// Those of all six joints [rad/(N m)].
+    pub joint_compliance_rad_per_nm: [f64; 6],
+    /// Their covariance [(rad/(N m))^2], for a job's `uncertainty.compliance_covariance`.
+    pub compliance_covariance: [[f64; 6]; 6],
+}
+
+impl Gear {
+    /// An arm with this gear: `compliance` [rad/(N m)] and `spread` are those of the arm before. The measured joint varies by
+    /// its own interval, the others as before. `None` if the load did not show the spring.
+    pub fn in_arm(&self, compliance: &[f64; 6], spread: &Stiffness) -> Option<MeasuredJoint> {
+        self.stiffness()?;
+        let mut joint_compliance_rad_per_nm = *compliance;
+        joint_compliance_rad_per_nm[self.joint] = self.values[1];
+        let own = (self.halves[1] / COVERAGE).powi(2);
+        let logarithms = spread.covariance();
+        let compliance_covariance = std::array::from_fn(|i| {
+            std::array::from_fn(|j| match (i == self.joint, j == self.joint) {
+                (true, true) => own,
+                (false, false) => compliance[i] * compliance[j] * (math::exp(logarithms[(i, j)]) - 1.0),
+                _ => 0.0,
+            })
+        });
+        Some(MeasuredJoint { joint_compliance_rad_per_nm, compliance_covariance })
+    }
 }
 
 /// A gear to be read.
@@ -319,14 +368,14 @@ impl Gear {
         };
         let other = predicted.map_or(String::new(), |other| {
             format!(
-                " Of the other run, {:.1} % are predicted, {:.0} urad are left.",
+                " Of the other run, {:.1} % are predicted, {:.0} µrad are left.",
                 100.0 * other.explained,
                 other.rest_urad
             )
         });
         format!(
-            "{spring}; load follows motor by {:.1} ms, and lags by {:.0} urad to each side. {:.1} % of the difference is explained; \
-             {:.0} urad (root mean square) no spring explains.{other}",
+            "{spring}; load follows motor by {:.1} ms, and lags by {:.0} µrad to each side. {:.1} % of the difference is explained; \
+             {:.0} µrad (root mean square) no spring explains.{other}",
             self.values[2] / 1e-3,
             self.values[3] / MICRO,
             100.0 * self.explained,

@@ -98,6 +98,8 @@ pub struct Residual {
     pub fitted: f64,
     /// Length of measured minus fitted [m].
     pub residual: f64,
+    /// Length of the displacement along the same axes that a fit to all other rows predicts [m].
+    pub predicted: f64,
     /// Length of measured minus predicted by a fit to all other rows [m].
     pub left_out: f64,
 }
@@ -247,10 +249,12 @@ pub fn fit(robot: &Robot, rows: &[Measurement]) -> Result<Fit, Error> {
             h -= a * *b;
         }
         let others = nnls::solve(&g, &h).x;
+        let moved = |by: &Vector6<f64>| own.iter().map(|(a, _)| a.dot(by) * a.dot(by)).sum::<f64>().sqrt();
         Residual {
             line: row.line,
             measured: own.iter().map(|(_, b)| b * b).sum::<f64>().sqrt(),
-            fitted: own.iter().map(|(a, _)| a.dot(&solution.x) * a.dot(&solution.x)).sum::<f64>().sqrt(),
+            fitted: moved(&solution.x),
+            predicted: moved(&others),
             residual: left_by(own, &solution.x).sqrt(),
             left_out: left_by(own, &others).sqrt(),
         }

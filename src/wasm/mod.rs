@@ -10,6 +10,7 @@ mod options;
 mod job;
 mod run;
 mod chart;
+mod evidence;
 mod export;
 mod identify;
 mod learn;
@@ -21,8 +22,9 @@ mod answer;
 mod thesis;
 
 pub use answer::{StudyCurves, StudyGrid, StudyIntervals};
+pub use evidence::{evidence_encoders, evidence_loads, evidence_slots};
 pub use export::zip;
-pub use identify::{Identified, identify_response, identify_stiffness};
+pub use identify::{Identified, identify_gear, identify_response, identify_stiffness};
 pub use job::{
     arm, check, default_job, fields, formats, opening_job, place_in_front, presets, proposed_cutting,
     proposed_stock,

@@ -1,56 +1,23 @@
 //! Forces measured with a dynamometer: slots by a bull nose and a ball nose, 16 mm, two flutes,
 //! helix 25 deg, right-hand, 800 rpm, 0.1 mm per tooth.
 //!
-//! Means and coefficients as published at github.com/leekunhwee/ForceCalculation (3fda341f3e19). The
-//! dynamometer shows the force on the part, x to the left of the feed, y along it and z down, as the
-//! numbers themselves show: any other reading misses by 184 % and more. The force on the tool in {T}
-//! is thus (-y, -x, z).
+//! Means and coefficients as published at github.com/leekunhwee/ForceCalculation (3fda341f3e19); see
+//! `armill::evidence::slots`.
 
-use super::DEG;
 use armill::Progress;
-use armill::cutting::{Coefficients, Cut, Engagement, Hand};
+use armill::cutting::{Cut, Hand};
+use armill::evidence::slots::{BALL, BULL_NOSE, Slot, cut, measured};
 use armill::path::{Path, gcode};
 use armill::stock::{Cutter, Outline, Solid, contacts};
-use nalgebra::{Vector2, Vector3};
-
-/// Axial depth [mm], means of the dynamometer's x, y and z [N], 99th percentile of the resultant [N].
-type Row = [f64; 5];
-
-const BULL_NOSE: [Row; 5] = [
-    [1.0, -71.7, 26.4, 46.0, 163.0],
-    [2.0, -136.5, 61.6, 57.4, 302.0],
-    [3.0, -198.2, 95.0, 47.5, 427.0],
-    [4.0, -254.9, 104.9, 28.4, 522.0],
-    [5.0, -311.8, 120.3, 11.1, 635.0],
-];
-const BALL: [Row; 5] = [
-    [1.0, -92.8, 25.8, 90.2, 225.0],
-    [2.0, -169.6, 55.6, 136.9, 387.0],
-    [3.0, -243.7, 96.6, 183.1, 529.0],
-    [4.0, -316.1, 143.8, 215.9, 675.0],
-    [5.0, -385.6, 195.5, 235.5, 802.0],
-];
-
-fn cut(corner_mm: f64, depth_mm: f64) -> Cut {
-    Cut {
-        diameter: 0.016,
-        flutes: 2,
-        helix: 25.0 * DEG,
-        hand: Hand::Right,
-        corner_radius: corner_mm * 1e-3,
-        runout: 0.0,
-        coefficients: Coefficients::of_table([796.1, 168.8, 222.0, 27.7, 30.8, 1.4]),
-        axial_depth: depth_mm * 1e-3,
-        engagement: Engagement::Slot,
-    }
-}
+use nalgebra::Vector2;
 
 #[test]
 fn measured_slots_of_bull_and_ball_nose() {
     for (corner, rows) in [(3.0, BULL_NOSE), (8.0, BALL)] {
-        for [depth, x, y, z, p99] in rows {
+        for slot in rows {
+            let [depth, .., p99] = slot;
             let cut = cut(corner, depth);
-            let measured = Vector3::new(-y, -x, z);
+            let measured = measured(&slot);
             let ours = cut.mean_force().at(1e-4);
             let miss = (ours - measured).norm() / measured.norm();
             // At 1 mm the edge at the tip rubs, which no edge coefficient covers: 30 % is known.
@@ -72,7 +39,8 @@ fn measured_forces_come_out_of_a_slot_in_a_stock() {
     let outline = Outline::rectangle(corner_of(-50.0, -50.0), corner_of(50.0, 50.0));
     let block = Solid::prism(outline, -0.02, 0.0);
     for (corner, rows) in [(3.0, BULL_NOSE), (8.0, BALL)] {
-        for [depth, x, y, z, _] in rows {
+        for slot in rows {
+            let [depth, ..] = slot;
             let text = format!("G21 G90\nG0 X-70 Y0 Z5\nG1 Z-{depth} F60\nG1 X40 F160\nG0 Z5\n");
             let options = gcode::Options { field: "text".into(), ..Default::default() };
             let path = Path::of_program(&gcode::program(&text, &options, |_| ()).unwrap()).unwrap();
@@ -81,7 +49,7 @@ fn measured_forces_come_out_of_a_slot_in_a_stock() {
             let index = path.moves().iter().position(|step| step.segment.length() > 0.1).unwrap();
             let (station, ..) = met.around(index, 0.07).unwrap();
             let ours = cut(corner, depth).mean_force_in(&met.at(station)).at(1e-4);
-            let measured = Vector3::new(-y, -x, z);
+            let measured = measured(&slot);
             let miss = (ours - measured).norm() / measured.norm();
             let allowed = if depth < 2.0 { 0.35 } else { 0.20 };
             assert!(miss < allowed, "corner {corner}, {depth} mm: {ours} against {measured}, {miss}");
@@ -92,7 +60,7 @@ fn measured_forces_come_out_of_a_slot_in_a_stock() {
 #[test]
 fn the_side_edge_pulls_down_and_the_corner_pushes_up() {
     // Above the corner the measured axial force falls by 18 N for each mm of side edge.
-    let slope = |rows: &[Row]| (rows[4][3] - rows[2][3]) / 2.0;
+    let slope = |rows: &[Slot]| (rows[4][3] - rows[2][3]) / 2.0;
     let axial = |depth: f64| cut(3.0, depth).mean_force().at(1e-4).z;
     let (ours, measured) = ((axial(5.0) - axial(3.0)) / 2.0, slope(&BULL_NOSE));
     // Kac and Kae as the authors fitted them; a line through three means is good to some 20 %.

@@ -2,6 +2,7 @@
 
 use armill::Error;
 use armill::identify::gear::{GearLog, read};
+use armill::spread::{InputSpread, Stiffness};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
@@ -130,4 +131,26 @@ fn texts_of_gears_are_read_and_refused_in_place() {
         assert!(error.to_string().contains(part), "{text:?}: {error}");
         assert_eq!(error.place(), Some(place), "{text:?}: {error}");
     }
+}
+
+/// The arm that a gear is taken over into: the measured joint has its own interval, the others vary as they did.
+#[test]
+fn an_arm_with_a_measured_gear_varies_there_by_its_interval() {
+    let fit = read(A).unwrap().remove(0).fit().unwrap();
+    let compliance = [1e-6, 2e-6, 3e-6, 4e-6, 5e-6, 0.0];
+    let spread = Stiffness::Each([InputSpread::factor(2.0); 6]);
+    let arm = fit.in_arm(&compliance, &spread).unwrap();
+    assert_eq!(arm.joint_compliance_rad_per_nm[2], 1.0 / fit.stiffness().unwrap());
+    let after = Stiffness::together(&arm.joint_compliance_rad_per_nm, &arm.compliance_covariance).unwrap();
+    let covariance = after.covariance();
+    for joint in [0, 1, 3, 4] {
+        assert_eq!(arm.joint_compliance_rad_per_nm[joint], compliance[joint]);
+        let before = spread.covariance()[(joint, joint)];
+        assert!((covariance[(joint, joint)] / before - 1.0).abs() < 1e-9, "{covariance}");
+    }
+    // Half the interval of the compliance in standard deviations.
+    let [low, high] = fit.stiffness_interval().unwrap();
+    let deviation = (1.0 / low - 1.0 / high) / 2.0 / 1.959_963_984_540_054 * fit.stiffness().unwrap();
+    assert!((covariance[(2, 2)] - (deviation * deviation).ln_1p()).abs() < 1e-9, "{covariance}");
+    assert!((0..6).all(|other| other == 2 || covariance[(2, other)] == 0.0));
 }

@@ -1,15 +1,20 @@
-//! The view Identify in a real browser: measured loads and responses, typed, opened, invalid, put
+//! The views Measure and Evidence in a real browser: measured loads and responses, typed, opened, invalid, put
 //! into the job and undone.
 
 use crate::browser::{DESKTOP, PHONE, Page, Result, THESIS, visit};
 use crate::{current, narrow};
-use armill::identify::{Convention, measurement, response, stiffness};
+use armill::evidence;
+use armill::identify::{Convention, gear, measurement, response, stiffness};
 use armill::{Job, Report};
 use serde_json::Value;
 
 const LOADS: &str = include_str!("../../web/examples/identify-fanuc-r2000ic.csv");
 const ROBOT: &str = include_str!("../../web/examples/identify-fanuc-r2000ic.json");
 const RESPONSE: &str = include_str!("../../web/examples/identify-response.csv");
+const GEARS: [&str; 2] = [
+    include_str!("../../web/examples/gear-kuka-kr300-a.csv"),
+    include_str!("../../web/examples/gear-kuka-kr300-b.csv"),
+];
 
 async fn open(page: &Page) -> Result {
     current(page).await?;
@@ -257,5 +262,62 @@ fn mean_forces_become_the_material() -> Result {
             );
         }
         narrow(page, "cutting coefficients").await
+    })
+}
+
+/// Encoders behind a gear: the run, another run predicted, the spring put into the job with its interval, and undone.
+#[test]
+fn a_gear_becomes_the_jobs_joint() -> Result {
+    visit(THESIS, DESKTOP, async |page| {
+        open(page).await?;
+        click(page, "#identify-gear-example").await?;
+        page.wait_for("document.querySelector('#chart-gear svg.plot')", 30.0).await?;
+        let [a, b] = GEARS.map(|text| gear::read(text).map(|mut logs| logs.remove(0)));
+        let native = a?.fit()?.summary(Some(&b?));
+        assert_eq!(page.text("[aria-labelledby=identify-gear-title] .found").await?, native.sentence);
+        click(page, "#use-gear-3").await?;
+        page.wait_for("document.querySelector('#notice p')", 10.0).await?;
+        current(page).await?;
+        let taken = job(page).await?;
+        let stiffness = 1.0 / taken["robot"]["joint_compliance_rad_per_nm"][2].as_f64().unwrap();
+        assert!((stiffness / native.stiffness_nm_per_rad.unwrap() - 1.0).abs() < 1e-9, "{taken}");
+        let own = taken["uncertainty"]["compliance_covariance"][2][2].as_f64().unwrap().sqrt() * stiffness;
+        let [low, high] = native.stiffness_interval_nm_per_rad.unwrap();
+        assert!((own - stiffness * (1.0 / low - 1.0 / high) / 3.919_928).abs() < 1e-6, "{own}");
+        click(page, "#undo").await?;
+        current(page).await?;
+        assert!(job(page).await?["uncertainty"]["compliance_covariance"].is_null());
+
+        // What is wrong in the other run is said there.
+        paste(page, "#identify-gear-other", "time_s,motor_side_q3_deg\n0,half\n").await?;
+        page.wait_for("document.querySelector('#identify-gear-other[aria-invalid=true]')", 10.0).await?;
+        assert_eq!(
+            page.js("return document.getElementById('identify-gear').getAttribute('aria-invalid')").await?,
+            "false"
+        );
+        Ok(())
+    })
+}
+
+/// The view Evidence computes from the data of others what the core says of them.
+#[test]
+fn evidence_is_computed_from_measured_data() -> Result {
+    visit(THESIS, DESKTOP, async |page| {
+        current(page).await?;
+        page.click("#tab-evidence").await?;
+        page.wait_for("document.querySelectorAll('#evidence svg.plot').length === 3", 60.0).await?;
+        page.screenshot("evidence.png").await?;
+        let [a, b] = GEARS;
+        let native =
+            [evidence::loads(&Job::from_json(ROBOT)?, LOADS)?, evidence::encoders(a, b)?, evidence::slots()];
+        for (section, native) in ["loads", "encoders", "slots"].iter().zip(native) {
+            let said = page.text(&format!("#evidence-{section} .found")).await?;
+            assert_eq!(said, native.sentence);
+            let rows = page
+                .js(&format!("return document.querySelectorAll('#evidence-{section} tbody tr').length"))
+                .await?;
+            assert_eq!(rows, native.rows.len());
+        }
+        Ok(())
     })
 }

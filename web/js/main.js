@@ -6,6 +6,7 @@ import * as core from "./core/client.js";
 import { Form } from "./form/form.js";
 import { followCaret, followPaste, programTools } from "./form/program-tools.js";
 import { ask, offerPlace, showAsked } from "./form/still-asked.js";
+import { makeEvidence } from "./identify/evidence.js";
 import { makeIdentify } from "./identify/panel.js";
 import { merged } from "./job/data.js";
 import { Job } from "./job/job.js";
@@ -68,6 +69,7 @@ const present = { job: () => job?.data, use: (/** @type {JobData} */ changed) =>
 const scene = makeScene(byId("scene"));
 const placement = makePlacement(byId("placement"), present);
 const identify = makeIdentify(byId("identify"), present);
+const evidence = makeEvidence(byId("evidence"));
 const armView = makeArmView((text) => core.armAtZero(text));
 const calculator = new Calculator(core, { ...status, become, show, progress, remedyFor });
 const study = makeStudy(byId("study"), {
@@ -291,6 +293,7 @@ function wire() {
       recomputeThesis();
     }
     if (panel.id === "panel-identify") identify.look();
+    if (panel.id === "panel-evidence") evidence.look();
     if (panel.id === "panel-placement") placement.look();
   });
   if (!tabs.show(viewIn(location.hash) ?? "") && !tabs.show(openPanels().tab ?? "")) showPanel(tabs.current());

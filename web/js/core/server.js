@@ -29,7 +29,7 @@ let armill; // the core
 /** @type {any} */
 let run = null;
 /** @type {Record<string, any>} */
-const identified = {}; // what was identified last: `stiffness`, `response`, `pass`
+const identified = {}; // what was identified last, by its kind: see `identify`
 /** @type {{ json: string, survey: Armill.Survey } | undefined} */
 let surveyed; // of the map of places
 
@@ -72,6 +72,7 @@ const answers = {
   part_section: (sample) => run.part_section(sample),
   simulated_part: (kind) => run.simulated_part(kind),
   export: (format) => (format === "columns-csv" ? columnsFile() : run.export(format)),
+  interface_zip: (id) => run.interface_zip(id),
   replay: (format) => run.replay(format),
   packaged: (controller) => outlineOf(run.package(controller)),
   package: packageFile,
@@ -79,16 +80,24 @@ const answers = {
   release,
   thesis: () => armill.thesis_recomputed(),
   identify(kind, ...args) {
-    const { identify_stiffness, identify_response, learn_pass } = armill;
-    const identify = kind === "stiffness" ? identify_stiffness : kind === "pass" ? learn_pass : identify_response;
-    const fresh = Reflect.apply(identify, armill, args);
+    /** @type {Record<string, Function>} */
+    const by = {
+      stiffness: armill.identify_stiffness,
+      response: armill.identify_response,
+      gear: armill.identify_gear,
+      pass: armill.learn_pass,
+      loads: armill.evidence_loads,
+      encoders: armill.evidence_encoders,
+      slots: armill.evidence_slots,
+    };
+    const fresh = Reflect.apply(by[kind], armill, args);
     identified[kind]?.free();
     identified[kind] = fresh;
     return fresh.summary();
   },
   identified_chart: (kind, options) => identified[kind].chart(options),
   identified_data: (kind, units) => identified[kind].chart_data(units),
-  learned_file: (kind) => identified.pass[kind](),
+  learned_file: (kind, ...args) => identified.pass[kind](...args),
   fit_cuts: (job, cuts) => armill.fit_cuts(job, cuts),
   extent: (json) => surveyOf(json).extent(),
   around: (json) => ({ part: surveyOf(json).part(), base: surveyOf(json).base() }),

@@ -1,40 +1,18 @@
-// The view Measure: what a measured pass teaches, joint compliances from measured loads, frequency and damping from a
-// measured response.
+// The view Measure: what a measured pass teaches, joint compliances from measured loads or from encoders behind the gears,
+// frequency and damping from a measured response, cutting coefficients from a dynamometer.
 
-import * as core from "../core/client.js";
+import { ask } from "./ask.js";
 import { makeCuts } from "./cuts.js";
+import { makeGear } from "./gear.js";
 import { makePass } from "./pass.js";
 import { makeResponse } from "./response.js";
 import { makeStiffness } from "./stiffness.js";
 
-/**
- * @import { Asked } from "../core/asked.js"
- * @import { JobData } from "../job/data.js"
- */
+/** @import { JobData } from "../job/data.js" */
 
-/** @typedef {(kind: string, ...args: unknown[]) => Promise<any>} Ask a question to the core */
+/** @typedef {import("./ask.js").Ask} Ask */
 
 /** @typedef {{ job(): JobData, use(job: JobData): void }} Present the job as it is, and how another takes its place */
-
-/** @type {Asked | undefined} */
-let worker; // computes and draws here only; started when it is first needed
-
-/**
- * Asks the core; a Worker that died is replaced when the next question comes.
- * @type {Ask}
- */
-async function ask(kind, ...args) {
-  worker ??= core.helper();
-  try {
-    return await worker.ask(kind, ...args);
-  } catch (error) {
-    if (error.fatal) {
-      worker.stop(error);
-      worker = undefined;
-    }
-    throw error;
-  }
-}
 
 /**
  * Fills `node`. `job()` gives the job as plain data, `use(job)` takes another one over. `look()` of
@@ -43,7 +21,7 @@ async function ask(kind, ...args) {
  * @param {Present} present
  */
 export function makeIdentify(node, { job, use }) {
-  const parts = [makePass, makeStiffness, makeResponse, makeCuts].map((make) => make({ ask, job, use }));
+  const parts = [makePass, makeStiffness, makeGear, makeResponse, makeCuts].map((make) => make({ ask, job, use }));
   node.append(...parts.map((part) => part.node));
   return {
     look() {

@@ -11,7 +11,7 @@ import { onSetting } from "../page/settings.js";
  * @import { Ask } from "./panel.js"
  */
 
-/** @typedef {"stiffness" | "response" | "pass"} Kind */
+/** @typedef {"stiffness" | "response" | "gear" | "pass"} Kind */
 
 /** @template Found what the core finds */
 export class Outcome {
@@ -23,6 +23,8 @@ export class Outcome {
   #source;
   /** @type {(found: Found) => Node[]} */
   #show;
+  /** @type {(error: import("../core/client.js").Failure) => Source} */
+  #faulty;
   #result = make("div", { className: "result", hidden: true });
   /** @type {Figure} */
   #figure;
@@ -32,17 +34,20 @@ export class Outcome {
   #found = null;
 
   /**
-   * `source` is the text, `show(found)` gives the nodes of a result; `chart` is { name, title }.
+   * `source` is the text, `show(found)` gives the nodes of a result; `chart` is { name, title }. Where there is another text,
+   * `faulty(error)` is the one that the error is about.
    * @param {{
    *   ask: Ask, kind: Kind, source: Source,
    *   chart: { name: string, title: string }, show(found: Found): Node[],
+   *   faulty?(error: import("../core/client.js").Failure): Source,
    * }} options
    */
-  constructor({ ask, kind, source, chart, show }) {
+  constructor({ ask, kind, source, chart, show, faulty = () => source }) {
     this.#ask = ask;
     this.#kind = kind;
     this.#source = source;
     this.#show = show;
+    this.#faulty = faulty;
     const drawn = {
       chart: (/** @type {string} */ _, /** @type {ChartOptions} */ options) => ask("identified_chart", kind, options),
       chartData: (/** @type {string} */ _, /** @type {ChartUnits} */ units) => ask("identified_data", kind, units),
@@ -88,7 +93,7 @@ export class Outcome {
     } catch (error) {
       if (mine !== this.#turn) return;
       if (error.fatal) this.#asked = "";
-      this.#source.fail(error);
+      this.#faulty(error).fail(error);
       this.#result.classList.add("stale");
     }
   }

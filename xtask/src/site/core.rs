@@ -26,7 +26,7 @@ pub(crate) const MODULE: &str = "armill_bg.wasm";
 /// coupling, the feed rule, the surface left, the questions with their charts, the part on the map, the loop of a job and learning
 /// from a pass it has 2,523,000 and 1,018,000; these are 1 % more.
 /// Raise them only with a reason in CHANGELOG.md.
-pub(super) const LIMITS: [usize; 2] = [2_548_000, 1_028_000];
+pub(super) const LIMITS: [usize; 2] = [2_680_000, 1_085_000];
 
 /// Makes the core in `package` from the sources in `root`: `folder` gets the module, its JavaScript
 /// side and their types.
