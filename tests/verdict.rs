@@ -134,7 +134,7 @@ fn every_file_says_what_page_and_script_say() {
                 format.id,
                 &header[..1500.min(header.len())]
             );
-            if format.id != "joints-csv" {
+            if !["joints-csv", "correction-csv"].contains(&format.id) {
                 assert!(header.contains(words_of_state), "{}: {words_of_state}", format.id);
                 let accuracy = programs.accuracy(&report, format.id).unwrap();
                 assert_eq!(accuracy.verdict_state, report.verdict_state(), "{}", accuracy.sentence);

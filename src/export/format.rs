@@ -14,7 +14,7 @@ pub struct Format {
 }
 
 /// Every export format.
-pub const FORMATS: [Format; 10] = [
+pub const FORMATS: [Format; 11] = [
     Format {
         id: "columns-csv",
         name: "All columns",
@@ -38,6 +38,12 @@ pub const FORMATS: [Format; 10] = [
         name: "Joint commands",
         extension: "csv",
         note: "Time and six joint values at the sample time.",
+    },
+    Format {
+        id: "correction-csv",
+        name: "Correction at the cycle",
+        extension: "csv",
+        note: "Time, arc length, shift and turn in the workpiece frame, one row per cycle of the job's loop.",
     },
     Format {
         id: "gcode",

@@ -15,6 +15,7 @@ pub mod posture;
 pub mod csv;
 pub mod post;
 pub mod archive;
+pub mod superposed;
 pub mod format;
 
 pub use format::{FORMATS, Format};
@@ -61,6 +62,7 @@ pub fn table(report: &Report, format: &Format) -> Export {
     let text = match format.id {
         "compensated-csv" => csv::compensated(report),
         "joints-csv" => csv::joints(report),
+        "correction-csv" => superposed::csv(report),
         _ => csv::columns(report),
     };
     let (points, commanded_path) = (report.samples(), CommandedPath::of(report));

@@ -37,7 +37,7 @@ impl PostStyle {
     pub fn of(format: &Format, report: &Report) -> Option<Self> {
         let inches = report.setup().program.as_ref().is_some_and(|source| source.program.unit == "inch");
         match format.id {
-            "columns-csv" | "compensated-csv" | "joints-csv" => None,
+            "columns-csv" | "compensated-csv" | "joints-csv" | "correction-csv" => None,
             id => Some(Self {
                 arcs: ["gcode", "krl", "rapid", "val3", "fanuc"].contains(&id),
                 inch: inches && ["gcode", "apt"].contains(&id),

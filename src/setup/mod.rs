@@ -127,6 +127,10 @@ pub struct Setup {
     pub compensate_at: CompensateAt,
     /// What leaves.
     pub output: ProgramOptions,
+    /// Time from one correction of a running program to the next [s].
+    pub correction_cycle: f64,
+    /// By how much such a correction acts late [s].
+    pub correction_delay: f64,
 }
 
 /// Stopping criterion of the compensation.
@@ -273,6 +277,8 @@ impl Setup {
             spreads,
             compensate_at: job.compensation.at.unwrap_or_default(),
             output: program::options(&job.program, maker)?,
+            correction_cycle: job.online.cycle_s,
+            correction_delay: job.online.dead_time_s + job.online.arm_lag_s,
         })
     }
 

@@ -1,7 +1,10 @@
 //! Files of a run, and how accurate its programs are.
 
+use crate::error::Error;
 use crate::export::post::robot::PackageFile;
+use crate::export::superposed::{self, Interface};
 use crate::export::{self, ExportOptions, archive};
+use crate::report::Report;
 use crate::setup::Controller;
 use crate::units::MM;
 use crate::verification::{self, Package};
@@ -65,6 +68,12 @@ impl Run {
         archive::zip(&package.name, &package.files).map_err(|error| thrown(&error))
     }
 
+    /// The correction for an interface that adds it to the running desired program (`kuka-rsi` or `abb-egm`), with the files that
+    /// the interface needs, in one zip archive.
+    pub fn interface_zip(&self, interface: &str) -> Result<Vec<u8>, JsValue> {
+        interface_zip(&self.report, interface).map_err(|error| thrown(&error))
+    }
+
     /// Contour error [mm] of a program (`gcode`, `apt` or `path-csv`), read back and simulated.
     #[wasm_bindgen(unchecked_return_type = "Statistics")]
     pub fn replay(&self, format: &str) -> Result<JsValue, JsValue> {
@@ -96,6 +105,13 @@ impl Run {
         let _ = room.try_reserve_exact(bytes);
         drop(std::hint::black_box(room));
     }
+}
+
+/// The files of an interface, in one archive.
+pub(super) fn interface_zip(report: &Report, interface: &str) -> Result<Vec<u8>, Error> {
+    let interface = Interface::named(interface)?;
+    let files = superposed::package(report, interface)?;
+    archive::zip(&format!("{}-{}", report.setup().output.name, interface.id()), &files)
 }
 
 /// Texts as one zip archive, each at its path in a folder; the same texts give the same bytes.

@@ -15,7 +15,7 @@ use crate::simulation::judged;
 use crate::units::MM;
 use crate::verification::Programs;
 use crate::wasm::error::thrown;
-use crate::wasm::{chart, object, options};
+use crate::wasm::{chart, export, object, options};
 use crate::{Job, Progress};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -157,6 +157,12 @@ impl LearnedPass {
             archive::zip(&package.name, &package.files)
         };
         zipped().map_err(|error: Error| thrown(&error))
+    }
+
+    /// The next pass for an interface that adds it to the running desired program; see `Run.interface_zip`.
+    pub fn interface_zip(&self, interface: &str) -> Result<Vec<u8>, JsValue> {
+        let report = self.next()?.report(&self.report);
+        export::interface_zip(&report, interface).map_err(|error| thrown(&error))
     }
 
     fn next(&self) -> Result<&NextPass, JsValue> {

@@ -222,6 +222,12 @@ export const simulatedPart = (kind) => askShown("simulated_part", kind);
 export const exported = (format) => askShown("export", format);
 
 /**
+ * The correction for an interface of a controller, with its files, as a zip archive.
+ * @type {(id: string) => Promise<Uint8Array<ArrayBuffer>>}
+ */
+export const interfaceZip = (id) => askShown("interface_zip", id);
+
+/**
  * How the shown result's path runs as a package for a controller, by default the job's, with the names
  * of its files.
  * @type {(controller?: Controller) => Promise<import("./server.js").Outline>}

@@ -21,6 +21,9 @@ const EXAMPLE = "learn-pass";
 const COMMANDED = { corrected: "the program as corrected", desired: "the path as drawn" };
 const FRAMES = { "": "as it fits", workpiece: "workpiece", base: "robot’s base", world: "controller’s world" };
 
+/** What adds a correction to the running desired program. */
+const INTERFACES = { "kuka-rsi": "KUKA RSI", "abb-egm": "ABB EGM" };
+
 /** @param {{ ask: Ask } & Present} page */
 export function makePass({ ask, job, use }) {
   /** @type {JobData | null} */
@@ -108,13 +111,14 @@ export function makePass({ ask, job, use }) {
   }
 
   /**
-   * @param {"correction" | "command_csv" | "package_zip"} kind
+   * @param {"correction" | "command_csv" | "package_zip" | "interface_zip"} kind
    * @param {string} name
    * @param {string} type
+   * @param {string[]} which
    */
-  async function save(kind, name, type) {
+  async function save(kind, name, type, ...which) {
     try {
-      download(name, await ask("learned_file", kind), type);
+      download(name, await ask("learned_file", kind, ...which), type);
     } catch (error) {
       source.fail(error);
     }
@@ -157,6 +161,11 @@ export function makePass({ ask, job, use }) {
         button("learn-command", "Its commands (CSV)", () => save("command_csv", "armill-next-pass.csv", "text/csv")),
         button("learn-save", "What was learned (JSON)", () =>
           save("correction", "armill-learned.json", "application/json"),
+        ),
+        ...Object.entries(INTERFACES).map(([id, name]) =>
+          button(`learn-${id}`, `For ${name} (zip, untested)`, () =>
+            save("interface_zip", `armill-next-pass-${id}.zip`, "application/zip", id),
+          ),
         ),
       ),
       make(

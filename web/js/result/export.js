@@ -48,9 +48,33 @@ const part = (kind, option) => ({
   made: () => core.simulatedPart(kind),
   stock: true, // of jobs with a stock
 });
+/** @type {Other} */
+const correction = {
+  option: "correction at the cycle, as CSV",
+  button: "Export correction",
+  name: "armill-correction.csv",
+  type: "text/csv",
+  made: () => core.exported("correction-csv"),
+};
+/**
+ * The correction for an interface that adds it to the running desired program.
+ * @param {"kuka-rsi" | "abb-egm"} id
+ * @param {string} name
+ * @returns {Other}
+ */
+const added = (id, name) => ({
+  option: `correction for ${name}, untested`,
+  button: `Export for ${name}`,
+  name: `armill-${id}.zip`,
+  type: "application/zip",
+  made: () => core.interfaceZip(id),
+});
 /** @type {Record<string, Other>} */
 const OTHERS = {
   "joints-csv": joints,
+  "correction-csv": correction,
+  "kuka-rsi": added("kuka-rsi", "KUKA RSI"),
+  "abb-egm": added("abb-egm", "ABB EGM"),
   "part-before": part("before", "part before, as STL"),
   "part-after": part("after", "part after compensation, as STL"),
   "part-nominal": part("nominal", "nominal part, as STL"),
