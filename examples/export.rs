@@ -2,22 +2,30 @@
 //! object: `{"files":[..],"max_mm":..,"p95_mm":..,"met":..,"duration_s":..,"points":..,"stops":..}`.
 //!
 //! `cargo run --release --example export -- job.json --out DIR [--controller kuka]`
+//!
+//! With `--interface kuka-rsi|abb-egm` it writes the correction alone instead, with what the interface needs that adds it to the
+//! running desired program, and prints `{"files":[..],"rows":..,"cycle_s":..,"largest_mm":..}`.
 
+use armill::export::post::robot::PackageFile;
+use armill::export::superposed::{self, CorrectionTable, Interface};
 use armill::setup::Controller;
+use armill::units::MM;
 use armill::verification::Programs;
 use armill::{Error, Progress};
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
-const USAGE: &str = "export job.json --out DIR [--controller kuka|abb|staubli|fanuc|gcode|apt|csv]";
+const USAGE: &str = "export job.json --out DIR [--controller kuka|abb|staubli|fanuc|gcode|apt|csv], \
+     or export job.json --out DIR --interface kuka-rsi|abb-egm";
 
 fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1);
-    let (mut job, mut controller, mut out) = (None, None, None);
+    let (mut job, mut controller, mut interface, mut out) = (None, None, None, None);
     while let Some(argument) = arguments.next() {
         let slot = match argument.as_str() {
             "--controller" => &mut controller,
+            "--interface" => &mut interface,
             "--out" => &mut out,
             other if other.starts_with('-') => return usage(&format!("unknown option {other}")),
             _ if job.is_some() => return usage("one job file at a time"),
@@ -36,7 +44,14 @@ fn main() -> ExitCode {
         Ok(text) => text,
         Err(error) => return usage(&format!("{job}: {error}")),
     };
-    match export(&text, controller.as_deref(), Path::new(&out)) {
+    if interface.is_some() && controller.is_some() {
+        return usage("a controller or an interface, not both");
+    }
+    let exported = match &interface {
+        Some(interface) => added(&text, interface, Path::new(&out)),
+        None => export(&text, controller.as_deref(), Path::new(&out)),
+    };
+    match exported {
         Ok(printed) => {
             // A reader that closed the pipe early (`| head`) is not an error.
             let _ = writeln!(std::io::stdout(), "{printed}");
@@ -60,14 +75,34 @@ fn export(text: &str, controller: Option<&str>, out: &Path) -> Result<String, Fa
     let controller = controller.map(Controller::named).transpose().map_err(Failure::Refused)?;
     let report = armill::run_json(text, &mut Progress::none()).map_err(Failure::Refused)?;
     let package = Programs::default().package(&report, controller).map_err(Failure::Refused)?;
+    let mut printed = serde_json::json!(package);
+    printed["files"] = write(&package.files, out)?;
+    Ok(format!("{printed:#}"))
+}
+
+/// Writes the correction of the job `text` for an interface into the folder `out`.
+fn added(text: &str, interface: &str, out: &Path) -> Result<String, Failure> {
+    let interface = Interface::named(interface).map_err(Failure::Refused)?;
+    let report = armill::run_json(text, &mut Progress::none()).map_err(Failure::Refused)?;
+    let files = superposed::package(&report, interface).map_err(Failure::Refused)?;
+    let table = CorrectionTable::of(&report);
+    let printed = serde_json::json!({
+        "files": write(&files, out)?,
+        "rows": table.rows.len(),
+        "cycle_s": table.cycle,
+        "largest_mm": table.largest_shift() / MM,
+    });
+    Ok(format!("{printed:#}"))
+}
+
+/// Writes files into a folder; their names.
+fn write(files: &[PackageFile], out: &Path) -> Result<serde_json::Value, Failure> {
     let written = |error: std::io::Error| Failure::NotWritten(format!("{}: {error}", out.display()));
     std::fs::create_dir_all(out).map_err(written)?;
-    for file in &package.files {
+    for file in files {
         std::fs::write(out.join(&file.path), &file.text).map_err(written)?;
     }
-    let mut printed = serde_json::json!(package);
-    printed["files"] = package.files.iter().map(|file| file.path.as_str()).collect();
-    serde_json::to_string_pretty(&printed).map_err(|error| Failure::NotWritten(error.to_string()))
+    Ok(files.iter().map(|file| file.path.as_str()).collect())
 }
 
 fn usage(message: &str) -> ExitCode {

@@ -47,6 +47,7 @@ mod laws;
 mod learn;
 mod layers;
 mod library;
+mod measured;
 mod numerical;
 mod online;
 mod overload;

@@ -21,6 +21,10 @@ fn times([cycle, dead_time, arm_lag, filter]: [f64; 4]) -> LoopTimes {
     LoopTimes { cycle: cycle * MS, dead_time: dead_time * MS, arm_lag: arm_lag * MS, filter: filter * MS }
 }
 
+fn modulus(z: Complex<f64>) -> f64 {
+    armill::math::hypot(z.re, z.im)
+}
+
 /// A swing of the amplitude 1 mm along x, a value a cycle, for so many seconds.
 fn swing(frequency: f64, cycle: f64, seconds: f64) -> Vec<Vector3<f64>> {
     let count = (seconds / cycle).round() as usize;
@@ -33,7 +37,7 @@ fn amplitude(series: &[Vector3<f64>], frequency: f64, cycle: f64) -> f64 {
     let at = |k: usize| TAU * frequency * cycle * k as f64;
     let sum: Complex<f64> =
         late.iter().enumerate().map(|(k, v)| Complex::new(cos(at(k)), -sin(at(k))) * v.x).sum();
-    2.0 * sum.norm() / late.len() as f64
+    2.0 * modulus(sum) / late.len() as f64
 }
 
 /// e/e0 = |1 - r e^(-j w Td) / ((1 + j w Tr) (1 + j w Tf))|, of continuous time.
@@ -41,7 +45,7 @@ fn left_in_theory(times: &LoopTimes, ratio: f64, frequency: f64) -> f64 {
     let w = TAU * frequency;
     let lag = |time: f64| Complex::new(1.0, w * time);
     let dead = Complex::new(cos(w * times.dead_time), -sin(w * times.dead_time));
-    (Complex::from(1.0) - dead / lag(times.arm_lag) / lag(times.filter) * ratio).norm()
+    modulus(Complex::from(1.0) - dead / lag(times.arm_lag) / lag(times.filter) * ratio)
 }
 
 const FREQUENCIES: [f64; 4] = [0.1, 0.5, 1.0, 2.0];

@@ -81,6 +81,7 @@ mod zoom;
 
 use armill::Report;
 use armill::column::Column;
+use armill::export::superposed::{self, Interface};
 use armill::report::Statistics;
 use armill::setup::Controller;
 use armill::verification::Programs;
@@ -575,6 +576,19 @@ fn programs_come_in_and_go_out() -> Result {
             )
             .await?;
         }
+        // The correction alone, for what adds it to the desired program.
+        for interface in Interface::ALL {
+            page.choose("#export-format", interface.id()).await?;
+            page.click("#download-program").await?;
+            let bytes = page.downloaded_bytes(&format!("armill-{}.zip", interface.id())).await?;
+            let text = String::from_utf8_lossy(&bytes);
+            for part in &superposed::package(&report, interface)? {
+                assert!(text.contains(&part.text), "{}", part.path);
+            }
+        }
+        page.choose("#export-format", "correction-csv").await?;
+        page.click("#download-program").await?;
+        assert_eq!(page.downloaded("armill-correction.csv").await?, superposed::csv(&report));
         // A mistake is located, and the typed text stays.
         page.type_into("#path-text", "G21 G90\nG0 X600 Y0 Z100\nG41 D1 X610").await?;
         stale(page).await?;

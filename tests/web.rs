@@ -6,6 +6,7 @@
 mod common;
 
 use armill::wasm;
+use common::measured::{CUTS, CUTS_JOB, LOADS, LOOP, PASS, PASS_JOB, RESPONSE, ROBOT, RUNS, same};
 use common::{job_text, pinned};
 use js_sys::{Float64Array, Function, Reflect};
 use serde_json::json;
@@ -226,4 +227,28 @@ fn form_data_is_plain() {
     assert_eq!(number(&presets, "materials.0.ktc_n_mm2"), 1800.0);
     assert!(number(&wasm::thesis_recomputed().unwrap(), "length") >= 10.0);
     assert!(!wasm::version().is_empty());
+}
+
+/// A JavaScript value as it stands: numbers keep their bits.
+fn plain(value: &JsValue) -> serde_json::Value {
+    serde_wasm_bindgen::from_value(value.clone()).unwrap()
+}
+
+/// tests/measured.rs asserts the same digests natively.
+#[wasm_bindgen_test]
+fn measurements_give_the_same_bits() {
+    let pass = wasm::learn_pass(PASS_JOB, PASS, None, None, None, None, None, None).unwrap();
+    same("pass", &plain(&pass.summary().unwrap()));
+    same("commands", &json!(pass.command_csv().unwrap()));
+    same("cuts", &plain(&wasm::fit_cuts(CUTS_JOB, CUTS).unwrap()));
+    let found = |found: Result<wasm::Identified, JsValue>| plain(&found.unwrap().summary().unwrap());
+    same("stiffness", &found(wasm::identify_stiffness(ROBOT, LOADS, "coupled-j3")));
+    same("response", &found(wasm::identify_response(RESPONSE, None)));
+    let [a, b] = RUNS;
+    let gear = found(wasm::identify_gear(&wasm::default_job(), a, Some(b.to_owned()), None));
+    same("gear", &gear["joints"][0]);
+    same("loads", &found(wasm::evidence_loads(ROBOT, LOADS)));
+    same("encoders", &found(wasm::evidence_encoders(a, b)));
+    let run = wasm::run(LOOP, None).unwrap();
+    same("loop", &plain(&get(&run.summary().unwrap(), "online")));
 }

@@ -1,6 +1,6 @@
 //! Feed-forward of a measured force: u = -C^ F, with the compliance C^ that the controller assumes.
 
-use crate::online::{Lag, LoopTimes, ahead};
+use crate::online::{Lag, LoopTimes, ahead, modulus};
 use nalgebra::Complex;
 
 /// What is measured goes through filter, dead time and arm, and is not changed by what it does.
@@ -41,8 +41,9 @@ impl FeedForward {
         let z = ahead(frequency, self.cycle);
         let (whole, part) = self.dead;
         let dead = ahead(frequency, -(whole as f64) * self.cycle) * (z.inv() * part + (1.0 - part));
-        (Complex::from(1.0) - dead * self.filter.response(z) * self.arm.response(z) * (ratio * self.gain))
-            .norm()
+        modulus(
+            Complex::from(1.0) - dead * self.filter.response(z) * self.arm.response(z) * (ratio * self.gain),
+        )
     }
 
     /// Standard deviation of the correction by that of what is measured, both as lengths: close to sqrt(Ts / 2 Tf) for a

@@ -4,7 +4,7 @@
 //! error of one frequency.
 
 use crate::math::TAU;
-use crate::online::{Lag, LoopTimes, ahead};
+use crate::online::{Lag, LoopTimes, ahead, argument, modulus};
 use nalgebra::Complex;
 
 /// Frequencies at which a response is looked at, from this share of the highest on, in equal ratios.
@@ -45,21 +45,21 @@ impl Feedback {
 
     /// What is left of an error of one frequency [Hz]: |S|.
     pub fn left(&self, gain: f64, frequency: f64) -> f64 {
-        (self.open(frequency) * gain + 1.0).norm().recip()
+        modulus(self.open(frequency) * gain + 1.0).recip()
     }
 
     /// The gain from which on the loop is not stable (Nyquist): where the open loop first lags by half a turn, it is to be
     /// less than 1 there. Its modulus falls all the way up to half the frequency of the cycles.
     pub fn largest_stable_gain(&self) -> f64 {
         let crossing = first_crossing(0.5 / self.cycle, |frequency| -0.5 * TAU - self.phase(frequency));
-        self.open(crossing.unwrap_or(0.5 / self.cycle)).norm().recip()
+        modulus(self.open(crossing.unwrap_or(0.5 / self.cycle))).recip()
     }
 
     /// Phase of the open loop [rad], without jumps of a turn.
     fn phase(&self, frequency: f64) -> f64 {
         let z = ahead(frequency, self.cycle);
         let turn = TAU * frequency * self.cycle;
-        let lags = self.arm.response(z).arg() + self.filter.response(z).arg();
+        let lags = argument(self.arm.response(z)) + argument(self.filter.response(z));
         lags - turn * self.dead as f64 + 0.5 * turn - 0.25 * TAU
     }
 

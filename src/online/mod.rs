@@ -45,6 +45,16 @@ pub struct LoopTimes {
     pub filter: f64,
 }
 
+/// Modulus of a complex number: the same bits everywhere, which that of the platform is not.
+fn modulus(z: Complex<f64>) -> f64 {
+    math::hypot(z.re, z.im)
+}
+
+/// Its argument [rad], likewise.
+fn argument(z: Complex<f64>) -> f64 {
+    math::atan2(z.im, z.re)
+}
+
 /// e^(j 2 pi f `delay`): by how much a frequency [Hz] is ahead of a delay [s].
 fn ahead(frequency: f64, delay: f64) -> Complex<f64> {
     let (sin, cos) = math::sin_cos(TAU * frequency * delay);

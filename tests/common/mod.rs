@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test file uses a part of this")]
 
 pub(crate) mod in_stock;
+pub(crate) mod measured;
 pub(crate) mod moves;
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) mod peer;

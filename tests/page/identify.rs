@@ -190,7 +190,11 @@ fn it_fits_a_phone() -> Result {
 /// A log of a measured pass: the factors that the core finds natively, one click into the job and back, and three files.
 #[test]
 fn a_measured_pass_teaches_factors_and_the_next_program() -> Result {
-    use armill::learn::{Commanded, LearnSummary, LearningGain, Log, MeasuredPass, NextPass, PassOptions};
+    use armill::export::superposed::{self, Interface};
+    use armill::learn::{
+        Commanded, LearnSummary, LearnedCorrection, LearningGain, Log, MeasuredPass, NextPass, PassOptions,
+    };
+    use armill::verification::Programs;
     use armill::{Job, Progress};
     visit(&format!("{THESIS}&view=identify"), DESKTOP, async |page| {
         current(page).await?;
@@ -215,6 +219,28 @@ fn a_measured_pass_teaches_factors_and_the_next_program() -> Result {
         let said = page.js("return document.querySelector('section.identify').innerText").await?.to_string();
         for words in &summary.unexplained {
             assert!(said.contains(words.as_str()), "{words}");
+        }
+        // Every file is what the core makes.
+        click(page, "#learn-command").await?;
+        assert_eq!(page.downloaded("armill-next-pass.csv").await?, next.table(&report));
+        click(page, "#learn-save").await?;
+        let kept = Commanded { corrected: true, learned: next.learned.clone() };
+        let kept = serde_json::to_string(&LearnedCorrection::of(&report, &kept))?;
+        assert_eq!(page.downloaded("armill-learned.json").await?, kept);
+        let to_run = next.report(&report);
+        click(page, "#learn-package").await?;
+        let zip = page.downloaded_bytes("armill-next-pass.zip").await?;
+        let zip = String::from_utf8_lossy(&zip);
+        for file in &Programs::default().package(&to_run, None)?.files {
+            assert!(zip.contains(&file.text), "{}", file.path);
+        }
+        for interface in Interface::ALL {
+            click(page, &format!("#learn-{}", interface.id())).await?;
+            let zip = page.downloaded_bytes(&format!("armill-next-pass-{}.zip", interface.id())).await?;
+            let zip = String::from_utf8_lossy(&zip);
+            for file in &superposed::package(&to_run, interface)? {
+                assert!(zip.contains(&file.text), "{}", file.path);
+            }
         }
         // A wrong delay is noticed.
         page.type_into("#learn-shift", "2\n").await?;
@@ -270,6 +296,7 @@ fn mean_forces_become_the_material() -> Result {
 fn a_gear_becomes_the_jobs_joint() -> Result {
     visit(THESIS, DESKTOP, async |page| {
         open(page).await?;
+        let before = page.js("return document.getElementById('fingerprint').textContent").await?;
         click(page, "#identify-gear-example").await?;
         page.wait_for("document.querySelector('#chart-gear svg.plot')", 30.0).await?;
         let [a, b] = GEARS.map(|text| gear::read(text).map(|mut logs| logs.remove(0)));
@@ -278,6 +305,8 @@ fn a_gear_becomes_the_jobs_joint() -> Result {
         click(page, "#use-gear-3").await?;
         page.wait_for("document.querySelector('#notice p')", 10.0).await?;
         current(page).await?;
+        page.wait_for(&format!("document.getElementById('fingerprint').textContent !== {before}"), 30.0)
+            .await?;
         let taken = job(page).await?;
         let stiffness = 1.0 / taken["robot"]["joint_compliance_rad_per_nm"][2].as_f64().unwrap();
         assert!((stiffness / native.stiffness_nm_per_rad.unwrap() - 1.0).abs() < 1e-9, "{taken}");
@@ -285,8 +314,8 @@ fn a_gear_becomes_the_jobs_joint() -> Result {
         let [low, high] = native.stiffness_interval_nm_per_rad.unwrap();
         assert!((own - stiffness * (1.0 / low - 1.0 / high) / 3.919_928).abs() < 1e-6, "{own}");
         click(page, "#undo").await?;
-        current(page).await?;
-        assert!(job(page).await?["uncertainty"]["compliance_covariance"].is_null());
+        page.wait_for(&format!("document.getElementById('fingerprint').textContent === {before}"), 30.0)
+            .await?;
 
         // What is wrong in the other run is said there.
         paste(page, "#identify-gear-other", "time_s,motor_side_q3_deg\n0,half\n").await?;
@@ -317,6 +346,29 @@ fn evidence_is_computed_from_measured_data() -> Result {
                 .js(&format!("return document.querySelectorAll('#evidence-{section} tbody tr').length"))
                 .await?;
             assert_eq!(rows, native.rows.len());
+        }
+        Ok(())
+    })
+}
+
+/// An address opens an example of the view, computed and in sight.
+#[test]
+fn an_address_opens_an_example_computed() -> Result {
+    visit(THESIS, DESKTOP, async |page| {
+        for (kind, done) in [
+            ("pass", "#chart-learned svg.plot"),
+            ("stiffness", "#chart-stiffness svg.plot"),
+            ("gear", "#chart-gear svg.plot"),
+            ("response", "#chart-response svg.plot"),
+            ("cuts", "#fitted-cuts td"),
+        ] {
+            page.goto("/gallery.html").await?;
+            page.goto(&format!("/index.html#measured={kind}&view=identify")).await?;
+            page.wait_for(&format!("document.querySelector('{done}')"), 60.0).await?;
+            let near = format!(
+                "Math.abs(document.querySelector('{done}').closest('.identify').getBoundingClientRect().top) < innerHeight"
+            );
+            page.wait_for(&near, 10.0).await?;
         }
         Ok(())
     })

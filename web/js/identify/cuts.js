@@ -28,7 +28,7 @@ export function makeCuts({ ask, job, use }) {
     placeholder: "feed_per_tooth_mm, fx_n, fy_n, fz_n\n0.025, -55.6, 126.6, -61.6\n0.05, -65.1, 162.4, -68.6\n…",
     exampleName: "Example: five slots",
     changed: () => look(),
-    example: () => showExample().catch((error) => source.fail(error)),
+    example: exampleSoon,
   });
 
   async function look() {
@@ -59,6 +59,10 @@ export function makeCuts({ ask, job, use }) {
       source.fail(error);
       result.classList.add("stale");
     }
+  }
+
+  function exampleSoon() {
+    showExample().catch((error) => source.fail(error));
   }
 
   async function showExample() {
@@ -117,6 +121,7 @@ export function makeCuts({ ask, job, use }) {
       result,
     ),
     look,
+    example: exampleSoon,
   };
 }
 

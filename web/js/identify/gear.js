@@ -23,7 +23,7 @@ export function makeGear({ ask, job, use }) {
     placeholder: columns,
     exampleName: "Example: KUKA KR300, joint 3",
     changed: () => look(),
-    example: () => Promise.all([source.read(`${EXAMPLE}-a.csv`), other.read(`${EXAMPLE}-b.csv`)]).then(look, refuse),
+    example,
   });
   const other = new Source({
     id: "identify-gear-other",
@@ -47,6 +47,10 @@ export function makeGear({ ask, job, use }) {
 
   /** @param {Parameters<Source["fail"]>[0]} error */
   const refuse = (error) => source.fail(error);
+
+  function example() {
+    Promise.all([source.read(`${EXAMPLE}-a.csv`), other.read(`${EXAMPLE}-b.csv`)]).then(look, refuse);
+  }
 
   let seen = ""; // the text whose joints the list shows
 
@@ -126,6 +130,7 @@ export function makeGear({ ask, job, use }) {
       outcome.node,
     ),
     look,
+    example,
   };
 }
 

@@ -53,7 +53,7 @@ export function makePass({ ask, job, use }) {
     placeholder: "time_s, x_mm, y_mm, z_mm\n0.00, 599.93, -149.98, 99.96\n0.02, 599.94, -149.98, 99.95\n…",
     exampleName: "Example: a simulated log",
     changed: () => look(),
-    example: () => showExample().catch((error) => source.fail(error)),
+    example: exampleSoon,
     more: [open, file],
   });
   const outcome = new Outcome({
@@ -97,6 +97,10 @@ export function makePass({ ask, job, use }) {
     ];
   }
 
+  function exampleSoon() {
+    showExample().catch((error) => source.fail(error));
+  }
+
   async function showExample() {
     example = JSON.parse(await readText(`examples/${EXAMPLE}.json`));
     await source.read(`${EXAMPLE}.csv`);
@@ -118,7 +122,7 @@ export function makePass({ ask, job, use }) {
    */
   async function save(kind, name, type, ...which) {
     try {
-      download(name, await ask("learned_file", kind, ...which), type);
+      download(name, type, await ask("learned_file", kind, ...which));
     } catch (error) {
       source.fail(error);
     }
@@ -219,6 +223,7 @@ export function makePass({ ask, job, use }) {
       outcome.node,
     ),
     look,
+    example: exampleSoon,
   };
 }
 

@@ -23,7 +23,7 @@ export function makeResponse({ ask, job, use }) {
     placeholder: "time_s, acceleration\n0.000, 0.02\n0.004, 1.41\n…",
     exampleName: "Example: computed response",
     changed: () => look(),
-    example: () => source.read("identify-response.csv").then(look, (error) => source.fail(error)),
+    example,
     more: [
       make("label", { htmlFor: "identify-from" }, "Free decay from ", make("span", { className: "unit" }, "s "), from),
     ],
@@ -36,6 +36,10 @@ export function makeResponse({ ask, job, use }) {
     show,
   });
   from.addEventListener("change", () => look());
+
+  function example() {
+    source.read("identify-response.csv").then(look, (error) => source.fail(error));
+  }
 
   function look() {
     let start;
@@ -134,5 +138,6 @@ export function makeResponse({ ask, job, use }) {
       outcome.node,
     ),
     look,
+    example,
   };
 }

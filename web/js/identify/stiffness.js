@@ -36,7 +36,7 @@ export function makeStiffness({ ask, job, use }) {
       "150, 0, -300, 0.42, 0.03, -0.61\n…",
     exampleName: "Example: FANUC, 43 postures",
     changed: () => look(),
-    example: () => showExample().catch((error) => source.fail(error)),
+    example: exampleSoon,
     more: [make("label", { htmlFor: "identify-joints" }, "Pendant counts joints ", joints)],
   });
   const outcome = new Outcome({
@@ -60,6 +60,10 @@ export function makeStiffness({ ask, job, use }) {
         : ["The robot and its tool frame are the job’s."]),
     );
     outcome.compute(JSON.stringify(robotOf(example ?? job())), joints.value);
+  }
+
+  function exampleSoon() {
+    showExample().catch((error) => source.fail(error));
   }
 
   async function showExample() {
@@ -145,6 +149,7 @@ export function makeStiffness({ ask, job, use }) {
       outcome.node,
     ),
     look,
+    example: exampleSoon,
   };
 }
 

@@ -23,10 +23,10 @@ pub(crate) const BENCH: &str = "armill-bench";
 pub(crate) const MODULE: &str = "armill_bg.wasm";
 
 /// Size limits of the core in bytes, as it is and compressed by gzip: every visit fetches it. With the
-/// coupling, the feed rule, the surface left, the questions with their charts, the part on the map, the loop of a job and learning
-/// from a pass it has 2,523,000 and 1,018,000; these are 1 % more.
+/// coupling, the feed rule, the surface left, the questions with their charts, the part on the map, the loop of a job, learning
+/// from a pass, evidence and the files for interfaces it has 2,620,000 and 1,055,000; these are 1 % more.
 /// Raise them only with a reason in CHANGELOG.md.
-pub(super) const LIMITS: [usize; 2] = [2_680_000, 1_085_000];
+pub(super) const LIMITS: [usize; 2] = [2_646_000, 1_066_000];
 
 /// Makes the core in `package` from the sources in `root`: `folder` gets the module, its JavaScript
 /// side and their types.
