@@ -90,7 +90,7 @@ fn added(text: &str, interface: &str, out: &Path) -> Result<String, Failure> {
         "files": write(&files, out)?,
         "rows": table.rows.len(),
         "cycle_s": table.cycle,
-        "largest_mm": table.largest_shift() / MM,
+        "largest_mm": table.largest_shift / MM,
     });
     Ok(format!("{printed:#}"))
 }

@@ -8,6 +8,7 @@
 //! cargo run --release --example identify -- data.csv --gear [--predict other.csv]
 //! ```
 
+use armill::identify::gear::GearLog;
 use armill::identify::{Convention, gear, measurement, response, stiffness, summary};
 use armill::{Error, Job};
 use std::process::ExitCode;
@@ -73,14 +74,25 @@ fn identify() -> Result<serde_json::Value, Refusal> {
             _ => data = Some(argument),
         }
     }
+    if other.is_some() && !is_gear {
+        return Err(Refusal::Usage("--predict goes with --gear".into()));
+    }
     let text = read(&data.ok_or_else(|| Refusal::Usage("which file?".into()))?)?;
     if is_response {
         let mode = response::mode(&response::Signal::read(&text)?, from)?;
         return Ok(serde_json::json!(summary::response(&mode)));
     }
     if is_gear {
-        let others = other.map(|file| Ok::<_, Refusal>(gear::read(&read(&file)?)?)).transpose()?;
-        let fitted = gear::read(&text)?.into_iter().map(|log| {
+        let others =
+            other.map(|file| Ok::<_, Refusal>(gear::read_as(&read(&file)?, "other")?)).transpose()?;
+        let logs = gear::read(&text)?;
+        let common = |others: &Vec<GearLog>| {
+            others.iter().any(|other| logs.iter().any(|log| log.joint == other.joint))
+        };
+        if others.as_ref().is_some_and(|others| !common(others)) {
+            return Err(Refusal::Usage("--predict needs a run of the same joint".into()));
+        }
+        let fitted = logs.iter().map(|log| {
             let other = others.iter().flatten().find(|other| other.joint == log.joint);
             Ok(log.fit()?.summary(other))
         });

@@ -11,13 +11,14 @@ use armill::verification::export;
 use nalgebra::{Matrix3, Vector3};
 use serde_json::{Value, json};
 
-/// A line along the workpiece's x, which is turned and shifted in the base, cut to one side of it.
+/// A line along the workpiece's x, which is turned and shifted in the base, without a shaper.
 fn line(changes: &[(&str, Value)]) -> Report {
     let mut all = vec![
         ("path", json!({ "kind": "line", "from_mm": [0, 0, 0], "to_mm": [60, 0, 0] })),
         ("workpiece_frame", json!({ "xyz_mm": [600, 40, -50], "rpy_deg": [0, 0, 30] })),
         ("motion.sample_time_s", json!(0.001)),
         ("program.name", json!("PART")),
+        ("shaper", json!("none")),
     ];
     all.extend(changes.iter().cloned());
     run(&all)
@@ -102,7 +103,7 @@ fn a_b_c_turn_the_desired_axis_onto_the_commanded_one() {
         let k = (4 * row).min(report.samples() - 1);
         let desired = back * report.plan.trajectory.axis.at(k);
         let commanded = back * report.compensation.axis.at(k);
-        let [a, b, c] = found.turn.map(|angle| angle * DEG);
+        let [a, b, c] = [0, 1, 2].map(|axis| found.turn[axis] * DEG);
         let turned = Pose::from_xyz_rpy(Vector3::zeros(), [c, b, a]).rotation * desired;
         assert!((turned - commanded).norm() < 1e-12, "row {row}: {turned} against {commanded}");
         largest = largest.max((commanded - desired).norm());
@@ -110,21 +111,72 @@ fn a_b_c_turn_the_desired_axis_onto_the_commanded_one() {
     assert!(largest > 1e-5, "{largest}: there is something to turn");
 }
 
+/// What is added behind the shaper takes the tip where the corrected commands take it through the shaper, as the two simulated
+/// runs have it; the place is where the shaped program has the tool.
+#[test]
+fn behind_a_shaper_the_shaped_correction_is_added() {
+    let zvd = json!({ "kind": "zvd", "frequency_rad_s": 18, "damping": 0.1 });
+    let report = line(&[("shaper", zvd), ("online.cycle_s", json!(0.001))]);
+    let into = report.setup().workpiece.inverse();
+    let shaped = report.plan.shaper().apply(&report.plan.trajectory.position, 0.001);
+    let rows = CorrectionTable::of(&report).rows;
+    let largest = rows.iter().map(|row| row.shift.norm()).fold(0.0, f64::max);
+    let mut unshaped = 0.0_f64;
+    for (k, row) in rows.iter().enumerate() {
+        let moved = into.direction(&(report.after.actual[k] - report.before.actual[k]));
+        assert!((moved - row.shift).norm() < 0.02 * largest, "sample {k}: {moved} against {}", row.shift);
+        unshaped = unshaped.max((moved - into.direction(&report.compensation.correction[k])).norm());
+        assert!((row.arc_length - into.point(&shaped[k]).x).abs() < 1e-9, "sample {k}");
+    }
+    assert!(unshaped > 0.5 * largest, "{unshaped} of {largest}: as it is commanded it would not do");
+    let files = package(
+        &line(&[("shaper", json!({ "kind": "zvd", "frequency_rad_s": 18, "damping": 0.1 }))]),
+        Interface::Rsi,
+    );
+    assert!(text(&files.unwrap(), ".src").contains("which is shaped here already"));
+}
+
 /// Along x with the tool upright, tool z points down: y is across to the right and z is down.
 #[test]
 fn path_coordinates_are_a_right_handed_frame_along_the_feed() {
-    let report = line(&[]);
-    for row in CorrectionTable::of(&report).rows {
-        let expected = Vector3::new(row.shift.x, -row.shift.y, -row.shift.z);
-        assert!((row.in_path - expected).norm() < 1e-12, "{row:?}");
+    let table = CorrectionTable::of(&line(&[]));
+    for row in &table.rows {
+        assert!(
+            (row.across[0] + row.shift.y).abs() < 1e-12 && (row.across[1] + row.shift.z).abs() < 1e-12,
+            "{row:?}"
+        );
+        assert!((row.along() - row.shift.x.abs()).abs() < 1e-9 && row.along() <= table.largest_along + 1e-12);
     }
-    // Around a circle the frame turns with the feed, and the shift keeps its length.
+    // Around a circle the frame turns with the feed.
     let circle = json!({ "kind": "circle", "center_mm": [0, 0, 0], "radius_mm": 20 });
     let report = line(&[("path", circle)]);
-    for row in CorrectionTable::of(&report).rows {
-        assert!((row.in_path.norm() - row.shift.norm()).abs() < 1e-12, "{row:?}");
-        assert!((row.in_path.z + row.shift.z).abs() < 1e-12);
+    let into = report.setup().workpiece.inverse();
+    for (k, row) in CorrectionTable::of(&report).rows.iter().enumerate() {
+        let k = (4 * k).min(report.samples() - 1);
+        let heading = into.direction(&report.plan.trajectory.timing.heading[k]);
+        let right = heading.cross(&Vector3::z());
+        assert!((row.across[0] - row.shift.dot(&right)).abs() < 1e-12, "{row:?}");
+        assert!((row.across[1] + row.shift.z).abs() < 1e-12);
     }
+}
+
+/// A move along the tool has no direction across: EGM cannot correct it, and says how much that is.
+#[test]
+fn a_plunge_is_left_out_by_egm() {
+    let plunge = json!({ "kind": "polyline", "points_mm": [[0, 0, 30], [0, 0, 0], [40, 0, 0]] });
+    let report = line(&[("path", plunge)]);
+    let table = CorrectionTable::of(&report);
+    let lost = table
+        .rows
+        .iter()
+        .filter(|row| row.across == [0.0; 2])
+        .map(|row| row.shift.norm())
+        .fold(0.0, f64::max);
+    assert!(lost > 0.0 && table.largest_along >= lost, "{lost} {}", table.largest_along);
+    let files = package(&report, Interface::Egm).unwrap();
+    let said =
+        format!("Up to {} mm of the shift", armill::export::header::number(table.largest_along / MM, 4));
+    assert!(text(&files, ".mod").contains(&said) && text(&files, ".mod").contains("as in a plunge"));
 }
 
 #[test]
@@ -136,7 +188,7 @@ fn rsi_files_fit_together_and_let_the_table_pass() {
     for file in &files {
         assert!(file.text.is_ascii() && file.text.contains("UNTESTED on a controller"), "{}", file.path);
         assert!(file.text.contains(&report.fingerprint()), "{}", file.path);
-        assert!(file.text.contains("acts late, 0.028 s"), "{}", file.path);
+        assert!(file.text.contains("begins to act 0.008 s after it is sent"), "{}", file.path);
     }
     let context = roxmltree::Document::parse(text(&files, ".rsix")).unwrap();
     let objects: Vec<_> =
@@ -173,11 +225,12 @@ fn rsi_files_fit_together_and_let_the_table_pass() {
             assert!(shift > limit("PosCorr", &format!("LowerLim{port}")), "{row:?}");
             assert!(shift < limit("PosCorr", &format!("UpperLim{port}")), "{row:?}");
         }
-        let turned = Pose::from_xyz_rpy(Vector3::zeros(), row.turn.map(|angle| angle * DEG)).rotation;
+        let [a, b, c] = [0, 1, 2].map(|axis| row.turn[axis] * DEG);
+        let turned = Pose::from_xyz_rpy(Vector3::zeros(), [c, b, a]).rotation;
         assert!(angle(&turned) / DEG < limit("PosCorr", "MaxRotAngle"));
         assert!(row.shift.norm() / MM < limit("PosCorrMon", "MaxTrans"));
     }
-    assert!(limit("PosCorr", "UpperLimX") < 1.25 * table.largest_component() / MM + 1.0);
+    assert!(limit("PosCorr", "UpperLimX") < 1.25 * table.largest_component / MM + 1.0);
     // What the robot takes: RKorr.X to RKorr.C in channels 1 to 6.
     let ethernet = roxmltree::Document::parse(text(&files, "_ethernet.xml")).unwrap();
     let received = ethernet.descendants().find(|node| node.has_tag_name("RECEIVE")).unwrap();
@@ -221,19 +274,14 @@ fn egm_files_shift_across_the_path() {
     for piece in [
         "MODULE PART_EGM\n",
         "\\PathCorr \\APTR;",
-        "EGMActMove egmId1, PART_Tool.tframe \\SampleRate:=48;",
+        "EGMActMove egmId1, tMill.tframe \\SampleRate:=48;",
         "ENDMODULE",
     ] {
         assert!(module.contains(piece), "{piece}\n{module}");
     }
     let table = CorrectionTable::of(&report);
-    let along = table.rows.iter().map(|row| row.in_path.x.abs()).fold(0.0, f64::max) / MM;
-    assert!(
-        module.contains(&format!("Up to {} mm along the path", armill::export::header::number(along, 4))),
-        "{module}"
-    );
     for (cells, row) in rows(text(&files, "_EGM_correction.csv")).iter().zip(&table.rows) {
-        assert!((cells[2] - row.in_path.y / MM).abs() < 1e-5 && (cells[3] - row.in_path.z / MM).abs() < 1e-5);
+        assert!((cells[2] - row.across[0] / MM).abs() < 1e-5 && (cells[3] - row.across[1] / MM).abs() < 1e-5);
     }
 }
 
@@ -247,6 +295,13 @@ fn what_cannot_be_added_is_refused() {
     let error =
         package(&line(&[("compensation.max_passes", json!(0))]), Interface::Rsi).unwrap_err().to_string();
     assert!(error.contains("no correction"), "{error}");
+    for (interface, cycle, legal) in
+        [(Interface::Rsi, 0.008, "0.004 or 0.012"), (Interface::Egm, 0.05, "0.048 or less")]
+    {
+        let error = package(&line(&[("online.cycle_s", json!(cycle))]), interface).unwrap_err();
+        assert_eq!(error.field(), Some("online.cycle_s"));
+        assert!(error.to_string().contains(legal), "{error}");
+    }
     // The module's name is the program's with an ending.
     let long =
         line(&[("program.name", json!("A_NAME_OF_24_CHARACTERS_")), ("program.controller", json!("kuka"))]);

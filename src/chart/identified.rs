@@ -16,7 +16,7 @@ pub enum Fitted<'a> {
     Stiffness(&'a Fit),
     /// Signal and fitted vibration over time.
     Response(&'a Signal, &'a Mode),
-    /// What a gear gives way over time, in the run that it was found in or in another.
+    /// The difference of a joint's angles over time, in the run that it was found in or in another.
     Gear(&'a Gear, &'a GearLog, GearRun),
 }
 
@@ -38,9 +38,11 @@ impl Fitted<'_> {
         let (name, title) = match self {
             Fitted::Stiffness(_) => ("stiffness", "Displacement of each row, and its residual"),
             Fitted::Response(..) => ("response", "Measured response and fitted vibration"),
-            Fitted::Gear(_, _, GearRun::Fitted) => ("gear", "What the gear gives way, measured and fitted"),
+            Fitted::Gear(_, _, GearRun::Fitted) => {
+                ("gear", "Difference of motor and load angle, measured and fitted")
+            }
             Fitted::Gear(_, _, GearRun::Predicted) => {
-                ("gear", "What the gear gives way in the other run, measured and predicted")
+                ("gear", "Difference of motor and load angle in the other run, measured and predicted")
             }
         };
         self.content(options.units).draw(name, title, options)

@@ -14,6 +14,44 @@ use crate::units::{DEG, MM};
 /// same run gives the same text.
 pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
     let setup = report.setup();
+    let mut lines = origin(report);
+    if let Some(by_force) = &setup.feed_rule {
+        let ConstantForceFeed { force, least, most } = by_force.rule;
+        lines.push(format!(
+            "Feeds keep the mean force at {} N, from {} to {} % of the programmed feeds",
+            number(force, 1),
+            number(least * 100.0, 1),
+            number(most * 100.0, 1)
+        ));
+    }
+    if let Some(command) = command {
+        lines.extend(points(report, command));
+    }
+    lines.push(format!("Tool tip on the flange at {}", placed(report.plan.robot.tool())));
+    lines.push(
+        "Flange and joint zeros are those of the robot model: compare them with the controller's".into(),
+    );
+    if let Some((frequency, damping)) = setup.mode {
+        lines.push(format!(
+            "These commands are meant for an input shaper, {frequency} rad/s, damping {damping}: the controller must apply it"
+        ));
+    }
+    let run = command.filter(|_| report.taught.is_none()).and_then(|command| Some((command, command.run?)));
+    if let Some((command, run)) = run {
+        lines.extend(rehearsed(report, command, &run));
+    }
+    lines.push(match command {
+        Some(command) if command.style.is_robot() => {
+            "Warning: a controller's absolute-accuracy option adds its own error to these figures".into()
+        }
+        _ => "Warning: a controller's own blending or absolute-accuracy option adds its own error to these figures".into(),
+    });
+    lines
+}
+
+/// Where a file comes from, and how accurate the corrected path is.
+pub fn origin(report: &Report) -> Vec<String> {
+    let setup = report.setup();
     let sources = match (setup.sources.deflection, setup.sources.shaping) {
         _ if report.compensation.passes == 0 => "not compensated",
         (true, true) => "compensated for deflection and shaping",
@@ -46,37 +84,6 @@ pub fn lines(report: &Report, command: Option<&Command>) -> Vec<String> {
             ),
         ]),
     }
-    if let Some(by_force) = &setup.feed_rule {
-        let ConstantForceFeed { force, least, most } = by_force.rule;
-        lines.push(format!(
-            "Feeds keep the mean force at {} N, from {} to {} % of the programmed feeds",
-            number(force, 1),
-            number(least * 100.0, 1),
-            number(most * 100.0, 1)
-        ));
-    }
-    if let Some(command) = command {
-        lines.extend(points(report, command));
-    }
-    lines.push(format!("Tool tip on the flange at {}", placed(report.plan.robot.tool())));
-    lines.push(
-        "Flange and joint zeros are those of the robot model: compare them with the controller's".into(),
-    );
-    if let Some((frequency, damping)) = setup.mode {
-        lines.push(format!(
-            "These commands are meant for an input shaper, {frequency} rad/s, damping {damping}: the controller must apply it"
-        ));
-    }
-    let run = command.filter(|_| report.taught.is_none()).and_then(|command| Some((command, command.run?)));
-    if let Some((command, run)) = run {
-        lines.extend(rehearsed(report, command, &run));
-    }
-    lines.push(match command {
-        Some(command) if command.style.is_robot() => {
-            "Warning: a controller's absolute-accuracy option adds its own error to these figures".into()
-        }
-        _ => "Warning: a controller's own blending or absolute-accuracy option adds its own error to these figures".into(),
-    });
     lines
 }
 

@@ -20,6 +20,11 @@ impl<const N: usize> LeastSquares<N> {
             square += row * row.transpose();
             side += row * value;
         }
+        Self::solved(square, side)
+    }
+
+    /// Of the normal equations A^T A x = A^T b, likewise.
+    pub(crate) fn solved(square: SMatrix<f64, N, N>, side: SVector<f64, N>) -> Option<Self> {
         let length = square.diagonal().map(f64::sqrt);
         if length.iter().any(|length| *length <= 0.0) {
             return None;

@@ -19,7 +19,7 @@ choice! {
     }
 }
 
-/// The loop. The other keys count once something is measured; cycle, dead time and lag are also those of a
+/// The loop. The other keys count once something is measured; cycle and dead time are also those of a
 /// [table of corrections](crate::export::superposed).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Online {

@@ -129,7 +129,7 @@ pub struct Setup {
     pub output: ProgramOptions,
     /// Time from one correction of a running program to the next [s].
     pub correction_cycle: f64,
-    /// By how much such a correction acts late [s].
+    /// From when such a correction is sent until it begins to act [s].
     pub correction_delay: f64,
 }
 
@@ -278,7 +278,7 @@ impl Setup {
             compensate_at: job.compensation.at.unwrap_or_default(),
             output: program::options(&job.program, maker)?,
             correction_cycle: job.online.cycle_s,
-            correction_delay: job.online.dead_time_s + job.online.arm_lag_s,
+            correction_delay: job.online.dead_time_s,
         })
     }
 

@@ -43,8 +43,9 @@ export interface GearSummary {
   joint: number; stiffness_nm_per_rad?: number; stiffness_interval_nm_per_rad?: [number, number];
   delay_ms: number; delay_interval_ms: [number, number];
   hysteresis_urad: number; hysteresis_interval_urad: [number, number];
-  explained: number; rest_urad: number; blocks: number;
-  predicted?: { explained: number; rest_urad: number }; sentence: string;
+  explained: number; rest_urad: number; rest_without_spring_urad: number; blocks: number;
+  predicted?: { explained: number; rest_urad: number; rest_without_spring_urad: number };
+  sentence: string; remarks: string[];
 }
 /** The gears; `in_job` has the compliances of the job's robot with each of them, or null where the spring does not show. */
 export interface GearSummaries {
@@ -122,6 +123,10 @@ pub fn identify_gear(
         let setup = Setup::of(&Job::from_json(job)?, &mut Progress::none())?;
         let logs = gear::read(text)?;
         let others = other.map_or(Ok(vec![]), |other| gear::read_as(&other, "other"))?;
+        if !others.is_empty() && !logs.iter().any(|log| others.iter().any(|other| other.joint == log.joint)) {
+            let value = format!("joint {}", others[0].joint + 1);
+            return Err(Error::invalid("other", value, "a joint of the first run"));
+        }
         let gears = logs.iter().map(GearLog::fit).collect::<Result<Vec<_>, Error>>()?;
         let drawn = match joint {
             None => Some(0),

@@ -25,9 +25,9 @@ pub(crate) const DIGESTS: [(&str, &str); 9] = [
     ("cuts", "e7d90640b19e43ca"),
     ("stiffness", "e1ab5458ff21a075"),
     ("response", "5484d732dacab507"),
-    ("gear", "d551b4f79fe8b1d2"),
+    ("gear", "2ac97ef7264d2925"),
     ("loads", "136fecff4ec295e2"),
-    ("encoders", "63789642bb051fa6"),
+    ("encoders", "7f7ffb92a76795ad"),
     ("loop", "fe9613f1bc2127a5"),
 ];
 

@@ -117,7 +117,7 @@ fn texts_of_gears_are_read_and_refused_in_place() {
     let still = logs[0].fit().unwrap_err();
     assert!(matches!(still, Error::Invalid { .. }) && still.to_string().contains("joint 2"), "{still}");
     for (text, place, part) in [
-        ("time_s,motor_q3_deg\n0,1\n5,2\n", (1, 1), "model_load_3_nm"),
+        ("time_s,motor_q3_deg\n0,1\n5,2\n", (1, 8), "model_load_3_nm"),
         ("time_s,motor_q3_deg,wind\n0,1,2\n5,2,2\n", (1, 21), "model_load_3_nm"),
         ("0,1,2,3\n5,2,2,3\n", (2, 1), "model_load_3_nm"),
         (
@@ -153,4 +153,100 @@ fn an_arm_with_a_measured_gear_varies_there_by_its_interval() {
     let deviation = (1.0 / low - 1.0 / high) / 2.0 / 1.959_963_984_540_054 * fit.stiffness().unwrap();
     assert!((covariance[(2, 2)] - (deviation * deviation).ln_1p()).abs() < 1e-9, "{covariance}");
     assert!((0..6).all(|other| other == 2 || covariance[(2, other)] == 0.0));
+}
+
+/// Turned signs, swapped columns, wrong units and short runs are named.
+#[test]
+fn what_makes_a_gear_doubtful_is_said() {
+    let remarks = |log: &GearLog| log.fit().unwrap().summary(None).remarks.join("; ");
+    let log = read(A).unwrap().remove(0);
+    assert_eq!(remarks(&log), "");
+    let turned = GearLog { torque: log.torque.iter().map(|torque| -torque).collect(), ..log.clone() };
+    assert!(remarks(&turned).contains("the torque may count the other way"), "{}", remarks(&turned));
+    // Both turned: the stiffness looks right, but the load would lead.
+    let swapped = GearLog { motor: log.load.clone(), load: log.motor.clone(), ..turned.clone() };
+    assert!(remarks(&swapped).contains("ahead of the motor's"), "{}", remarks(&swapped));
+    let spread = Stiffness::Each([InputSpread::percent(20.0); 6]);
+    assert!(swapped.fit().unwrap().in_arm(&[1e-6; 6], &spread).is_none());
+    let tiny = GearLog { torque: log.torque.iter().map(|torque| torque * 1e6).collect(), ..log.clone() };
+    assert!(remarks(&tiny).contains("check the units"), "{}", remarks(&tiny));
+    let short = |values: &[f64]| values[250..1500].to_vec();
+    let short = GearLog {
+        joint: 2,
+        time: short(&log.time),
+        motor: short(&log.motor),
+        load: short(&log.load),
+        torque: short(&log.torque),
+    };
+    assert!(remarks(&short).contains("only 10 blocks"), "{}", remarks(&short));
+    let equal = GearLog { load: log.motor.clone(), ..log };
+    assert!(equal.fit().unwrap_err().to_string().contains("the same difference"));
+}
+
+/// Leaving a block out of the normal equations is leaving its rows out.
+#[test]
+fn intervals_are_those_of_leaving_rows_out() {
+    let log = made(2e6, 3e-3, 2e-5, 3);
+    let fit = log.fit().unwrap();
+    let kept = |block: usize, values: &[f64]| -> Vec<f64> {
+        let of = |k: usize| (log.time[k] / 0.5) as usize;
+        (0..values.len()).filter(|k| of(*k) != block).map(|k| values[k]).collect()
+    };
+    let blocks = fit.blocks;
+    // Speeds come from neighbors in time, so rows are taken from the whole run.
+    let rows: Vec<[f64; 5]> = (0..log.time.len())
+        .map(|k| {
+            let (before, after) = (k.saturating_sub(1), (k + 1).min(log.time.len() - 1));
+            let speed = (log.motor[after] - log.motor[before]) / (log.time[after] - log.time[before]);
+            [1.0, log.torque[k], speed, speed.signum(), log.motor[k] - log.load[k]]
+        })
+        .collect();
+    let column = |at: usize| rows.iter().map(|row| row[at]).collect::<Vec<f64>>();
+    let columns = [0, 1, 2, 3, 4].map(column);
+    let without: Vec<f64> = (0..blocks)
+        .map(|block| {
+            let [one, torque, speed, sign, value] = columns.each_ref().map(|values| kept(block, values));
+            let matrix = DMatrix::from_columns(&[one, torque, speed, sign].map(DVector::from_vec));
+            matrix.svd(true, true).solve(&DVector::from_vec(value), 1e-14).unwrap()[1]
+        })
+        .collect();
+    let mean = without.iter().sum::<f64>() / blocks as f64;
+    let variance =
+        without.iter().map(|value| (value - mean).powi(2)).sum::<f64>() * (blocks - 1) as f64 / blocks as f64;
+    // Student's 97.5 % quantile for 20 blocks (19 degrees of freedom) is 2.0930.
+    assert_eq!(blocks, 20);
+    assert!(
+        (fit.halves[1] / (2.0930 * variance.sqrt()) - 1.0).abs() < 1e-3,
+        "{} {}",
+        fit.halves[1],
+        variance.sqrt()
+    );
+}
+
+/// Units belong to what they measure, each column comes once, and what a joint lacks is named.
+#[test]
+fn columns_of_gears_are_held_to_their_units() {
+    let text = |header: &str| {
+        let rows: String = (0..300).map(|k| format!("{},{},{},{}\n", f64::from(k) * 0.01, k, k, k)).collect();
+        format!("{header}\n{rows}")
+    };
+    let refused = |header: &str, part: &str| {
+        let error = read(&text(header)).unwrap_err().to_string();
+        assert!(error.contains(part), "{header}: {error}");
+    };
+    refused("time_s,motor_q3_deg,load_q3_deg,model_load_3_rad", "model_load_3_nm");
+    refused("time_s,motor_side_q3_nm,load_q3_deg,model_load_3_nm", "motor_side_q3_deg");
+    refused("time_rad,motor_q3_deg,load_q3_deg,model_load_3_nm", "time_s");
+    refused("time_s,motor_q3_deg,motor_3_rad,model_load_3_nm", "each column once");
+    refused("time_s,motor_q3_deg,load_q3_deg,motor_q4_deg", "beside it model_load_3_nm");
+    refused("index,motor_q3_deg,load_q3_deg,model_load_3_nm", "time_s");
+    assert!(read(&text("time_s,motor_q3_deg,load_q3_deg,load_3_nm")).is_ok(), "a torque of the load");
+    refused("time_s,motor_q3_deg,load_q3_deg,motor_3_nm", "beside it model_load_3_nm");
+    let slow = text("time,motor_q3_deg,load_q3_deg,model_load_3_nm").replace("0.0", "").replace("0.", "");
+    let error = read(&slow).unwrap_err().to_string();
+    assert!(error.contains("time_ms") || error.contains("increase"), "{error}");
+    let milliseconds: String = (0..3000).map(|k| format!("{},{k},{k},{k}\n", 4 * k)).collect();
+    let unnamed = format!("time,motor_q3_deg,load_q3_deg,model_load_3_nm\n{milliseconds}");
+    assert!(read(&unnamed).unwrap_err().to_string().contains("name the column time_ms"));
+    assert!(read(&unnamed.replace("time,", "time_ms,")).is_ok());
 }

@@ -13,6 +13,8 @@ use crate::report::Report;
 use crate::units::MM;
 use std::fmt::Write;
 
+/// Longest time between two rows [s]: that at which the controller takes a correction.
+pub const SLOWEST: f64 = 0.048;
 /// Time from one correction to the next that the controller takes [ms].
 const RATE: u32 = 48;
 
@@ -30,12 +32,12 @@ pub(super) fn files(report: &Report, table: &CorrectionTable) -> Vec<PackageFile
 
 /// The header, with what the interface cannot do.
 fn said(report: &Report, table: &CorrectionTable) -> Vec<String> {
-    let along = table.rows.iter().map(|row| row.in_path.x.abs()).fold(0.0, f64::max);
     let mut lines = header(report, table);
     lines.push(format!(
-        "EGM shifts across the path only: y_mm and z_mm. Up to {} mm along the path and {} deg are left out.",
-        number(along / MM, 4),
-        number(table.largest_turn(), 4)
+        "EGM shifts across the path only: y_mm and z_mm. Up to {} mm of the shift and {} deg are left out. Nothing is sent where the \
+         tool moves along itself, as in a plunge.",
+        number(table.largest_along / MM, 4),
+        number(table.largest_turn, 4)
     ));
     lines.push(
         "Path coordinates: x along the path, y = tool z times x, z = x times y, tool z out of the tool. Check both signs with a \
@@ -54,14 +56,14 @@ fn module(name: &str, said: &[String]) -> String {
     let _ = write!(
         text,
         "  VAR egmident egmId1;\n\
-         \n  ! Declare {name}_Tool and {name}_WObj as the program of the desired path does.\n\
+         \n  ! tMill is the tool as the program of the desired path declares it.\n\
          \n  PROC {name}_Run()\n    \
          ! Move to the start of the desired path here, with a fine point.\n    \
          EGMReset egmId1;\n    \
          EGMGetId egmId1;\n    \
          ! pathCorr: External Motion Interface Data with level Path. UCdevice: a transmission protocol of type UDPUC.\n    \
          EGMSetupUC ROB_1, egmId1, \"pathCorr\", \"UCdevice\" \\PathCorr \\APTR;\n    \
-         EGMActMove egmId1, {name}_Tool.tframe \\SampleRate:={RATE};\n    \
+         EGMActMove egmId1, tMill.tframe \\SampleRate:={RATE};\n    \
          ! The program of the desired path here, each MoveL as EGMMoveL egmId1 and each MoveC as EGMMoveC egmId1.\n    \
          EGMReset egmId1;\n  \
          ENDPROC\n\
@@ -77,8 +79,8 @@ fn in_path(table: &CorrectionTable) -> String {
         let cells = [
             number(row.time, 6),
             number(row.arc_length / MM, 4),
-            number(row.in_path.y / MM, 5),
-            number(row.in_path.z / MM, 5),
+            number(row.across[0] / MM, 5),
+            number(row.across[1] / MM, 5),
         ];
         text.push_str(&cells.join(","));
         text.push('\n');

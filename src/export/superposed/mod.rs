@@ -38,6 +38,15 @@ impl Interface {
         }
     }
 
+    /// Refuses a cycle [s] at which the interface does not run.
+    fn takes(self, cycle: f64) -> Result<(), Error> {
+        let (takes, expected) = match self {
+            Self::Rsi => (rsi::CYCLES.contains(&cycle), "0.004 or 0.012, at which RSI runs"),
+            Self::Egm => (cycle <= egm::SLOWEST, "0.048 or less, at which EGM takes a path correction"),
+        };
+        if takes { Ok(()) } else { Err(Error::invalid("online.cycle_s", cycle, expected)) }
+    }
+
     /// The one of this slug.
     ///
     /// # Errors
@@ -54,10 +63,12 @@ impl Interface {
 /// [`Error::Invalid`] if there is no correction to add.
 pub fn package(report: &Report, interface: Interface) -> Result<Vec<PackageFile>, Error> {
     let table = CorrectionTable::of(report);
-    if table.largest_shift() == 0.0 && table.largest_turn() == 0.0 {
-        let expected = "a corrected path: let the job compensate deflection, shaping or both";
+    if table.largest_shift == 0.0 && table.largest_turn == 0.0 {
+        let expected = "a corrected path: lower compensation.tolerance_mm if it is within that as it is, and let max_passes be \
+                        above 0";
         return Err(Error::invalid("compensation", "no correction", expected));
     }
+    interface.takes(table.cycle)?;
     // Names get an ending as long as that of a part.
     let options = &report.setup().output;
     match interface {
@@ -84,30 +95,48 @@ fn remarks(said: &[String]) -> String {
 /// What every file of an interface says, plain ASCII without brackets.
 fn header(report: &Report, table: &CorrectionTable) -> Vec<String> {
     let setup = report.setup();
-    let first = table.rows[0].shift.norm() / MM;
-    let mut lines = header::lines(report, None);
+    let mut lines = header::origin(report);
     lines.extend([
+        "That is of the corrected program as Armill writes it. What an interface makes of it, with its delays, is not simulated.".into(),
         "UNTESTED on a controller. For a person who knows the option: try it in T1, without a part, with limits in place.".into(),
         "The correction is added to the program of the desired path. Added to a corrected program it would count twice.".into(),
         format!(
             "One row every {} s. Largest correction {} mm, {} deg.",
             number(table.cycle, 4),
-            number(table.largest_shift() / MM, 4),
-            number(table.largest_turn(), 4)
+            number(table.largest_shift / MM, 4),
+            number(table.largest_turn, 4)
         ),
         "time_s is that of the run as simulated here. A controller times its path itself: find the row by s_mm, the arc length of \
-         the desired path, from where the robot is."
+         the desired path at the position that the controller commands."
             .into(),
         format!(
-            "The interface acts late, {} s by the job: send the row of that much later.",
+            "A correction begins to act {} s after it is sent, by online.dead_time_s of the job: send the row of that much later.",
             number(setup.correction_delay, 4)
         ),
     ]);
-    if first > 0.0 {
+    if setup.mode.is_some() {
+        lines.push(
+            "The controller's input shaper acts on the desired program and not on the correction, which is shaped here already."
+                .into(),
+        );
+    }
+    if setup.feed_rule.is_some() {
+        lines.push(
+            "The desired program must have the feeds that keep the force, as Armill's own program has them."
+                .into(),
+        );
+    }
+    let ends = [&table.rows[0], &table.rows[table.rows.len() - 1]].map(|row| row.shift.norm() / MM);
+    if ends.iter().any(|shift| *shift > NOTICED) {
         lines.push(format!(
-            "The first row has {} mm already: bring it in before the tool cuts, and take the last one back after it has left.",
-            number(first, 4)
+            "The first row has {} mm already and the last one {} mm still: bring the correction in before the tool cuts, and take it \
+             back after it has left.",
+            number(ends[0], 4),
+            number(ends[1], 4)
         ));
     }
     lines
 }
+
+/// A step of the correction up to this is not worth a word [mm].
+const NOTICED: f64 = 0.001;

@@ -13,6 +13,8 @@ use crate::report::Report;
 use crate::units::MM;
 use std::fmt::Write;
 
+/// The cycles at which RSI runs [s].
+pub const CYCLES: [f64; 2] = [0.004, 0.012];
 /// Cycles without an answer until RSI stops.
 const TIMEOUT: usize = 10;
 /// Inputs of the correction, in the order of the object's ports.
@@ -20,7 +22,7 @@ const PORTS: [&str; 6] = ["X", "Y", "Z", "A", "B", "C"];
 /// Number of `RefCorrSys` for the base.
 const BASE: usize = 1;
 
-/// Limits of the objects: they let the table pass, and little more.
+/// Limits of the objects: they let the table pass, and not much more.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RsiLimits {
     /// Largest shift along each axis [mm].
@@ -32,12 +34,12 @@ pub struct RsiLimits {
 }
 
 impl RsiLimits {
-    /// A quarter more than the table needs, in whole millimetres and degrees.
+    /// A quarter more than the table needs, in whole millimetres and degrees, 1 at least.
     pub fn of(table: &CorrectionTable) -> Self {
         let above = |value: f64| ((1.25 * value).ceil() as u32).max(1);
-        let shift = above(table.largest_component() / MM);
+        let shift = above(table.largest_component / MM);
         let stop = (f64::from(shift) * 3.0_f64.sqrt()).ceil() as u32 + 1;
-        Self { shift, turn: above(2.0 * table.largest_turn()), stop }
+        Self { shift, turn: above(2.0 * table.largest_turn), stop }
     }
 }
 
@@ -63,7 +65,8 @@ fn module(report: &Report, table: &CorrectionTable, said: &[String]) -> String {
     for line in said {
         let _ = writeln!(text, "; {line}");
     }
-    let fast = "; RSI_ON without a second argument runs at 4 ms. For a table at 12 ms see the manual of your version.\n";
+    let slow =
+        "; RSI_ON as it stands runs at 4 ms. For this table at 12 ms see the manual of your version.\n";
     let _ = write!(
         text,
         "DECL INT RET\n\
@@ -90,7 +93,7 @@ fn module(report: &Report, table: &CorrectionTable, said: &[String]) -> String {
          HALT\n\
          ENDIF\n\
          END\n",
-        if table.cycle > 0.004 { fast } else { "" }
+        if table.cycle == CYCLES[1] { slow } else { "" }
     );
     text
 }
@@ -189,12 +192,12 @@ fn remarks(said: &[String]) -> String {
 /// use armill::export::superposed::{CorrectionRow, rsi::answer};
 /// # use nalgebra::Vector3;
 /// let row = CorrectionRow {
-///     time: 0.0, arc_length: 0.0, shift: Vector3::new(1e-4, 0.0, -2e-4), turn: [0.0; 3], in_path: Vector3::zeros(),
+///     time: 0.0, arc_length: 0.0, shift: Vector3::new(1e-4, 0.0, -2e-4), turn: Vector3::zeros(), across: [0.0; 2],
 /// };
 /// assert!(answer(&row, 4208163634).starts_with(r#"<Sen Type="Armill"><RKorr X="0.1" Y="0.0" Z="-0.2""#));
 /// ```
 pub fn answer(row: &CorrectionRow, packet: u64) -> String {
-    let values = row.shift.iter().map(|shift| shift / MM).chain(row.turn);
+    let values = row.shift.iter().map(|shift| shift / MM).chain(row.turn.iter().copied());
     let attributes: Vec<String> =
         PORTS.iter().zip(values).map(|(port, value)| format!("{port}=\"{}\"", number(value, 6))).collect();
     format!("<Sen Type=\"Armill\"><RKorr {} /><IPOC>{packet}</IPOC></Sen>", attributes.join(" "))

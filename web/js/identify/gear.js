@@ -1,9 +1,9 @@
 // The spring of a joint from its angles at the motor and behind the gear.
 
-import { make } from "../page/dom.js";
+import { make, sentence } from "../page/dom.js";
 import { notify } from "../page/toast.js";
 import { formatNumber } from "../page/number.js";
-import { Outcome } from "./result.js";
+import { Outcome, remarks } from "./result.js";
 import { Source } from "./input.js";
 
 /**
@@ -40,7 +40,7 @@ export function makeGear({ ask, job, use }) {
     ask,
     kind: "gear",
     source,
-    chart: { name: "gear", title: "What the gear gives way" },
+    chart: { name: "gear", title: "Difference of motor and load angle" },
     show,
     faulty: ({ field }) => (field === "other" ? other : source),
   });
@@ -73,13 +73,24 @@ export function makeGear({ ask, job, use }) {
   function take(joint, robot, { joint_compliance_rad_per_nm: compliance, compliance_covariance: covariance }) {
     const name = `${robot.replace(/, joint \d+ from its encoders/, "")}, joint ${joint} from its encoders`;
     const { stiffness_percent, stiffness_factor, ...rest } = job().uncertainty ?? {};
+    // Rows of springs and factors that a pass has taught would stand above the compliance.
+    const { learned, ...own } = job();
+    const { joint_springs_nm_arcmin: springs = [], ...its } = own.robot;
+    const others = springs.filter((/** @type {number[]} */ [row]) => row !== joint);
+    const kept = others.length ? { joint_springs_nm_arcmin: others } : {};
     use({
-      ...job(),
-      robot: { ...job().robot, name, joint_compliance_rad_per_nm: compliance },
+      ...own,
+      robot: { ...its, ...kept, name, joint_compliance_rad_per_nm: compliance },
       uncertainty: { ...rest, compliance_covariance: covariance },
     });
+    const gone = [
+      learned && "factors from a measured pass",
+      others.length < springs.length && "a table of the joint’s spring",
+    ];
+    const words = gone.filter(Boolean).join(" and ");
     notify(
-      `Joint ${joint} of the job’s robot now has this stiffness and its interval; the others vary as before. Undo removes it.`,
+      `Joint ${joint} of the job’s robot now has this stiffness and its interval; the others vary as before.` +
+        `${words ? ` It takes the place of ${words}.` : ""} Undo removes it.`,
     );
   }
 
@@ -102,7 +113,10 @@ export function makeGear({ ask, job, use }) {
       return [button];
     });
     return [
-      ...joints.map(({ sentence }) => make("p", { className: "found" }, sentence)),
+      ...joints.flatMap((gear) => [
+        make("p", { className: "found" }, gear.sentence),
+        ...remarks(gear.remarks.map(sentence)),
+      ]),
       tableOf(joints),
       make(
         "p",
@@ -121,7 +135,7 @@ export function makeGear({ ask, job, use }) {
       make(
         "p",
         { className: "lead" },
-        "Move the arm for some seconds and record, for one joint or several, the angle at the motor and behind the gear, and the " +
+        "Move the arm for ten seconds or more and record, for one joint or several, the angle at the motor and behind the gear, and the " +
           "torque that a model of the arm puts on the joint. No load has to be hung on.",
       ),
       source.node,
@@ -155,7 +169,12 @@ function tableOf(joints) {
     const stiffness = gear.stiffness_nm_per_rad;
     const within = gear.stiffness_interval_nm_per_rad;
     const spring = stiffness
-      ? cell("Stiffness", "N m/µrad", formatNumber(stiffness / MEGA, 3), within && [within[0] / MEGA, within[1] / MEGA])
+      ? cell(
+          "Stiffness",
+          "10⁶ N m/rad",
+          formatNumber(stiffness / MEGA, 3),
+          within && [within[0] / MEGA, within[1] / MEGA],
+        )
       : cell("Stiffness", "", "not seen");
     return make(
       "tr",
