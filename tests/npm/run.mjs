@@ -81,6 +81,7 @@ const methods = {
   columns_csv: [result.columns_csv(0, 3)],
   package: [result.package(), other.package("gcode")],
   package_zip: [result.package_zip("kuka")],
+  interface_zip: [result.interface_zip("kuka-rsi"), result.interface_zip("abb-egm")],
   promise: [result.promise(), result.promise("krl")],
   replay: [other.replay("gcode")],
   simulated_part: [stocked.simulated_part("after"), stocked.simulated_part("nominal", 2)],
@@ -120,7 +121,15 @@ const poses = Array.from({ length: 12 }, (_, i) => pose(i).join(",")).join("\n")
 const vibration = Array.from({ length: 2000 }, (_, i) => `${i / 1000},${Math.exp(-i / 800) * Math.cos(i / 20)}`).join(
   "\n",
 );
+const turned = Array.from({ length: 500 }, (_, i) => {
+  const [swing, torque] = [30 * Math.sin(i / 40), 1000 * Math.cos(i / 70)];
+  return [i / 100, swing, swing - torque / 1e5 - 1e-3 * Math.sin(i / 3), torque];
+});
+const gear = `time_s,motor_q3_deg,load_q3_deg,model_load_3_nm\n${turned.map((row) => row.join()).join("\n")}`;
 const identified = [
+  armill.identify_gear(armill.default_job(), gear, gear),
+  armill.evidence_encoders(gear, gear),
+  armill.evidence_slots(),
   armill.identify_stiffness(armill.default_job(), poses, "table"),
   armill.identify_response(`time_s,x\n${vibration}`),
 ];
