@@ -6,7 +6,7 @@ use crate::identify::gear::{self, GearLog};
 
 /// Stiffness of the joint on the sheet that the authors quote [N m/rad].
 pub const SHEET: f64 = 4.10e6;
-/// Reach at which an angle of the joint is told as a displacement [m].
+/// Reach at which an angle of the joint is given as a displacement [m].
 const REACH: f64 = 2.5;
 /// Microradians.
 const MICRO: f64 = 1e-6;
@@ -67,7 +67,7 @@ pub fn encoders(fitted: &str, other: &str) -> Result<Evidence, Error> {
         title: "Encoders behind the gear of a KUKA KR300's joint 3",
         sentence,
         rests_on: "A spring, a delay between the two readings and a hysteresis, found in the first run alone. The torque on the joint \
-                   is the authors' model of the arm, not a measurement.",
+                   is the authors' model of the arm, not a measurement; the encoders' offset is the second run's own.",
         source: "github.com/JonasWeigand/Robot_Identification, MIT License",
         heads: vec!["Time", "Measured, µrad rms", "Predicted, µrad rms", "Miss, µrad rms", "Miss, %"],
         rows: rows.collect(),

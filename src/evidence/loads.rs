@@ -29,8 +29,8 @@ pub fn loads(job: &Job, text: &str) -> Result<Evidence, Error> {
         format!(" Worst is line {}: {:.2} mm of {:.2} mm.", row.line, row.left_out / MM, row.measured / MM)
     });
     let sentence = format!(
-        "{} postures, {:.1} to {:.1} mm, each predicted from the others: the miss is {:.0} % of the displacement on average, 20 % at most in {} of \
-         them.{worst}",
+        "{} postures, {:.1} to {:.1} mm, each predicted from the others: the miss is {:.0} % of the displacement on average, 20 % at \
+         most in {} of them.{worst}",
         rows.len(),
         ends[0] / MM,
         ends[1] / MM,

@@ -110,8 +110,8 @@ pub fn identify_response(text: &str, from_s: Option<f64>) -> Result<Identified, 
     identify().map_err(|error: Error| thrown(&error))
 }
 
-/// Springs of joints from their angles at motor and load, for the robot of a job; `other` is another run to predict, `joint`, from 1, the one that is
-/// drawn, by default the first.
+/// Springs of joints from their angles at motor and load, for the robot of a job; `other` is another run to predict, `joint`,
+/// from 1, the one that is drawn, by default the first.
 #[wasm_bindgen]
 pub fn identify_gear(
     job: &str,

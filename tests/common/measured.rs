@@ -27,7 +27,7 @@ pub(crate) const DIGESTS: [(&str, &str); 9] = [
     ("response", "5484d732dacab507"),
     ("gear", "2ac97ef7264d2925"),
     ("loads", "136fecff4ec295e2"),
-    ("encoders", "7f7ffb92a76795ad"),
+    ("encoders", "5c09439bb8edaef9"),
     ("loop", "fe9613f1bc2127a5"),
 ];
 

@@ -167,17 +167,18 @@ fn ethernet(said: &[String]) -> String {
         )
     };
     let received: String = PORTS.iter().enumerate().map(element).collect();
-    let told = ["DEF_RIst", "DEF_RSol"]
+    let sent = ["DEF_RIst", "DEF_RSol"]
         .map(|tag| format!("         <ELEMENT TAG=\"{tag}\" TYPE=\"DOUBLE\" INDX=\"INTERNAL\" />\n"));
     format!(
-        "{}<ROOT>\n   <CONFIG>\n      <!-- Address of the computer that sends the rows -->\n      <IP_NUMBER>192.168.1.10</IP_NUMBER>\n      \
+        "{}<ROOT>\n   <CONFIG>\n      <!-- Address of the computer that sends the rows -->\n      \
+         <IP_NUMBER>192.168.1.10</IP_NUMBER>\n      \
          <PORT>49152</PORT>\n      <!-- The answer must begin with Sen Type=\"Armill\" -->\n      <SENTYPE>Armill</SENTYPE>\n      \
          <ONLYSEND>FALSE</ONLYSEND>\n   </CONFIG>\n   <!-- From the robot: actual and commanded position, late packets -->\n   \
          <SEND>\n      <ELEMENTS>\n{}         <ELEMENT TAG=\"DEF_Delay\" TYPE=\"LONG\" INDX=\"INTERNAL\" />\n      </ELEMENTS>\n   \
          </SEND>\n   <!-- To the robot: dx, dy, dz in mm, a, b, c in degrees; absolute, the last one held -->\n   <RECEIVE>\n      \
          <ELEMENTS>\n{received}      </ELEMENTS>\n   </RECEIVE>\n</ROOT>\n",
         remarks(said),
-        told.concat()
+        sent.concat()
     )
 }
 

@@ -95,11 +95,11 @@ impl GearLog {
         let values = LeastSquares::solved(square, side).ok_or_else(vague)?.values;
         let left_out =
             |sum: &(Matrix4<f64>, Vector4<f64>)| LeastSquares::solved(square - sum.0, side - sum.1);
-        let without: Option<Vec<Vector4<f64>>> =
+        let replicates: Option<Vec<Vector4<f64>>> =
             sums.iter().map(|sum| left_out(sum).map(|found| found.values)).collect();
-        let without = without.ok_or_else(vague)?;
-        let mean = without.iter().sum::<Vector4<f64>>() / blocks as f64;
-        let squares = without.iter().map(|value| (value - mean).component_mul(&(value - mean)));
+        let replicates = replicates.ok_or_else(vague)?;
+        let mean = replicates.iter().sum::<Vector4<f64>>() / blocks as f64;
+        let squares = replicates.iter().map(|value| (value - mean).component_mul(&(value - mean)));
         let variance = squares.sum::<Vector4<f64>>() * ((blocks - 1) as f64 / blocks as f64);
         let halves = variance.map(|variance| quantile_975(blocks - 1) * variance.sqrt());
         let (explained, rest) = judged(&rows, &values, false);

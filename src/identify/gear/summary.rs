@@ -97,7 +97,7 @@ impl Gear {
                 low / 1e6,
                 high / 1e6
             ),
-            None => format!("The load hardly turned joint {joint}: its stiffness does not show"),
+            None => format!("The stiffness of joint {joint} does not show"),
         };
         let other = predicted.map_or(String::new(), |other| {
             format!(
